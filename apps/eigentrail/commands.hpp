@@ -1,0 +1,16 @@
+// The subcommands: each adds itself to the command line and, when chosen, runs and returns the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace eigentrail::app {
+
+/// Exit codes of the program.
+enum ExitCode { done = 0, numbers_failed = 1, bad_input = 2 };
+
+void add_trace(CLI::App& program, int& exit_code);
+void add_eval(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program, int& exit_code);
+void add_explain(CLI::App& program, int& exit_code);
+
+}  // namespace eigentrail::app

@@ -1,0 +1,134 @@
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/model/build.hpp"
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct ExplainArguments {
+  std::string scene;
+  std::map<std::string, std::string> options;
+};
+
+void print_parameters(const Model& model, int traced) {
+  const Parameters& parameters = model.description().parameters;
+  const Vector declared = parameters.declared_values();
+  Vector si = declared;
+  parameters.to_si(std::span<double>(si.data(), parameters.size()));
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const std::string note = static_cast<int>(i) == traced ? "traced" : parameters[i].definition ? "derived" : "";
+    const std::string in_si = parameters[i].factor == 1.0 ? "" : "= " + rounded(si[at], 9) + " in SI";
+    rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
+  }
+  std::printf("parameters\n");
+  print_table(rows);
+}
+
+void print_effects(const Model& model) {
+  std::vector<std::vector<std::string>> active;
+  std::string absent;
+  for (const Effect& effect : model.description().effects) {
+    if (effect.count > 0) {
+      active.push_back({"  " + effect.name, std::to_string(effect.count), effect.description});
+    } else {
+      absent += (absent.empty() ? "" : ", ") + effect.name;
+    }
+  }
+  std::printf("effects\n");
+  print_table(active);
+  if (!absent.empty()) std::printf("    absent, never evaluated: %s\n", absent.c_str());
+}
+
+void print_structure(const Structure& structure, const std::string& parameter) {
+  const auto along = [&](bool constant) { return constant ? "constant along " + parameter : "changes with " + parameter; };
+  const char* stiffness = structure.circulatory ? "unsymmetric K (circulatory effects)" : "symmetric K";
+  const char* damping = structure.gyroscopic ? (structure.damped ? "C with a gyroscopic and a symmetric part" : "skew C (gyroscopic)")
+                        : structure.damped   ? "symmetric C"
+                                             : "no C";
+  std::printf("structure of the pencil\n");
+  print_table({{"  mass", "symmetric M", along(structure.constant_mass)},
+               {"  damping", damping, structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
+               {"  stiffness", stiffness, along(structure.constant_stiffness)},
+               {"  constraints", "A", along(structure.constant_constraints)}});
+}
+
+void print_solvers(const Model& model, const Structure& structure, const TraceOptions& options) {
+  std::printf("solvers\n");
+  std::string equilibrium = "KINSOL with line search at every point, predicted by its series of order " + std::to_string(options.order);
+  if (structure.known_equilibrium) {
+    equilibrium = "known: x = 0; KINSOL is never called";
+  } else if (structure.fixed_equilibrium) {
+    equilibrium = "does not move: KINSOL at the first point only";
+  }
+  std::string basis = "rank-revealing QR at every point, series T_1 ... T_" + std::to_string(options.order);
+  if (model.n_constraints() == 0) {
+    basis = "identity: no constraints";
+  } else if (structure.constant_constraints) {
+    basis = "rank-revealing QR at every point, T' = 0";
+  }
+  print_table({{"  equilibrium", equilibrium},
+               {"  tangent basis", basis},
+               {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
+               {"  modes", "chord-Newton, one complex LU per mode and point, series of order " + std::to_string(options.order)},
+               {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * options.order + 1)}});
+}
+
+int run_explain(const ExplainArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const TraceOptions options = read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
+  const int traced = scene.parameters.index(options.parameter).value();
+  std::vector<Vector> ends(2, scene.parameters.declared_values());
+  ends[0][traced] = options.from;
+  ends[1][traced] = options.to;
+  const std::unique_ptr<Model> model = build_model(scene, ends);
+  const Structure structure = model->structure(traced);
+
+  if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  print_parameters(*model, traced);
+  print_effects(*model);
+  PathProblem problem{*model, traced};
+  problem.parameters = scene.parameters.declared_values();
+  problem.structure = structure;
+  RunCounts counts;
+  counts.evaluations = model->new_counts();
+  const Vector guess = model->initial_guess(parameters_at(problem, options.from));
+  const PathPoint point = reduce_at(problem, options.from, guess, Vector(), Matrix(), counts);
+  std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact(options.from).c_str());
+  std::printf("    %lld coordinates, %lld constraints", static_cast<long long>(model->n_coordinates()),
+              static_cast<long long>(model->n_constraints()));
+  if (point.status == PointStatus::computed) {
+    const auto rank = static_cast<long long>(point.equilibrium.kkt.constraints().rank());
+    std::printf(", %lld of them redundant, %lld freedoms\n", static_cast<long long>(model->n_constraints()) - rank,
+                static_cast<long long>(point.pencil.size()));
+  } else {
+    std::printf("\n");
+  }
+  print_structure(structure, options.parameter);
+  print_solvers(*model, structure, options);
+  if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
+  return done;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<ExplainArguments>();
+  CLI::App* command = program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
+  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  for (const std::string name : {"parameter", "from", "to", "order"}) {
+    command->add_option_function<std::string>(
+        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
+        "as for trace (overrides the scene)");
+  }
+  command->footer("Example:\n  eigentrail explain data/scenes/rotating_mass.toml");
+  command->callback([arguments, &exit_code] { exit_code = run_explain(*arguments); });
+}
+
+}  // namespace eigentrail::app

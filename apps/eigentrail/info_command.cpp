@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "eigentrail/store/loci_file.hpp"
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct InfoArguments {
+  std::string file;
+  bool json = false;
+  bool scene = false;
+};
+
+/// Largest value of one mode's column of a node x mode array.
+double column_maximum(const std::vector<double>& values, std::size_t mode, std::size_t n_modes) {
+  double maximum = 0.0;
+  for (std::size_t i = mode; i < values.size(); i += n_modes) maximum = std::max(maximum, values[i]);
+  return maximum;
+}
+
+std::string attribute(const LociFile& loci, const std::string& name) {
+  const auto found = loci.attributes.find(name);
+  return found == loci.attributes.end() ? "?" : found->second;
+}
+
+void print_for_people(const LociFile& loci) {
+  if (const std::string title = attribute(loci, "title"); !title.empty()) std::printf("%s\n", title.c_str());
+  std::printf("  written by eigentrail %s, schema %s, run %s", attribute(loci, "program_version").c_str(),
+              attribute(loci, "schema_version").c_str(), attribute(loci, "status").c_str());
+  if (const std::string message = attribute(loci, "message"); message != "?" && !message.empty()) {
+    std::printf(": %s", message.c_str());
+  }
+  std::printf("\n  %zu coordinates, %zu constraints, %zu modes, %zu points\n", loci.coordinates.size(),
+              loci.constraints.size(), loci.modes.size(), loci.n_nodes());
+  if (loci.n_nodes() == 0) return;
+  std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)\n", loci.parameter.c_str(),
+              exact(loci.p.front()).c_str(), exact(loci.p.back()).c_str(),
+              loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(), attribute(loci, "tolerance").c_str(),
+              rounded(std::stod(attribute(loci, "reference")), 4).c_str());
+  std::vector<std::vector<std::string>> rows{
+      {"mode", "s at the start", "s at the end", "worst residual", "worst condition"}};
+  for (std::size_t i = 0; i < loci.modes.size(); ++i) {
+    const Complex first = loci.series.front()(static_cast<Eigen::Index>(i), 0);
+    const Complex last = loci.series.back()(static_cast<Eigen::Index>(i), 0);
+    rows.push_back({loci.modes[i], complex_text(first.real(), first.imag(), 8),
+                    complex_text(last.real(), last.imag(), 8),
+                    rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
+                    rounded(column_maximum(loci.condition, i, loci.modes.size()), 3)});
+  }
+  print_table(rows);
+  std::string counts;
+  for (const auto& [name, value] : loci.attributes) {
+    if (name.starts_with("count_")) counts += (counts.empty() ? "" : ", ") + name.substr(6) + " " + value;
+  }
+  if (!counts.empty()) std::printf("  counts  %s\n", counts.c_str());
+}
+
+void print_json(const LociFile& loci) {
+  nlohmann::ordered_json info;
+  info["file"] = loci.path;
+  info["parameter"] = loci.parameter;
+  info["unit"] = loci.parameter_unit;
+  info["nodes"] = loci.n_nodes();
+  if (loci.n_nodes() > 0) {
+    info["from"] = loci.p.front();
+    info["to"] = loci.p.back();
+  }
+  info["modes"] = loci.modes;
+  info["coordinates"] = loci.coordinates;
+  info["constraints"] = loci.constraints;
+  info["attributes"] = loci.attributes;
+  std::printf("%s\n", info.dump(2).c_str());
+}
+
+int run_info(const InfoArguments& arguments) {
+  const LociFile loci = read_loci(arguments.file);
+  if (arguments.scene) {
+    std::fputs(attribute(loci, "scene").c_str(), stdout);
+  } else if (arguments.json) {
+    print_json(loci);
+  } else {
+    print_for_people(loci);
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* command = program.add_subcommand("info", "what a loci file holds and how it was made");
+  command->add_option("FILE", arguments->file, "loci file")->required();
+  auto* json = command->add_flag("--json", arguments->json, "print one JSON object");
+  command->add_flag("--scene", arguments->scene, "print the scene that the file was made from")->excludes(json);
+  command->footer("Example:\n  eigentrail info blade.h5");
+  command->callback([arguments, &exit_code] { exit_code = run_info(*arguments); });
+}
+
+}  // namespace eigentrail::app

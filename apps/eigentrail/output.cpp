@@ -1,0 +1,46 @@
+#include "output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace eigentrail::app {
+
+std::string exact(double value) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+std::string rounded(double value, int digits) {
+  std::array<char, 48> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+  return buffer.data();
+}
+
+std::string complex_text(double real, double imag, int digits) {
+  return rounded(real, digits) + (std::signbit(imag) ? " - " : " + ") + rounded(std::abs(imag), digits) + "j";
+}
+
+void print_table(const std::vector<std::vector<std::string>>& rows) {
+  // Width in characters: continuation bytes of UTF-8 take no column.
+  const auto width = [](const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += "  " + row[i];
+      if (i + 1 < row.size()) line += std::string(widths[i] - width(row[i]), ' ');
+    }
+    std::printf("%s\n", line.c_str());
+  }
+}
+
+}  // namespace eigentrail::app

@@ -1,0 +1,21 @@
+// Numbers and small tables for people and scripts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace eigentrail::app {
+
+/// Shortest text that reads back as the same double; "nan" and "inf" as such.
+std::string exact(double value);
+
+/// Text with `digits` significant digits.
+std::string rounded(double value, int digits = 6);
+
+/// "-0.01994 + 17.88j"
+std::string complex_text(double real, double imag, int digits = 6);
+
+/// Prints rows with aligned columns, two spaces apart, indented by two.
+void print_table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace eigentrail::app

@@ -1,0 +1,175 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "eigentrail/model/build.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+#include "output.hpp"
+#include "progress_bar.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct TraceArguments {
+  std::string scene;
+  std::string output;
+  bool force = false;
+  bool quiet = false;
+  std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
+};
+
+/// Ends of the followed loci, for the summary.
+struct Ends {
+  ComplexVector first, last;
+};
+
+void check_output(const TraceArguments& arguments) {
+  std::error_code error;
+  if (std::filesystem::is_directory(arguments.output, error)) {
+    throw InputError(arguments.output + ": is a folder; give the name of a file");
+  }
+  if (!arguments.force && std::filesystem::exists(arguments.output, error)) {
+    throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
+  }
+  const auto folder = std::filesystem::path(arguments.output).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
+    throw InputError(arguments.output + ": the folder " + folder.string() + " does not exist");
+  }
+}
+
+std::string percent(double part, double whole) {
+  return whole > 0.0 ? rounded(100.0 * part / whole, 2) + " %" : "0 %";
+}
+
+void print_work(const TraceResult& result) {
+  const RunCounts& counts = result.counts;
+  const double per_mode_and_step = static_cast<double>(counts.modes.factorizations) /
+                                   (static_cast<double>(result.n_modes) * std::max(result.nodes, 1));
+  const Rejections& r = result.rejections;
+  std::printf("  work  %d points, %d steps tried again", result.nodes, r.total());
+  if (r.total() > 0) {
+    std::printf(" (%d inaccurate, %d no equilibrium, %d mode lost, %d mismatch, %d merged)", r.inaccurate,
+                r.no_equilibrium, r.mode_lost, r.mismatch, r.merged);
+  }
+  std::printf("\n        %s LU per mode and point, %llu KINSOL iterations, %llu KKT factorizations\n",
+              rounded(per_mode_and_step, 3).c_str(), static_cast<unsigned long long>(counts.equilibrium_iterations),
+              static_cast<unsigned long long>(counts.equilibrium_factorizations));
+  std::printf("  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, output %s\n",
+              rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
+              percent(counts.reduction_seconds, result.seconds).c_str(),
+              percent(counts.modes_seconds, result.seconds).c_str(),
+              percent(counts.differentiation_seconds, result.seconds).c_str(),
+              percent(counts.output_seconds, result.seconds).c_str());
+}
+
+void print_effects(const Model& model, const EvaluationCounts& counts) {
+  std::string line;
+  for (std::size_t i = 0; i < model.description().effects.size(); ++i) {
+    const std::uint64_t evaluations = counts.residual[i] + counts.linearization[i];
+    if (evaluations == 0) continue;
+    line += (line.empty() ? "" : ", ") + model.description().effects[i].name + " " + std::to_string(evaluations);
+  }
+  std::printf("  evaluations  %s\n", line.c_str());
+}
+
+void print_summary(const Scene& scene, const Model& model, const TraceOptions& options, const TraceResult& result,
+                   const Ends& ends) {
+  const auto& parameters = model.description().parameters;
+  const Parameter& traced = parameters[static_cast<std::size_t>(parameters.index(options.parameter).value())];
+  if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  std::printf("  %s  %s -> %s %s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n", options.parameter.c_str(),
+              exact(options.from).c_str(), exact(result.reached).c_str(), traced.unit.c_str(),
+              exact(options.tolerance).c_str(), options.order, result.n_modes, result.n_available,
+              static_cast<long long>(result.n_independent));
+  if (result.n_infinite > 0) {
+    std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n", result.n_infinite);
+  }
+  std::vector<std::vector<std::string>> rows{{"mode", "s at " + exact(options.from), "s at " + exact(result.reached)}};
+  for (Eigen::Index i = 0; i < ends.first.size(); ++i) {
+    rows.push_back({std::to_string(i + 1), complex_text(ends.first[i].real(), ends.first[i].imag(), 8),
+                    complex_text(ends.last[i].real(), ends.last[i].imag(), 8)});
+  }
+  print_table(rows);
+  print_work(result);
+  print_effects(model, result.counts.evaluations);
+}
+
+int run_trace(const TraceArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const TraceOptions options = read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
+  check_parameter_name(scene, options.parameter);
+  check_output(arguments);
+
+  std::vector<Vector> ends_of_range;
+  for (const double p : {options.from, options.to}) {
+    ends_of_range.push_back(scene.parameters.declared_values());
+    ends_of_range.back()[scene.parameters.index(options.parameter).value()] = p;
+  }
+  const std::unique_ptr<Model> model = build_model(scene, ends_of_range);
+
+  std::optional<LociWriter> writer;
+  std::optional<TraceStart> started;
+  ProgressBar progress(arguments.quiet);
+  Ends ends;
+  int points = 0;
+  TraceObserver observer;
+  observer.started = [&](const TraceStart& start) { started = start; };
+  observer.node = [&](const PathNode& node) {
+    if (!writer) {
+      writer.emplace(arguments.output, scene, *model, options, *started, static_cast<int>(node.s.rows()));
+      ends.first = node.s.col(0);
+    }
+    writer->append(node);
+    ends.last = node.s.col(0);
+    progress.update((node.p - options.from) / (options.to - options.from), ++points);
+    return true;
+  };
+  const TraceResult result = trace(*model, options, observer);
+  if (!has_started(result.status)) throw InputError(scene.path + ": " + result.message);
+  writer->finish(result);
+  progress.finish();
+
+  if (!arguments.quiet) {
+    print_summary(scene, *model, options, result, ends);
+    std::printf("wrote %s\n", arguments.output.c_str());
+  }
+  if (result.status == TraceStatus::completed) return done;
+  std::fprintf(stderr, "eigentrail: %s; the points before it are in %s\n", result.message.c_str(),
+               arguments.output.c_str());
+  return numbers_failed;
+}
+
+/// An option of the trace as a flag: "max_step" becomes --max-step.
+std::string flag(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return "--" + key;
+}
+
+}  // namespace
+
+void add_trace(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<TraceArguments>();
+  CLI::App* command = program.add_subcommand("trace", "follow the eigenvalues of a scene and write a loci file");
+  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", arguments->output, "loci file to write (HDF5)")->required();
+  command->add_flag("--force", arguments->force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
+  TraceOptions defaults;
+  TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {
+    const std::string name = key;
+    command->add_option_function<std::string>(
+        flag(name), [arguments, name](const std::string& text) { arguments->options[name] = text; },
+        std::string(help) + " (overrides the scene)");
+  });
+  command->footer(
+      "Examples:\n"
+      "  eigentrail trace data/scenes/rotating_mass.toml -o blade.h5\n"
+      "  eigentrail trace scene.toml -o out.h5 --from 100 --to 5 --tolerance 1e-8 --modes 4");
+  command->callback([arguments, &exit_code] { exit_code = run_trace(*arguments); });
+}
+
+}  // namespace eigentrail::app

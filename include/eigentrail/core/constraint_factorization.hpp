@@ -1,0 +1,42 @@
+// Rank-revealing factorization of a constraint Jacobian A (m x n): A^T = [Q1 Q2] [R1; 0] (seed paper, Eq. 48).
+//
+// The rows of A are scaled to unit length first, so that the rank does not depend on the units of the constraints. The
+// complete orthogonal decomposition serves redundant rows: A+ b is then the minimum-norm least-squares solution.
+#pragma once
+
+#include <Eigen/QR>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+class ConstraintFactorization {
+ public:
+  /// Pivots below this fraction of the largest count as zero. Two rods at an angle of 1e-10 stay two constraints; a
+  /// rod written twice is one.
+  static constexpr double rank_tolerance = 1e-13;
+
+  ConstraintFactorization() = default;
+
+  /// Factors A; cost O(n m^2). m = 0 is allowed.
+  explicit ConstraintFactorization(const Matrix& A);
+
+  Eigen::Index rank() const { return rank_; }
+
+  /// Orthonormal basis Q2 of the null space of A, n x (n - rank).
+  const Matrix& null_basis() const { return null_basis_; }
+
+  /// A+ B: minimum-norm X with A X = B, B m x k.
+  Matrix pseudo_inverse_times(const Matrix& B) const;
+
+  /// (A^T)+ b: minimum-norm lambda with A^T lambda = b in the least-squares sense (Eq. 15), b of size n.
+  Vector transposed_pseudo_inverse_times(const Vector& b) const;
+
+ private:
+  Eigen::Index rank_ = 0;
+  Vector row_scale_;  ///< 1 / row norm of A
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition_;
+  Matrix null_basis_;
+};
+
+}  // namespace eigentrail

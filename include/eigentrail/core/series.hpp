@@ -1,0 +1,238 @@
+// Truncated power series: the one differentiation mechanism of eigentrail.
+//
+// Series<T, Q> holds the coefficients of c0 + c1 h + ... + cQ h^Q over a ring T and computes with them exactly
+// up to the truncation (Griewank & Walther, Evaluating Derivatives, 2nd ed., Sect. 13.2).
+//
+//   * Series<double, Q>              a quantity along the path, h = distance along the path;
+//   * Series<Series<double, Q>, 1>   the same with one directional derivative: coefficient 1 is d/dx_i, itself
+//                                    a series along the path;
+//   * nested once more               second derivatives (constraint curvature).
+//
+// A physics function written once as a template over its scalar thus yields its value, its Jacobian and every
+// path derivative of both.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace eigentrail {
+
+template <class T, int Order>
+class Series {
+ public:
+  static_assert(Order >= 0);
+  using Coefficient = T;
+  static constexpr int order = Order;
+
+  Series() = default;
+  Series(double constant) { c_[0] = T(constant); }  // NOLINT: numbers are constant series
+  Series(const T& constant)                         // NOLINT: likewise
+    requires(!std::is_same_v<T, double>)
+  {
+    c_[0] = constant;
+  }
+
+  /// Coefficient of h^k, 0 <= k <= Order.
+  T& operator[](int k) { return c_[k]; }
+  const T& operator[](int k) const { return c_[k]; }
+
+  Series& operator+=(const Series& b) {
+    for (int k = 0; k <= Order; ++k) c_[k] += b[k];
+    return *this;
+  }
+  Series& operator-=(const Series& b) {
+    for (int k = 0; k <= Order; ++k) c_[k] -= b[k];
+    return *this;
+  }
+  Series& operator*=(const Series& b) { return *this = *this * b; }
+  Series& operator/=(const Series& b) { return *this = *this / b; }
+  Series& operator*=(double b) {
+    for (T& c : c_) c *= b;
+    return *this;
+  }
+
+  friend Series operator+(Series a, const Series& b) { return a += b; }
+  friend Series operator-(Series a, const Series& b) { return a -= b; }
+  friend Series operator-(Series a) { return a *= -1.0; }
+  friend Series operator*(Series a, double b) { return a *= b; }
+  friend Series operator*(double a, Series b) { return b *= a; }
+
+  friend Series operator*(const Series& a, const Series& b) {
+    Series product;
+    for (int i = 0; i <= Order; ++i) {
+      for (int j = 0; i + j <= Order; ++j) product[i + j] += a[i] * b[j];
+    }
+    return product;
+  }
+
+  /// Quotient from a = q b: q_k = (a_k - sum_{j<k} q_j b_{k-j}) / b_0.
+  friend Series operator/(const Series& a, const Series& b) {
+    Series quotient;
+    for (int k = 0; k <= Order; ++k) {
+      T rest = a[k];
+      for (int j = 0; j < k; ++j) rest -= quotient[j] * b[k - j];
+      quotient[k] = rest / b[0];
+    }
+    return quotient;
+  }
+
+ private:
+  std::array<T, Order + 1> c_{};
+};
+
+namespace detail {
+
+/// The function y(h) with y(0) = y0 and dy/dh = g dx/dh: k y_k = sum_{j=1..k} j x_j g_{k-j}. Coefficient k needs
+/// g only up to k-1, so g may be filled from y as the recursion proceeds: `rate(k)` returns g_k from y_0..y_k.
+template <class T, int Q, class Rate>
+Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, Rate rate) {
+  Series<T, Q> y(y0), g;
+  for (int k = 1; k <= Q; ++k) {
+    g[k - 1] = rate(y, k - 1);
+    for (int j = 1; j <= k; ++j) y[k] += (double(j) / k) * (x[j] * g[k - j]);
+  }
+  return y;
+}
+
+/// The same for a rate that is known beforehand as a series.
+template <class T, int Q>
+Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, const Series<T, Q>& g) {
+  return integrate(y0, x, [&g](const Series<T, Q>&, int k) { return g[k]; });
+}
+
+/// sine and cosine together (their recursions feed each other); `sign` -1 circular, +1 hyperbolic.
+template <class T, int Q>
+std::array<Series<T, Q>, 2> sine_cosine(const T& s0, const T& c0, const Series<T, Q>& x, double sign) {
+  Series<T, Q> s(s0), c(c0);
+  for (int k = 1; k <= Q; ++k) {
+    for (int j = 1; j <= k; ++j) {
+      const double w = double(j) / k;
+      s[k] += w * (x[j] * c[k - j]);
+      c[k] += (sign * w) * (x[j] * s[k - j]);
+    }
+  }
+  return {s, c};
+}
+
+}  // namespace detail
+
+/// Square root; x_0 = 0 has no series and yields non-finite coefficients, which the assembly reports.
+template <class T, int Q>
+Series<T, Q> sqrt(const Series<T, Q>& x) {
+  using std::sqrt;
+  Series<T, Q> y(T(sqrt(x[0])));
+  for (int k = 1; k <= Q; ++k) {
+    T rest = x[k];
+    for (int j = 1; j < k; ++j) rest -= y[j] * y[k - j];
+    y[k] = rest / (2.0 * y[0]);
+  }
+  return y;
+}
+
+template <class T, int Q>
+Series<T, Q> exp(const Series<T, Q>& x) {
+  using std::exp;
+  return detail::integrate(T(exp(x[0])), x, [](const Series<T, Q>& y, int k) { return y[k]; });
+}
+
+template <class T, int Q>
+Series<T, Q> log(const Series<T, Q>& x) {
+  using std::log;
+  return detail::integrate(T(log(x[0])), x, Series<T, Q>(1.0) / x);
+}
+
+template <class T, int Q>
+Series<T, Q> sin(const Series<T, Q>& x) {
+  using std::cos;
+  using std::sin;
+  return detail::sine_cosine(T(sin(x[0])), T(cos(x[0])), x, -1.0)[0];
+}
+
+template <class T, int Q>
+Series<T, Q> cos(const Series<T, Q>& x) {
+  using std::cos;
+  using std::sin;
+  return detail::sine_cosine(T(sin(x[0])), T(cos(x[0])), x, -1.0)[1];
+}
+
+template <class T, int Q>
+Series<T, Q> tan(const Series<T, Q>& x) {
+  return sin(x) / cos(x);
+}
+
+template <class T, int Q>
+Series<T, Q> sinh(const Series<T, Q>& x) {
+  using std::cosh;
+  using std::sinh;
+  return detail::sine_cosine(T(sinh(x[0])), T(cosh(x[0])), x, 1.0)[0];
+}
+
+template <class T, int Q>
+Series<T, Q> cosh(const Series<T, Q>& x) {
+  using std::cosh;
+  using std::sinh;
+  return detail::sine_cosine(T(sinh(x[0])), T(cosh(x[0])), x, 1.0)[1];
+}
+
+template <class T, int Q>
+Series<T, Q> tanh(const Series<T, Q>& x) {
+  return sinh(x) / cosh(x);
+}
+
+template <class T, int Q>
+Series<T, Q> asin(const Series<T, Q>& x) {
+  using std::asin;
+  return detail::integrate(T(asin(x[0])), x, 1.0 / sqrt(1.0 - x * x));
+}
+
+template <class T, int Q>
+Series<T, Q> acos(const Series<T, Q>& x) {
+  using std::acos;
+  return detail::integrate(T(acos(x[0])), x, -1.0 / sqrt(1.0 - x * x));
+}
+
+template <class T, int Q>
+Series<T, Q> atan(const Series<T, Q>& x) {
+  using std::atan;
+  return detail::integrate(T(atan(x[0])), x, 1.0 / (1.0 + x * x));
+}
+
+/// x^n for a whole number n by repeated squaring: exact at x_0 = 0, where exp(n log x) is not defined.
+template <class Scalar>
+Scalar integer_power(Scalar base, int n) {
+  if (n < 0) return Scalar(1.0) / integer_power(base, -n);
+  Scalar power(1.0);
+  for (; n > 0; n /= 2) {
+    if (n % 2 == 1) power = power * base;
+    if (n > 1) base = base * base;
+  }
+  return power;
+}
+
+/// x^y for x_0 > 0.
+template <class T, int Q>
+Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
+  return exp(y * log(x));
+}
+
+}  // namespace eigentrail
+
+// Series as an Eigen scalar, so that elements are written with Eigen's small vectors.
+template <class T, int Q>
+struct Eigen::NumTraits<eigentrail::Series<T, Q>> : Eigen::GenericNumTraits<double> {
+  using Real = eigentrail::Series<T, Q>;
+  using NonInteger = eigentrail::Series<T, Q>;
+  using Nested = eigentrail::Series<T, Q>;
+  using Literal = double;
+  enum { RequireInitialization = 1, ReadCost = Q + 1, AddCost = Q + 1, MulCost = (Q + 1) * (Q + 2) / 2 };
+};
+template <class T, int Q, class Operation>
+struct Eigen::ScalarBinaryOpTraits<eigentrail::Series<T, Q>, double, Operation> {
+  using ReturnType = eigentrail::Series<T, Q>;
+};
+template <class T, int Q, class Operation>
+struct Eigen::ScalarBinaryOpTraits<double, eigentrail::Series<T, Q>, Operation> {
+  using ReturnType = eigentrail::Series<T, Q>;
+};

@@ -1,0 +1,47 @@
+// Matrix types and the runtime form of power series along the path.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+namespace eigentrail {
+
+using Complex = std::complex<double>;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using ComplexVector = Eigen::VectorXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
+
+/// Highest order of the series along the path.
+inline constexpr int max_order = 4;
+
+/// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order it is
+/// used at; the coefficients it lacks are zero. A constant therefore has size 1 and costs nothing in products.
+using MatrixSeries = std::vector<Matrix>;
+
+/// Power series with vector coefficients: column k multiplies h^k; missing columns are zero.
+using VectorSeries = Matrix;
+using ComplexVectorSeries = ComplexMatrix;
+
+/// The path near a point: every parameter, the coordinates and the multipliers as series in h.
+struct Path {
+  VectorSeries parameters;  ///< n_parameters x (<= order + 1), in the units the scene declares
+  VectorSeries x;           ///< n_coordinates x (<= order + 1)
+  VectorSeries lambda;      ///< n_constraints x (<= order + 1)
+};
+
+/// Coefficient k of a series, zero when the series is shorter.
+inline double coefficient(const VectorSeries& series, Eigen::Index row, Eigen::Index k) {
+  return k < series.cols() ? series(row, k) : 0.0;
+}
+
+/// Value of sum_k series(:, k) h^k by Horner's rule.
+template <class Derived>
+auto evaluate_series(const Eigen::MatrixBase<Derived>& series, double h) {
+  Eigen::Matrix<typename Derived::Scalar, Eigen::Dynamic, 1> value = series.col(series.cols() - 1);
+  for (Eigen::Index k = series.cols() - 2; k >= 0; --k) value = value * h + series.col(k);
+  return value;
+}
+
+}  // namespace eigentrail

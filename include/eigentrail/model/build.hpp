@@ -1,0 +1,37 @@
+// From a scene to a model.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "eigentrail/model/model.hpp"
+#include "eigentrail/scene/scene.hpp"
+
+namespace eigentrail {
+
+/// Builds the model that a scene describes: a multibody system, or a family of matrices when the scene has
+/// [matrix_family]. `check_at` lists parameter values (declared units) at which masses, lengths and the direction of
+/// gravity are checked: the ends of the trace. Throws InputError for every fault of the scene, unknown keys and unused
+/// parameters included.
+std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at);
+
+/// Whether the scene gives matrices instead of elements.
+bool is_matrix_family(const Scene& scene);
+
+/// One line per key that a table of the given effect takes, for help and documentation.
+struct FieldHelp {
+  std::string key;
+  std::string unit;
+  std::string help;
+};
+struct EffectHelp {
+  std::string name;
+  std::string description;
+  std::vector<FieldHelp> fields;
+};
+
+/// Every effect of multibody scenes, in the order of evaluation.
+std::vector<EffectHelp> effect_reference();
+
+}  // namespace eigentrail

@@ -1,0 +1,28 @@
+// The whole spectrum of a pencil at one point, by LAPACK's QZ on the scaled companion linearization.
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/reduction/reduced_pencil.hpp"
+
+namespace eigentrail {
+
+struct StartingMode {
+  Complex s;        ///< Im s >= 0; a complex pair is represented by this member
+  ComplexVector z;  ///< unit length
+};
+
+enum class SpectrumStatus { complete, singular_pencil, not_converged };
+
+struct [[nodiscard]] Spectrum {
+  SpectrumStatus status = SpectrumStatus::not_converged;
+  std::vector<StartingMode> modes;  ///< finite ones, by ascending |s|
+  int n_infinite = 0;               ///< infinite eigenvalues (singular mass)
+  double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), the typical magnitude of eigenvalues
+};
+
+/// Solves (s^2 M + s C + K) z = 0. The pencil is scaled by s = gamma mu and a common factor so that all three matrices
+/// have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60 (2n)^3.
+Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
+
+}  // namespace eigentrail

@@ -1,0 +1,135 @@
+// Arithmetic expressions of the scene's parameters, evaluated on any scalar (numbers, series, nested series).
+//
+// Grammar:  sum     = product { ("+" | "-") product }
+//           product = signed { ("*" | "/") signed }
+//           signed  = [ "+" | "-" ] signed | power
+//           power   = primary [ "^" signed ]                 right-associative, binds tighter than the sign
+//           primary = number | "pi" | parameter | function "(" sum ")" | "(" sum ")"
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "eigentrail/core/series.hpp"
+
+namespace eigentrail {
+
+/// A text that is no expression: what is wrong and at which character (from 0) of the text.
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(const std::string& message, std::size_t offset)
+      : std::runtime_error(message), offset(offset) {}
+  std::size_t offset;
+};
+
+class Expression {
+ public:
+  enum class Op {
+    number, parameter, add, subtract, multiply, divide, negate, power, integer_power,
+    sqrt, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log
+  };
+  struct Instruction {
+    Op op;
+    double number = 0.0;  ///< value of a number, exponent of an integer power
+    int parameter = -1;   ///< index of a parameter
+  };
+
+  /// Deepest evaluation stack that is accepted; `parse` rejects what needs more.
+  static constexpr int max_stack = 64;
+
+  Expression(double constant = 0.0) : code_{{Op::number, constant}} {}  // NOLINT: numbers are expressions
+
+  /// Compiles `text`; a name in it means the parameter at the same index of `names`.
+  /// Throws ExpressionError with the offset of the fault.
+  static Expression parse(std::string_view text, const std::vector<std::string>& names);
+
+  /// Value for given parameter values (SI), one per name that `parse` was given.
+  template <class Scalar>
+  Scalar evaluate(std::span<const Scalar> parameters) const;
+
+  bool is_constant() const { return parameters_.empty(); }
+
+  /// Indices of the parameters that occur, each once, ascending.
+  const std::vector<int>& parameters() const { return parameters_; }
+
+ private:
+  friend class ExpressionParser;
+  std::vector<Instruction> code_;  ///< postfix
+  std::vector<int> parameters_;
+};
+
+namespace detail {
+
+template <class Scalar>
+Scalar apply(Expression::Op op, const Scalar& x) {
+  // The standard functions for numbers; those for series are found by argument.
+  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt,
+      std::tan, std::tanh;
+  switch (op) {
+    case Expression::Op::negate: return -x;
+    case Expression::Op::sqrt: return sqrt(x);
+    case Expression::Op::sin: return sin(x);
+    case Expression::Op::cos: return cos(x);
+    case Expression::Op::tan: return tan(x);
+    case Expression::Op::asin: return asin(x);
+    case Expression::Op::acos: return acos(x);
+    case Expression::Op::atan: return atan(x);
+    case Expression::Op::sinh: return sinh(x);
+    case Expression::Op::cosh: return cosh(x);
+    case Expression::Op::tanh: return tanh(x);
+    case Expression::Op::exp: return exp(x);
+    default: return log(x);
+  }
+}
+
+template <class Scalar>
+Scalar apply(Expression::Op op, const Scalar& a, const Scalar& b) {
+  using std::pow;
+  switch (op) {
+    case Expression::Op::add: return a + b;
+    case Expression::Op::subtract: return a - b;
+    case Expression::Op::multiply: return a * b;
+    case Expression::Op::divide: return a / b;
+    default: return pow(a, b);
+  }
+}
+
+}  // namespace detail
+
+template <class Scalar>
+Scalar Expression::evaluate(std::span<const Scalar> parameters) const {
+  std::array<Scalar, max_stack> stack;
+  int top = -1;
+  for (const Instruction& i : code_) {
+    switch (i.op) {
+      case Op::number:
+        stack[++top] = Scalar(i.number);
+        break;
+      case Op::parameter:
+        stack[++top] = parameters[i.parameter];
+        break;
+      case Op::integer_power:
+        stack[top] = integer_power(stack[top], static_cast<int>(i.number));
+        break;
+      case Op::add:
+      case Op::subtract:
+      case Op::multiply:
+      case Op::divide:
+      case Op::power:
+        --top;
+        stack[top] = detail::apply(i.op, stack[top], stack[top + 1]);
+        break;
+      default:
+        stack[top] = detail::apply(i.op, stack[top]);
+    }
+  }
+  return stack[0];
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,37 @@
+// A TOML document as plain data, every value with its place in the file.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "eigentrail/core/errors.hpp"
+
+namespace eigentrail {
+
+struct Value;
+
+/// Keys and values in the order of the file.
+struct Table {
+  std::vector<std::pair<std::string, Value>> entries;
+  SourceLocation where;
+
+  const Value* find(std::string_view key) const;
+};
+
+using Array = std::vector<Value>;
+
+struct Value {
+  std::variant<bool, double, std::string, Array, Table> data;
+  SourceLocation where;
+
+  /// "a number", "a text", ... for messages.
+  std::string kind() const;
+};
+
+/// Parses TOML. Integers become numbers; dates are refused. `path` is the name that messages give the file.
+/// Throws InputError with line and column on a syntax error.
+Table parse_toml(std::string_view text, const std::string& path);
+
+}  // namespace eigentrail

@@ -1,0 +1,43 @@
+// The linear system of the steady equations (seed paper, Eq. 38), solved through the null space of A:
+//
+//     [ K  A^T ] [ dx ]   [ r ]
+//     [ A   0  ] [ dl ] = [ g ]        K = -f_/x + (A^T lambda)_/x
+//
+// dx = A+ g + Q2 w,  (Q2^T K Q2) w = Q2^T (r - K A+ g),  A^T dl = r - K dx. Redundant constraints thus need no special
+// treatment; dl is then the solution of minimum norm.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "eigentrail/core/constraint_factorization.hpp"
+
+namespace eigentrail {
+
+class KktFactorization {
+ public:
+  KktFactorization() = default;
+
+  /// Factors the system; cost O(n m^2 + (n - m)^3). Where Q2^T K Q2 is singular (a rigid-body freedom), solutions
+  /// are those of minimum norm.
+  KktFactorization(const Matrix& K, const Matrix& A);
+
+  /// Factors the constraints alone, for points whose equilibrium is known; `solve` must not be called.
+  explicit KktFactorization(const Matrix& A) : constraints_(A) {}
+
+  /// Solves for (dx, dl) given (r, g).
+  void solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const;
+
+  const ConstraintFactorization& constraints() const { return constraints_; }
+
+  /// Reciprocal condition estimate of Q2^T K Q2; near zero at a fold of the equilibrium.
+  double reciprocal_condition() const { return reciprocal_condition_; }
+
+ private:
+  Matrix K_;
+  ConstraintFactorization constraints_;
+  Eigen::PartialPivLU<Matrix> tangent_;
+  Eigen::CompleteOrthogonalDecomposition<Matrix> singular_tangent_;
+  double reciprocal_condition_ = 1.0;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,40 @@
+// Writes the loci file (HDF5, schema 1) as the trace goes.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "eigentrail/continuation/trace.hpp"
+
+namespace eigentrail {
+
+inline constexpr int loci_schema_version = 1;
+
+/// Refuses names of the traced parameter that the loci file uses for something else. Throws InputError.
+void check_parameter_name(const Scene& scene, const std::string& parameter);
+
+class LociWriter {
+ public:
+  /// Creates `path` with its header. The file appears under its name complete with header or not at all; an existing
+  /// file is replaced in that moment. Throws std::runtime_error when the file cannot be written.
+  LociWriter(std::string path, const Scene& scene, const Model& model, const TraceOptions& options,
+             const TraceStart& start, int n_modes);
+  ~LociWriter();
+  LociWriter(const LociWriter&) = delete;
+  LociWriter& operator=(const LociWriter&) = delete;
+
+  /// Adds a point; it reaches the disk with the next flush, after at most a second of further points.
+  void append(const PathNode& node);
+
+  /// Writes what is buffered, and the outcome and counts of the run.
+  void finish(const TraceResult& result);
+
+ private:
+  struct Implementation;
+
+  void flush();
+
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,152 @@
+#include "eigentrail/continuation/trace_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+std::string to_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+/// Reads options from a table of texts and numbers: the [trace] table, or the command line turned into one.
+class OptionReader {
+ public:
+  OptionReader(const Scene& scene, TableReader& table) : scene_(scene), table_(table) {}
+
+  void operator()(const char* key, const char*, std::string& value) {
+    if (table_.has(key)) value = table_.text(key);
+  }
+  void operator()(const char* key, const char*, double& value) {
+    if (table_.has(key)) value = number(key);
+  }
+  void operator()(const char* key, const char*, int& value) {
+    if (table_.has(key)) value = whole_number(key);
+  }
+  void operator()(const char* key, const char*, std::optional<double>& value) {
+    if (table_.has(key)) value = number(key);
+  }
+  void operator()(const char* key, const char*, std::optional<int>& value) {
+    if (!table_.has(key)) return;
+    if (is_all(key)) {
+      value.reset();
+    } else {
+      value = whole_number(key);
+    }
+  }
+
+ private:
+  bool is_all(const char* key) {
+    try {
+      return table_.text(key) == "all";
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
+  double number(const char* key) {
+    const Expression expression = table_.expression(key);
+    if (expression.is_constant()) return expression.evaluate(std::span<const double>());
+    Vector si = scene_.parameters.declared_values();
+    scene_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+    const double value = expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
+    const bool in_parameter_unit = std::string_view(key) != "tolerance" && std::string_view(key) != "reference";
+    const auto traced = table_.has("parameter") ? scene_.parameters.index(table_.text("parameter")) : std::nullopt;
+    return in_parameter_unit && traced ? value / scene_.parameters[static_cast<std::size_t>(*traced)].factor : value;
+  }
+
+  int whole_number(const char* key) {
+    const double value = number(key);
+    if (value != std::floor(value) || std::abs(value) > 1e9) {
+      table_.fail(key, "expected a whole number, found " + to_text(value));
+    }
+    return static_cast<int>(value);
+  }
+
+  const Scene& scene_;
+  TableReader& table_;
+};
+
+/// The [trace] table with the command line's values in place of its own. Texts that are numbers become numbers.
+Table merged_table(const Scene& scene, const OptionTexts& overrides) {
+  const auto found = tables(scene, "trace");
+  if (found.size() > 1) throw scene_error(scene, found[1]->where, "[trace]: a scene has one of these at most");
+  Table merged;
+  if (!found.empty()) merged = *found[0];
+  for (const auto& [key, text] : overrides) {
+    Value value{text, {}};
+    double number = 0.0;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
+    const auto same = [&key](const auto& entry) { return entry.first == key; };
+    std::erase_if(merged.entries, same);
+    merged.entries.emplace_back(key, std::move(value));
+  }
+  return merged;
+}
+
+void check(const TraceOptions& options, const Scene& scene, const TableReader& table) {
+  const auto require = [&table](bool holds, const char* key, const std::string& message) {
+    if (!holds) table.fail(key, message);
+  };
+  const std::vector<std::string>& names = scene.parameters.names();
+  require(!options.parameter.empty(), "parameter", "is missing; name the parameter to trace, or give --parameter");
+  const auto index = scene.parameters.index(options.parameter);
+  require(index.has_value(), "parameter", "no parameter is called '" + options.parameter + "'; " + suggestion(options.parameter, names));
+  require(!scene.parameters[static_cast<std::size_t>(*index)].definition, "parameter",
+          "'" + options.parameter + "' is defined by an expression; trace one of the parameters in it");
+  require(options.from != options.to, "to", "equals from (" + to_text(options.from) + "): the range is empty");
+  require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
+          "must lie between 1e-13 and 0.1; found " + to_text(options.tolerance));
+  require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
+  require(options.order >= 1 && options.order <= max_order, "order", "must lie between 1 and " + std::to_string(max_order));
+  require(!options.reference || *options.reference > 0.0, "reference", "must be positive");
+  require(!options.first_step || *options.first_step > 0.0, "first_step", "must be positive");
+  require(!options.max_step || *options.max_step > 0.0, "max_step", "must be positive");
+  require(options.max_nodes >= 2, "max_nodes", "must be at least 2");
+}
+
+}  // namespace
+
+TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides) {
+  const Table merged = merged_table(scene, overrides);
+  std::set<int> used;  // parameters that only the range uses do not count as used by the scene
+  TableReader table(scene, merged, "[trace]", used);
+  TraceOptions options;
+  OptionReader reader(scene, table);
+  TraceOptions::fields(options, reader);
+  for (const char* key : {"from", "to"}) {
+    if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
+  }
+  table.finish();
+  check(options, scene, table);
+  return options;
+}
+
+OptionTexts describe_options(const TraceOptions& options) {
+  OptionTexts texts;
+  const auto describe = [&texts](const char* key, const char*, const auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, std::string>) {
+      texts.emplace_back(key, value);
+    } else if constexpr (std::is_same_v<T, std::optional<int>>) {
+      texts.emplace_back(key, value ? std::to_string(*value) : "all");
+    } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+      texts.emplace_back(key, value ? to_text(*value) : "auto");
+    } else if constexpr (std::is_same_v<T, int>) {
+      texts.emplace_back(key, std::to_string(value));
+    } else {
+      texts.emplace_back(key, to_text(value));
+    }
+  };
+  TraceOptions::fields(options, describe);
+  return texts;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,28 @@
+#include "eigentrail/core/constraint_factorization.hpp"
+
+namespace eigentrail {
+
+ConstraintFactorization::ConstraintFactorization(const Matrix& A) {
+  const Eigen::Index n = A.cols();
+  if (A.rows() == 0) {
+    null_basis_ = Matrix::Identity(n, n);
+    return;
+  }
+  row_scale_ = A.rowwise().norm().unaryExpr([](double norm) { return norm > 0.0 ? 1.0 / norm : 1.0; });
+  decomposition_.setThreshold(rank_tolerance);
+  decomposition_.compute((row_scale_.asDiagonal() * A).transpose());
+  rank_ = decomposition_.rank();
+  null_basis_ = decomposition_.householderQ() * Matrix::Identity(n, n).rightCols(n - rank_);
+}
+
+Matrix ConstraintFactorization::pseudo_inverse_times(const Matrix& B) const {
+  if (B.rows() == 0) return Matrix::Zero(null_basis_.rows(), B.cols());
+  return decomposition_.transpose().solve(row_scale_.asDiagonal() * B);
+}
+
+Vector ConstraintFactorization::transposed_pseudo_inverse_times(const Vector& b) const {
+  if (row_scale_.size() == 0) return Vector(0);
+  return row_scale_.asDiagonal() * decomposition_.solve(b);
+}
+
+}  // namespace eigentrail

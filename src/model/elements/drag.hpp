@@ -1,0 +1,29 @@
+// Viscous drag relative to the frame: f = -r v   (seed paper, Eq. 141).
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+struct Drag {
+  static constexpr std::string_view name = "drag";
+  static constexpr std::string_view description = "viscous drag -r v, v relative to the frame";
+  static constexpr Contribution contribution{.dissipative = true};
+  static constexpr Dependence depends{.velocity = true};
+
+  Place point;
+  Quantity coefficient;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.place("point", self.point, "the point it acts on");
+    visit.quantity({"coefficient", "N s/m", enters_damping, "drag per velocity"}, self.coefficient);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    at.add_force(point, -at.value(coefficient) * at.velocity(point));
+  }
+};
+
+}  // namespace eigentrail

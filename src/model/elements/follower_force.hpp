@@ -1,0 +1,44 @@
+// Follower force: fixed magnitude P, direction turning with the line between two places,
+// f = P R(axis, angle) (to - from) / |to - from|, R a rotation (Rodrigues' formula).
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+struct FollowerForce {
+  static constexpr std::string_view name = "follower_force";
+  static constexpr std::string_view description = "force of given magnitude that turns with the line between two places";
+  static constexpr Contribution contribution{.circulatory = true};
+  static constexpr Dependence depends{.position = true};
+
+  Place point, from, to;
+  Quantity magnitude, angle;
+  std::array<Quantity, 3> axis;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.place("point", self.point, "the point it acts on");
+    visit.place("from", self.from, "where the line begins");
+    visit.place("to", self.to, "where the line ends");
+    visit.quantity({"magnitude", "N", enters_force, "the force, along from -> to where positive"}, self.magnitude);
+    visit.quantity({"angle", "rad", enters_force, "turns the direction about the axis", Range::any, 0.0}, self.angle);
+    visit.vector({"axis", "", enters_force, "axis of that turn, of any length", Range::any, 1.0}, self.axis);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    using std::cos;
+    using std::sin;
+    const Vec3<Scalar> line = at.position(to) - at.position(from);
+    const Vec3<Scalar> d = (1.0 / line.norm()) * line;
+    const Vec3<Scalar> raw_axis = at.value(axis);
+    const Vec3<Scalar> k = (1.0 / raw_axis.norm()) * raw_axis;
+    const Scalar c = cos(at.value(angle));
+    const Scalar s = sin(at.value(angle));
+    const Vec3<Scalar> turned = c * d + s * k.cross(d) + ((1.0 - c) * k.dot(d)) * k;
+    at.add_force(point, at.value(magnitude) * turned);
+  }
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,67 @@
+// Linear springs. The geometric stiffness of a stretched spring comes out of the differentiation.
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+/// Between two places: tension k (|d| - free_length) along d = to - from. Coinciding ends have no direction; the
+/// evaluation then reports a number that is not finite.
+struct Spring {
+  static constexpr std::string_view name = "spring";
+  static constexpr std::string_view description = "linear spring between two places";
+  static constexpr Contribution contribution{.conservative = true};
+  static constexpr Dependence depends{.position = true};
+
+  Place from, to;
+  Quantity stiffness, free_length;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.place("from", self.from, "one end");
+    visit.place("to", self.to, "the other end");
+    visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
+    visit.quantity({"free_length", "m", enters_force, "length without force", Range::non_negative}, self.free_length);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    const Vec3<Scalar> d = at.position(to) - at.position(from);
+    const Scalar length = d.norm();
+    const Vec3<Scalar> tension = (at.value(stiffness) * (1.0 - at.value(free_length) / length)) * d;
+    at.add_force(from, tension);
+    at.add_force(to, -tension);
+  }
+};
+
+/// A spring that keeps its direction u (the seed paper's vertical spring, Eq. 107b): f = -k (u.x - reference) u with
+/// |u| = 1 after normalization.
+struct GuidedSpring {
+  static constexpr std::string_view name = "guided_spring";
+  static constexpr std::string_view description = "linear spring that keeps its direction, its far end sliding along";
+  static constexpr Contribution contribution{.conservative = true};
+  static constexpr Dependence depends{.position = true};
+
+  Place point;
+  std::array<Quantity, 3> direction;
+  Quantity stiffness, reference;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.place("point", self.point, "the point it acts on");
+    visit.vector({"direction", "", enters_force, "direction of the spring, of any length"}, self.direction);
+    visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
+    visit.quantity({"reference", "m", enters_force, "coordinate along the direction without force", Range::any, 0.0},
+                   self.reference);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    const Vec3<Scalar> d = at.value(direction);
+    const Vec3<Scalar> u = (1.0 / d.norm()) * d;
+    const Scalar elongation = u.dot(at.position(point)) - at.value(reference);
+    at.add_force(point, (-at.value(stiffness) * elongation) * u);
+  }
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,150 @@
+#include "model/matrix_family.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+using Scalar = Series<double, max_order>;
+
+/// Values of parameters along the path: as declared for the variable, in SI for expressions.
+struct ParameterSeries {
+  Scalar variable;
+  std::vector<Scalar> si;
+};
+
+ParameterSeries parameter_series(const Parameters& parameters, int variable, const Path& path) {
+  ParameterSeries result;
+  result.si.resize(parameters.size());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    for (int k = 0; k <= max_order; ++k) {
+      result.si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
+    }
+  }
+  result.variable = result.si[static_cast<std::size_t>(variable)];
+  parameters.to_si(std::span<Scalar>(result.si));
+  return result;
+}
+
+bool is_zero(const MatrixSeries& series, std::size_t k) { return series[k].isZero(0.0); }
+
+/// Coefficients of the polynomial along the path up to h^order, trailing zeros dropped.
+MatrixSeries evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
+                      const ParameterSeries& parameters, int order, bool& finite) {
+  MatrixSeries result(static_cast<std::size_t>(order) + 1, Matrix::Zero(rows, columns));
+  Scalar power(1.0);
+  for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
+    for (int k = 0; k <= order; ++k) {
+      finite = finite && std::isfinite(power[k]);
+      if (power[k] != 0.0) result[static_cast<std::size_t>(k)] += power[k] * polynomial.coefficients[j];
+    }
+    for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
+      if (entry.power != static_cast<int>(j)) continue;
+      const Scalar value = entry.expression.evaluate(std::span<const Scalar>(parameters.si)) * power;
+      for (int k = 0; k <= order; ++k) {
+        finite = finite && std::isfinite(value[k]);
+        result[static_cast<std::size_t>(k)](entry.row, entry.column) += value[k];
+      }
+    }
+    power *= parameters.variable;
+  }
+  while (result.size() > 1 && is_zero(result, result.size() - 1)) result.pop_back();
+  return result;
+}
+
+enum class Symmetry { symmetric, skew, none };
+
+/// Symmetry of all coefficients; entries that are expressions count as unsymmetric off the diagonal.
+Symmetry symmetry(const MatrixPolynomial& polynomial) {
+  bool symmetric = true;
+  bool skew = true;
+  for (const Matrix& c : polynomial.coefficients) {
+    symmetric = symmetric && c == c.transpose();
+    skew = skew && c == -c.transpose();
+  }
+  for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
+    symmetric = symmetric && entry.row == entry.column;
+    skew = false;
+  }
+  return symmetric ? Symmetry::symmetric : skew ? Symmetry::skew : Symmetry::none;
+}
+
+}  // namespace
+
+MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
+                           MatrixPolynomial K, MatrixPolynomial A)
+    : Model([&] {
+        const auto count = [](const MatrixPolynomial& p) { return static_cast<int>(p.coefficients.size()); };
+        const Symmetry c = C.empty() ? Symmetry::symmetric : symmetry(C);
+        const bool k_symmetric = symmetry(K) == Symmetry::symmetric;
+        description.effects = {
+            {"M", "mass matrix, polynomial in the traced parameter", count(M), {.inertia = true}},
+            {"C", "damping and gyroscopic matrix", count(C),
+             {.dissipative = c != Symmetry::skew, .gyroscopic = c != Symmetry::symmetric}},
+            {"K", "stiffness matrix", count(K), {.conservative = true, .circulatory = !k_symmetric}},
+            {"A", "constraint matrix", count(A), {.constraint = true}}};
+        return std::move(description);
+      }()),
+      variable_(variable), M_(std::move(M)), C_(std::move(C)), K_(std::move(K)), A_(std::move(A)) {}
+
+Vector MatrixFamily::initial_guess(const Vector&) const { return Vector::Zero(n_coordinates()); }
+
+bool MatrixFamily::constant(const MatrixPolynomial& polynomial, int traced_parameter) const {
+  const Parameters& parameters = description().parameters;
+  if (polynomial.coefficients.size() > 1 && parameters.depends_on(variable_, traced_parameter)) return false;
+  return std::none_of(polynomial.entries.begin(), polynomial.entries.end(), [&](const MatrixPolynomial::Entry& entry) {
+    return parameters.depends_on(entry.expression, traced_parameter);
+  });
+}
+
+Structure MatrixFamily::structure(int traced_parameter) const {
+  Structure result;
+  for (const Effect& effect : description().effects) {
+    if (effect.count == 0) continue;
+    result.damped = result.damped || effect.contribution.dissipative;
+    result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
+    result.circulatory = result.circulatory || effect.contribution.circulatory;
+  }
+  result.constant_mass = constant(M_, traced_parameter);
+  result.constant_damping = constant(C_, traced_parameter);
+  result.constant_stiffness = constant(K_, traced_parameter);
+  result.constant_constraints = constant(A_, traced_parameter);
+  result.fixed_equilibrium = true;
+  result.known_equilibrium = true;
+  return result;
+}
+
+EvaluationFault MatrixFamily::residual(const Path& path, int order, SteadyResidual& result,
+                                       EvaluationCounts&) const {
+  // x = 0 and lambda = 0 solve A^T lambda + K x = 0, A x = 0 for every parameter.
+  if (!path.x.isZero(0.0) || !path.lambda.isZero(0.0)) {
+    throw std::invalid_argument("MatrixFamily: expected the equilibrium x = 0, lambda = 0");
+  }
+  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
+  result.constraint = VectorSeries::Zero(n_constraints(), order + 1);
+  return {};
+}
+
+EvaluationFault MatrixFamily::linearize(const Path& path, int order, Linearization& result,
+                                        EvaluationCounts& counts) const {
+  const ParameterSeries parameters = parameter_series(description().parameters, variable_, path);
+  const Eigen::Index n = n_coordinates();
+  EvaluationFault fault;
+  std::size_t effect = 0;
+  const auto evaluate_one = [&](const MatrixPolynomial& polynomial, Eigen::Index rows, const char* name) {
+    bool finite = true;
+    MatrixSeries series = evaluate(polynomial, rows, n, parameters, order, finite);
+    if (!finite && !fault) fault.source = name;
+    if (!polynomial.empty()) ++counts.linearization[effect];
+    ++effect;
+    return series;
+  };
+  result.M = evaluate_one(M_, n, "matrix M");
+  result.C = evaluate_one(C_, n, "matrix C");
+  result.K = evaluate_one(K_, n, "matrix K");
+  result.A = evaluate_one(A_, n_constraints(), "matrix A");
+  return fault;
+}
+
+}  // namespace eigentrail

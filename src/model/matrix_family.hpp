@@ -1,0 +1,48 @@
+// Model given by its matrices: (M(p) s^2 + C(p) s + K(p)) z = 0, optionally with constraints A(p) x = 0.
+#pragma once
+
+#include <memory>
+
+#include "eigentrail/model/model.hpp"
+#include "eigentrail/scene/scene.hpp"
+
+namespace eigentrail {
+
+/// A matrix polynomial in the family's variable; coefficients are numbers plus entries that are expressions.
+struct MatrixPolynomial {
+  struct Entry {
+    int power;
+    Eigen::Index row, column;
+    Expression expression;
+  };
+  std::vector<Matrix> coefficients;  ///< by power, lowest first
+  std::vector<Entry> entries;        ///< added to the numbers
+
+  bool empty() const { return coefficients.empty(); }
+};
+
+class MatrixFamily final : public Model {
+ public:
+  /// `variable` is the index of the parameter whose powers multiply the coefficients. C and A may be empty.
+  /// Shapes are n x n, of A m x n; the caller has checked them.
+  MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C, MatrixPolynomial K,
+               MatrixPolynomial A);
+
+  Vector initial_guess(const Vector& parameters) const override;
+  Structure structure(int traced_parameter) const override;
+  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
+                           EvaluationCounts& counts) const override;
+  EvaluationFault linearize(const Path& path, int order, Linearization& result,
+                            EvaluationCounts& counts) const override;
+
+ private:
+  bool constant(const MatrixPolynomial& polynomial, int traced_parameter) const;
+
+  int variable_;
+  MatrixPolynomial M_, C_, K_, A_;
+};
+
+/// Reads [matrix_family] of a scene.
+std::unique_ptr<Model> read_matrix_family(const Scene& scene);
+
+}  // namespace eigentrail

@@ -1,0 +1,99 @@
+#include "model/multibody.hpp"
+
+#include <stdexcept>
+
+namespace eigentrail {
+namespace {
+
+/// Collects into `enters` the roles of all quantities that depend on the traced parameter.
+class TracedRoles {
+ public:
+  TracedRoles(const Parameters& parameters, int traced, Enters& enters)
+      : parameters_(parameters), traced_(traced), enters_(enters) {}
+
+  void place(std::string_view, const Place& place, std::string_view) {
+    for (const Quantity& q : place.fixed) add(q, place_role);
+  }
+  void quantity(const QuantityField& field, const Quantity& q) { add(q, field.enters); }
+  void vector(const QuantityField& field, const std::array<Quantity, 3>& v) {
+    for (const Quantity& q : v) add(q, field.enters);
+  }
+  void axis(std::string_view, const Axis&, std::string_view) {}
+
+  Enters place_role;  ///< what a fixed place enters: forces or constraints of the element at hand
+
+ private:
+  void add(const Quantity& q, const Enters& role) {
+    if (!parameters_.depends_on(q.expression, traced_)) return;
+    enters_.mass = enters_.mass || role.mass;
+    enters_.damping = enters_.damping || role.damping;
+    enters_.force = enters_.force || role.force;
+    enters_.constraint = enters_.constraint || role.constraint;
+  }
+
+  const Parameters& parameters_;
+  int traced_;
+  Enters& enters_;
+};
+
+template <class Visit>
+EvaluationFault dispatch(int order, Visit&& visit) {
+  switch (order) {
+    case 0: return visit.template operator()<0>();
+    case 1: return visit.template operator()<1>();
+    case 2: return visit.template operator()<2>();
+    case 3: return visit.template operator()<3>();
+    case 4: return visit.template operator()<4>();
+    default: throw std::invalid_argument("order of a series: expected 0 to 4, got " + std::to_string(order));
+  }
+}
+
+}  // namespace
+
+Multibody::Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess)
+    : Model(std::move(description)), data_(std::move(data)), guess_(std::move(guess)) {}
+
+Vector Multibody::initial_guess(const Vector& parameters) const {
+  Vector si = parameters;
+  data_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+  const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
+  Vector x(static_cast<Eigen::Index>(guess_.size()));
+  for (std::size_t i = 0; i < guess_.size(); ++i) x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
+  return x;
+}
+
+Structure Multibody::structure(int traced_parameter) const {
+  Structure result;
+  Enters changes;
+  bool curved_constraints = false;
+  TracedRoles roles(data_.parameters, traced_parameter, changes);
+  data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+    roles.place_role = HasConstraint<Element> ? enters_constraint : enters_force;
+    for (const Placed<Element>& placed : list) Element::fields(placed.element, roles);
+    if (list.empty()) return;
+    result.damped = result.damped || Element::contribution.dissipative;
+    result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
+    result.circulatory = result.circulatory || Element::contribution.circulatory;
+    if constexpr (HasConstraint<Element>) curved_constraints = curved_constraints || Element::curved;
+  });
+  // Masses and damping coefficients of the registry do not depend on x; K and A follow the equilibrium.
+  result.fixed_equilibrium = !changes.force && !changes.constraint;
+  result.constant_mass = !changes.mass;
+  result.constant_damping = !changes.damping;
+  result.constant_stiffness = result.fixed_equilibrium;
+  result.constant_constraints =
+      !changes.constraint && (result.fixed_equilibrium || !curved_constraints);
+  return result;
+}
+
+EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
+                                    EvaluationCounts& counts) const {
+  return dispatch(order, [&]<int Q>() { return Assembly<Q>(data_, path).residual(result, counts); });
+}
+
+EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
+                                     EvaluationCounts& counts) const {
+  return dispatch(order, [&]<int Q>() { return Assembly<Q>(data_, path).linearize(result, counts); });
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,24 @@
+// Model of points joined by elements. Coordinates: x, y, z of every point, in the order of the scene.
+#pragma once
+
+#include "model/assembly.hpp"
+
+namespace eigentrail {
+
+class Multibody final : public Model {
+ public:
+  Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess);
+
+  Vector initial_guess(const Vector& parameters) const override;
+  Structure structure(int traced_parameter) const override;
+  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
+                           EvaluationCounts& counts) const override;
+  EvaluationFault linearize(const Path& path, int order, Linearization& result,
+                            EvaluationCounts& counts) const override;
+
+ private:
+  MultibodyData data_;
+  std::vector<Expression> guess_;  ///< one per coordinate
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/model/build.hpp"
+#include "model/matrix_family.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr Eigen::Index max_size = 5000;
+constexpr int max_power = 16;
+
+struct FamilyReader {
+  const Scene& scene;
+  TableReader table;
+
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const { table.fail(key, message); }
+
+  /// The polynomial written in the scene; its numbers go to the coefficients, its expressions to the entries.
+  MatrixPolynomial from_scene(const std::string& key) {
+    const auto matrices = table.matrices(key);
+    if (matrices.empty()) fail(key, "expected at least one matrix");
+    if (static_cast<int>(matrices.size()) > max_power + 1) {
+      fail(key, "has powers beyond " + std::to_string(max_power));
+    }
+    MatrixPolynomial polynomial;
+    for (std::size_t power = 0; power < matrices.size(); ++power) {
+      add_coefficient(polynomial, static_cast<int>(power), matrices[power], key);
+    }
+    return polynomial;
+  }
+
+  void add_coefficient(MatrixPolynomial& polynomial, int power, const std::vector<std::vector<Expression>>& rows,
+                       const std::string& key) const {
+    const auto n_rows = static_cast<Eigen::Index>(rows.size());
+    const auto n_columns = static_cast<Eigen::Index>(rows.empty() ? 0 : rows[0].size());
+    Matrix& coefficient = polynomial.coefficients.emplace_back(Matrix::Zero(n_rows, n_columns));
+    for (Eigen::Index r = 0; r < n_rows; ++r) {
+      const auto& row = rows[static_cast<std::size_t>(r)];
+      if (static_cast<Eigen::Index>(row.size()) != n_columns) {
+        fail(key, "power " + std::to_string(power) + ": row " + std::to_string(r + 1) + " has " +
+                      std::to_string(row.size()) + " entries, row 1 has " + std::to_string(n_columns));
+      }
+      for (Eigen::Index c = 0; c < n_columns; ++c) {
+        const Expression& entry = row[static_cast<std::size_t>(c)];
+        if (entry.is_constant()) {
+          coefficient(r, c) = entry.evaluate(std::span<const double>());
+        } else {
+          polynomial.entries.push_back({power, r, c, entry});
+        }
+      }
+    }
+  }
+
+  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file.
+  MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) const {
+    MatrixPolynomial polynomial;
+    for (int power = 0; power <= max_power; ++power) {
+      const std::string name = "/" + key + "/" + std::to_string(power);
+      if (!file.has(name)) break;
+      const Shape shape = file.shape(name);
+      if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
+        fail("file", "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+      }
+      const std::vector<double> data = file.read_real(name);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      polynomial.coefficients.emplace_back(Eigen::Map<const RowMajor>(
+          data.data(), static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1])));
+    }
+    return polynomial;
+  }
+
+  void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n) const {
+    for (const Matrix& c : polynomial.coefficients) {
+      const bool square = key == "A" || c.rows() == n;
+      if (c.cols() != n || !square || c.rows() != polynomial.coefficients[0].rows()) {
+        fail(key, "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols()) + ", M is " + std::to_string(n) +
+                      " x " + std::to_string(n) + "; " +
+                      (key == "A" ? "A needs as many columns, and the same rows for every power" : "all have the same size"));
+      }
+      if (!c.allFinite()) fail(key, "has an entry that is not finite");
+    }
+  }
+};
+
+/// The file named in a scene, beside the scene; it may not lead out of the scene's folder.
+std::string beside_scene(const FamilyReader& reader, const std::string& name) {
+  const std::filesystem::path path(name);
+  const bool leaves = std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
+  if (path.is_absolute() || leaves || name.empty()) {
+    reader.fail("file", "expected a file in the scene's folder or below it, found \"" + name + "\"");
+  }
+  return (std::filesystem::path(reader.scene.path).parent_path() / path).string();
+}
+
+/// The parameter whose powers multiply the coefficients: the one the scene itself traces.
+std::string variable_name(const Scene& scene) {
+  if (const auto trace = tables(scene, "trace"); !trace.empty()) {
+    if (const Value* name = trace[0]->find("parameter")) {
+      if (const auto* text = std::get_if<std::string>(&name->data)) return *text;
+    }
+  }
+  return scene.parameters.size() > 0 ? scene.parameters[scene.parameters.size() - 1].name : "";
+}
+
+void check_top_level(const Scene& scene) {
+  const std::vector<std::string> known = {"title", "parameters", "trace", "matrix_family"};
+  for (const auto& [key, value] : scene.root.entries) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw scene_error(scene, value.where, key + ": unknown key in a scene with [matrix_family]; " + suggestion(key, known));
+    }
+  }
+}
+
+}  // namespace
+
+bool is_matrix_family(const Scene& scene) { return scene.root.find("matrix_family") != nullptr; }
+
+std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
+  check_top_level(scene);
+  const auto found = tables(scene, "matrix_family");
+  if (found.size() != 1) throw InputError(scene.path + ": [matrix_family]: a scene has one of these");
+  std::set<int> used;
+  FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}};
+  MatrixPolynomial M, C, K, A;
+  if (reader.table.has("file")) {
+    const std::string path = beside_scene(reader, reader.table.text("file"));
+    try {
+      const Hdf5File file = Hdf5File::open(path);
+      M = reader.from_file(file, "M");
+      C = reader.from_file(file, "C");
+      K = reader.from_file(file, "K");
+      A = reader.from_file(file, "A");
+    } catch (const Hdf5Error& error) {
+      reader.fail("file", std::string(error.what()) + "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...");
+    }
+    if (M.empty() || K.empty()) reader.fail("file", path + " has no dataset /M/0 or no /K/0");
+  } else {
+    M = reader.from_scene("M");
+    K = reader.from_scene("K");
+    if (reader.table.has("C")) C = reader.from_scene("C");
+    if (reader.table.has("A")) A = reader.from_scene("A");
+  }
+  reader.table.finish();
+
+  const Eigen::Index n = M.coefficients[0].rows();
+  if (n == 0 || n > max_size) reader.fail("M", "has no rows");
+  const std::string variable = variable_name(scene);
+  const auto index = scene.parameters.index(variable);
+  if (!index) {
+    throw InputError(scene.path + ": [trace] parameter: name the parameter whose powers multiply the matrices");
+  }
+  for (const auto& [polynomial, key] : {std::pair(&M, "M"), std::pair(&C, "C"), std::pair(&K, "K"), std::pair(&A, "A")}) {
+    reader.check_shape(*polynomial, key, n);
+    if (polynomial->coefficients.size() > 1) used.insert(*index);
+  }
+  reject_unused_parameters(scene, used);
+
+  ModelDescription description;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_units.emplace_back("1");
+  }
+  for (Eigen::Index i = 0; !A.empty() && i < A.coefficients[0].rows(); ++i) {
+    description.constraint_names.push_back("A row " + std::to_string(i + 1));
+  }
+  description.parameters = scene.parameters;
+  return std::make_unique<MatrixFamily>(std::move(description), *index, std::move(M), std::move(C), std::move(K),
+                                        std::move(A));
+}
+
+}  // namespace eigentrail

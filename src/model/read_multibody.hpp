@@ -1,0 +1,12 @@
+// Reads the tables of a multibody scene into elements.
+#pragma once
+
+#include <memory>
+
+#include "eigentrail/model/build.hpp"
+
+namespace eigentrail {
+
+std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at);
+
+}  // namespace eigentrail

@@ -1,0 +1,65 @@
+#include "eigentrail/modes/matching.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace eigentrail {
+
+Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Matrix& M) {
+  const ComplexMatrix MV = M.cast<Complex>() * V;
+  const ComplexMatrix MW = M.cast<Complex>() * W;
+  const Vector v = (V.conjugate().cwiseProduct(MV)).colwise().sum().real();
+  const Vector w = (W.conjugate().cwiseProduct(MW)).colwise().sum().real();
+  const Matrix overlap = (V.adjoint() * MW).cwiseAbs2();
+  return overlap.cwiseQuotient(v * w.transpose());
+}
+
+std::vector<int> optimal_assignment(const Matrix& cost) {
+  const int n = static_cast<int>(cost.rows());
+  if (cost.cols() != n || !cost.allFinite()) {
+    throw std::invalid_argument("optimal_assignment: expected a square matrix of finite costs");
+  }
+  constexpr double unreached = std::numeric_limits<double>::infinity();
+  // Column 0 and row 0 are virtual; row_of[j] is the row assigned to column j.
+  std::vector<double> row_price(n + 1, 0.0), column_price(n + 1, 0.0);
+  std::vector<int> row_of(n + 1, 0), previous(n + 1, 0);
+  for (int row = 1; row <= n; ++row) {
+    std::vector<double> distance(n + 1, unreached);
+    std::vector<bool> visited(n + 1, false);
+    row_of[0] = row;
+    int column = 0;
+    do {
+      visited[column] = true;
+      const int current = row_of[column];
+      double step = unreached;
+      int next = 0;
+      for (int j = 1; j <= n; ++j) {
+        if (visited[j]) continue;
+        const double reduced = cost(current - 1, j - 1) - row_price[current] - column_price[j];
+        if (reduced < distance[j]) {
+          distance[j] = reduced;
+          previous[j] = column;
+        }
+        if (distance[j] < step) {
+          step = distance[j];
+          next = j;
+        }
+      }
+      for (int j = 0; j <= n; ++j) {
+        if (visited[j]) {
+          row_price[row_of[j]] += step;
+          column_price[j] -= step;
+        } else {
+          distance[j] -= step;
+        }
+      }
+      column = next;
+    } while (row_of[column] != 0);
+    for (; column != 0; column = previous[column]) row_of[column] = row_of[previous[column]];
+  }
+  std::vector<int> column_of(n);
+  for (int j = 1; j <= n; ++j) column_of[row_of[j] - 1] = j - 1;
+  return column_of;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,24 @@
+#include "eigentrail/modes/normalization.hpp"
+
+#include <cmath>
+
+namespace eigentrail {
+
+ComplexVector normalize_shape(const ComplexVector& v, const Matrix& M, const ComplexVector& reference) {
+  ComplexVector Mv = M.cast<Complex>() * v;
+  double square = v.dot(Mv).real();
+  if (!(square > 1e-12 * M.norm() * v.squaredNorm())) {
+    Mv = v;
+    square = v.squaredNorm();
+  }
+  // The reference has unit norm, so the overlap lies between 0 and sqrt(square).
+  Complex anchor = reference.size() == v.size() ? reference.dot(Mv) : Complex(0.0);
+  if (std::abs(anchor) <= 1e-8 * std::sqrt(square)) {
+    Eigen::Index largest = 0;
+    v.cwiseAbs().maxCoeff(&largest);
+    anchor = v[largest];
+  }
+  return v * (std::abs(anchor) / anchor / std::sqrt(square));
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,101 @@
+#include "eigentrail/modes/spectrum.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+// lapacke.h would define C's complex macros; these are its types in C++.
+#define lapack_complex_float std::complex<float>
+#define lapack_complex_double std::complex<double>
+#include <lapacke.h>
+
+namespace eigentrail {
+namespace {
+
+/// |beta| below this fraction of |alpha| is an infinite eigenvalue of the scaled pencil.
+constexpr double infinite = 1e-13;
+
+struct Scaling {
+  double gamma = 1.0;  ///< s = gamma mu
+  double delta = 1.0;  ///< common factor of the pencil
+};
+
+Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const double m = M.norm();
+  const double c = C.norm();
+  const double k = K.norm();
+  Scaling scaling;
+  if (m > 0.0 && k > 0.0) {
+    scaling.gamma = std::sqrt(k / m);
+  } else if (m > 0.0 && c > 0.0) {
+    scaling.gamma = c / m;
+  }
+  const double sum = k + c * scaling.gamma;
+  if (sum > 0.0) scaling.delta = 2.0 / sum;
+  return scaling;
+}
+
+/// A pencil is singular when det P vanishes everywhere; it is then singular at any few points.
+bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
+  for (const Complex mu : {Complex(0.8, 0.6), Complex(-0.28, 0.96), Complex(1.9, -0.7)}) {
+    const ComplexMatrix P = (mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>();
+    if (Eigen::PartialPivLU<ComplexMatrix>(P).rcond() > 1e-15) return false;
+  }
+  return true;
+}
+
+/// Right vector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu z],
+/// whichever is larger.
+ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex) {
+  const Eigen::Index n = vectors.rows() / 2;
+  ComplexVector both(2 * n);
+  both.real() = vectors.col(j);
+  both.imag() = is_complex ? Vector(vectors.col(j + 1)) : Vector(Vector::Zero(2 * n));
+  const ComplexVector z = both.head(n).norm() >= both.tail(n).norm() ? both.head(n) : both.tail(n);
+  return z.normalized();
+}
+
+}  // namespace
+
+Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const Eigen::Index n = M.rows();
+  Spectrum spectrum;
+  const Scaling scaling = fan_lin_van_dooren(M, C, K);
+  spectrum.scale = scaling.gamma;
+  const Matrix scaled_M = scaling.delta * scaling.gamma * scaling.gamma * M;
+  const Matrix scaled_C = scaling.delta * scaling.gamma * C;
+  const Matrix scaled_K = scaling.delta * K;
+  if (n > 0 && is_singular(scaled_M, scaled_C, scaled_K)) {
+    spectrum.status = SpectrumStatus::singular_pencil;
+    return spectrum;
+  }
+  Matrix a = Matrix::Zero(2 * n, 2 * n);
+  Matrix b = Matrix::Identity(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -scaled_K;
+  a.bottomRightCorner(n, n) = -scaled_C;
+  b.bottomRightCorner(n, n) = scaled_M;
+  Vector alpha_real(2 * n), alpha_imag(2 * n), beta(2 * n);
+  Matrix vectors(2 * n, 2 * n);
+  const auto size = static_cast<lapack_int>(2 * n);
+  const lapack_int info =
+      LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, b.data(), size, alpha_real.data(),
+                    alpha_imag.data(), beta.data(), nullptr, 1, vectors.data(), size);
+  if (info != 0) return spectrum;
+  for (Eigen::Index j = 0; j < 2 * n; ++j) {
+    const Complex alpha(alpha_real[j], alpha_imag[j]);
+    if (std::abs(beta[j]) <= infinite * std::abs(alpha)) {
+      ++spectrum.n_infinite;
+    } else if (alpha_imag[j] >= 0.0) {
+      spectrum.modes.push_back({scaling.gamma * alpha / beta[j], right_vector(vectors, j, alpha_imag[j] > 0.0)});
+    }
+  }
+  std::sort(spectrum.modes.begin(), spectrum.modes.end(), [](const StartingMode& p, const StartingMode& q) {
+    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) < std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
+  });
+  spectrum.status = SpectrumStatus::complete;
+  return spectrum;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,219 @@
+#include "eigentrail/scene/expression.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "eigentrail/core/errors.hpp"
+
+namespace eigentrail {
+namespace {
+
+using Op = Expression::Op;
+
+const std::map<std::string_view, Op>& functions() {
+  static const std::map<std::string_view, Op> table = {
+      {"sqrt", Op::sqrt}, {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},
+      {"asin", Op::asin}, {"acos", Op::acos}, {"atan", Op::atan}, {"sinh", Op::sinh},
+      {"cosh", Op::cosh}, {"tanh", Op::tanh}, {"exp", Op::exp},   {"log", Op::log}};
+  return table;
+}
+
+bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
+bool continues_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+constexpr int max_depth = 100;
+constexpr std::size_t max_length = 4096;
+
+}  // namespace
+
+// Recursive descent over the grammar in the header, one function per rule, emitting postfix code.
+class ExpressionParser {
+ public:
+  ExpressionParser(std::string_view text, const std::vector<std::string>& names) : text_(text), names_(names) {
+    result_.code_.clear();
+  }
+
+  Expression parse() {
+    if (text_.size() > max_length) fail("expression longer than " + std::to_string(max_length) + " characters");
+    sum();
+    if (!at_end()) fail(std::string("unexpected '") + text_[at_] + "'");
+    auto& used = result_.parameters_;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return std::move(result_);
+  }
+
+ private:
+  void sum() {
+    if (++depth_ > max_depth) fail("parentheses nested deeper than " + std::to_string(max_depth));
+    product();
+    for (;;) {
+      if (accept('+')) {
+        product();
+        emit(Op::add);
+      } else if (accept('-')) {
+        product();
+        emit(Op::subtract);
+      } else {
+        break;
+      }
+    }
+    --depth_;
+  }
+
+  void product() {
+    with_sign();
+    for (;;) {
+      if (accept('*')) {
+        with_sign();
+        emit(Op::multiply);
+      } else if (accept('/')) {
+        with_sign();
+        emit(Op::divide);
+      } else {
+        return;
+      }
+    }
+  }
+
+  void with_sign() {
+    bool negative = false;
+    for (;;) {
+      if (accept('-')) {
+        negative = !negative;
+      } else if (!accept('+')) {
+        break;
+      }
+    }
+    power();
+    if (negative) emit(Op::negate);
+  }
+
+  void power() {
+    primary();
+    if (!accept('^')) return;
+    if (++depth_ > max_depth) fail("powers nested deeper than " + std::to_string(max_depth));
+    const std::size_t exponent_begin = result_.code_.size();
+    with_sign();
+    --depth_;
+    if (const auto n = whole_number(exponent_begin)) {
+      result_.code_.resize(exponent_begin);
+      --stack_;
+      result_.code_.push_back({Op::integer_power, static_cast<double>(*n)});
+    } else {
+      emit(Op::power);
+    }
+  }
+
+  /// The exponent when it is a small whole number written out, so that 0^2 and (-1)^3 are defined.
+  std::optional<int> whole_number(std::size_t begin) const {
+    const auto& code = result_.code_;
+    const std::size_t length = code.size() - begin;
+    if (code[begin].op != Op::number || length > 2) return std::nullopt;
+    if (length == 2 && code[begin + 1].op != Op::negate) return std::nullopt;
+    const double value = length == 2 ? -code[begin].number : code[begin].number;
+    if (value != std::floor(value) || std::abs(value) > 64.0) return std::nullopt;
+    return static_cast<int>(value);
+  }
+
+  void primary() {
+    skip_space();
+    if (at_ >= text_.size()) fail("expression ends where a number, a parameter or '(' was expected");
+    const char c = text_[at_];
+    if (c == '(') {
+      parenthesis();
+    } else if (std::isdigit(static_cast<unsigned char>(c)) || c == '.') {
+      number();
+    } else if (starts_name(c)) {
+      name();
+    } else {
+      fail(std::string("unexpected '") + c + "' where a number, a parameter or '(' was expected");
+    }
+  }
+
+  void parenthesis() {
+    const std::size_t opened = at_++;
+    sum();
+    if (!accept(')')) throw ExpressionError("this '(' is never closed", opened);
+  }
+
+  void number() {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc()) fail("this is no number");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    push({Op::number, value});
+  }
+
+  void name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    skip_space();
+    if (at_ < text_.size() && text_[at_] == '(') {
+      call(name, begin);
+    } else if (const auto found = std::find(names_.begin(), names_.end(), name); found != names_.end()) {
+      const int index = static_cast<int>(found - names_.begin());
+      result_.parameters_.push_back(index);
+      push({Op::parameter, 0.0, index});
+    } else if (name == "pi") {
+      push({Op::number, std::numbers::pi});
+    } else {
+      throw ExpressionError("unknown parameter '" + std::string(name) + "'; " + suggestion(name, names_), begin);
+    }
+  }
+
+  void call(std::string_view name, std::size_t begin) {
+    const auto function = functions().find(name);
+    if (function == functions().end()) {
+      std::vector<std::string> known;
+      for (const auto& [text, op] : functions()) known.emplace_back(text);
+      throw ExpressionError("unknown function '" + std::string(name) + "'; " + suggestion(name, known), begin);
+    }
+    parenthesis();
+    emit(function->second);
+  }
+
+  void push(Expression::Instruction instruction) {
+    if (++stack_ > Expression::max_stack) fail("expression needs too many intermediate results");
+    result_.code_.push_back(instruction);
+  }
+
+  void emit(Op op) {
+    const bool binary = op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide ||
+                        op == Op::power;
+    if (binary) --stack_;
+    result_.code_.push_back({op});
+  }
+
+  void skip_space() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  }
+  bool at_end() {
+    skip_space();
+    return at_ >= text_.size();
+  }
+  bool accept(char c) {
+    skip_space();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  [[noreturn]] void fail(const std::string& message) const { throw ExpressionError(message, at_); }
+
+  std::string_view text_;
+  const std::vector<std::string>& names_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  int stack_ = 0;
+  Expression result_;
+};
+
+Expression Expression::parse(std::string_view text, const std::vector<std::string>& names) {
+  return ExpressionParser(text, names).parse();
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,299 @@
+#include "eigentrail/scene/scene.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "eigentrail/scene/units.hpp"
+
+namespace eigentrail {
+namespace {
+
+std::string at(SourceLocation where) {
+  return where.line == 0 ? ": " : ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+}
+
+bool is_name(std::string_view text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !text.empty() && letter(text[0]) &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+/// A parameter is a number, an expression, or { value = ..., unit = "..." }.
+class ParameterReader {
+ public:
+  ParameterReader(const Scene& scene, const Table& table) : scene_(scene), table_(table) {}
+
+  /// `implied` is a parameter that need not be declared.
+  Parameters read(const std::optional<Parameter>& implied) {
+    for (const auto& [name, value] : table_.entries) names_.push_back(name);
+    std::vector<Parameter> list;
+    const bool add = implied && table_.find(implied->name) == nullptr;
+    if (add) names_.push_back(implied->name);
+    for (const auto& [name, value] : table_.entries) list.push_back(read_one(name, value));
+    if (add) list.push_back(*implied);
+    try {
+      return Parameters(std::move(list));
+    } catch (const std::invalid_argument& error) {
+      throw scene_error(scene_, table_.where, std::string("[parameters] ") + error.what());
+    }
+  }
+
+ private:
+  Parameter read_one(const std::string& name, const Value& entry) {
+    Parameter parameter;
+    parameter.name = name;
+    parameter.where = entry.where;
+    if (!is_name(name)) fail(entry, name, "a parameter's name is letters, digits and '_', so that expressions can use it");
+    const Value* value = &entry;
+    if (const auto* fields = std::get_if<Table>(&entry.data)) {
+      value = fields->find("value");
+      if (value == nullptr) fail(entry, name, "expected value = ...");
+      for (const auto& [key, field] : fields->entries) read_field(parameter, key, field);
+    }
+    set_value(parameter, *value);
+    return parameter;
+  }
+
+  void read_field(Parameter& parameter, const std::string& key, const Value& field) {
+    if (key == "value") return;
+    if (key != "unit") fail(field, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
+    const auto* unit = std::get_if<std::string>(&field.data);
+    if (unit == nullptr) fail(field, parameter.name, "unit: expected a text, found " + field.kind());
+    const auto factor = unit_factor(*unit);
+    if (!factor) {
+      fail(field, parameter.name, "unit '" + *unit + "' is not known; write it like \"rad/s\", \"rpm\", \"mm\" or \"N m^-1\"");
+    }
+    parameter.unit = *unit;
+    parameter.factor = *factor;
+  }
+
+  void set_value(Parameter& parameter, const Value& value) {
+    if (const auto* number = std::get_if<double>(&value.data)) {
+      parameter.value = *number;
+    } else if (const auto* text = std::get_if<std::string>(&value.data)) {
+      try {
+        parameter.definition = Expression::parse(*text, names_);
+      } catch (const ExpressionError& error) {
+        fail(value, parameter.name, "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
+      }
+    } else {
+      fail(value, parameter.name, "expected a number or an expression, found " + value.kind());
+    }
+  }
+
+  [[noreturn]] void fail(const Value& value, const std::string& name, const std::string& message) const {
+    throw scene_error(scene_, value.where, "[parameters] " + name + ": " + message);
+  }
+
+  const Scene& scene_;
+  const Table& table_;
+  std::vector<std::string> names_;
+};
+
+/// The traced parameter of a scene with [matrix_family], with the value where the trace begins.
+std::optional<Parameter> family_variable(const Table& root) {
+  const Value* trace = root.find("trace");
+  if (trace == nullptr || root.find("matrix_family") == nullptr) return std::nullopt;
+  const auto* fields = std::get_if<Table>(&trace->data);
+  if (fields == nullptr) return std::nullopt;
+  const Value* value = fields->find("parameter");
+  const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+  if (name == nullptr || !is_name(*name)) return std::nullopt;
+  Parameter parameter;
+  parameter.name = *name;
+  parameter.where = value->where;
+  if (const Value* from = fields->find("from")) {
+    if (const auto* number = std::get_if<double>(&from->data)) parameter.value = *number;
+  }
+  return parameter;
+}
+
+}  // namespace
+
+InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message) {
+  return InputError(scene.path + at(where) + message);
+}
+
+Scene parse_scene(std::string text, const std::string& path) {
+  Scene scene;
+  scene.path = path;
+  scene.text = std::move(text);
+  scene.root = parse_toml(scene.text, path);
+  if (const Value* title = scene.root.find("title")) {
+    const auto* words = std::get_if<std::string>(&title->data);
+    if (words == nullptr) throw scene_error(scene, title->where, "title: expected a text, found " + title->kind());
+    scene.title = *words;
+  }
+  const Value* parameters = scene.root.find("parameters");
+  const Table none;
+  const Table* table = parameters == nullptr ? &none : std::get_if<Table>(&parameters->data);
+  if (table == nullptr) {
+    throw scene_error(scene, parameters->where, "parameters: expected a table, found " + parameters->kind());
+  }
+  scene.parameters = ParameterReader(scene, *table).read(family_variable(scene.root));
+  return scene;
+}
+
+Scene read_scene(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(path + ": cannot be read (" + error.message() + ")");
+  if (size > max_scene_size) {
+    throw InputError(path + ": is " + std::to_string(size) + " bytes; a scene has at most " +
+                     std::to_string(max_scene_size) + "; put large matrices into HDF5");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw InputError(path + ": cannot be read");
+  return parse_scene(std::move(text), path);
+}
+
+TableReader::TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used)
+    : scene_(scene), table_(table), label_(std::move(label)), used_(used) {}
+
+const Value* TableReader::find(const std::string& key) {
+  known_.push_back(key);
+  return table_.find(key);
+}
+
+bool TableReader::has(const std::string& key) { return find(key) != nullptr; }
+
+const Value& TableReader::require(const std::string& key, const std::string& expected) {
+  const Value* value = find(key);
+  if (value == nullptr) fail(key, "is missing; expected " + expected);
+  return *value;
+}
+
+void TableReader::fail(const std::string& key, const std::string& message) const {
+  const Value* value = table_.find(key);
+  throw scene_error(scene_, value != nullptr ? value->where : table_.where, label_ + " " + key + ": " + message);
+}
+
+Expression TableReader::to_expression(const Value& value, const std::string& key) {
+  if (const auto* number = std::get_if<double>(&value.data)) {
+    if (!std::isfinite(*number)) fail(key, "expected a finite number");
+    return {*number};
+  }
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr) fail(key, "expected a number or an expression, found " + value.kind());
+  try {
+    Expression expression = Expression::parse(*text, scene_.parameters.names());
+    used_.insert(expression.parameters().begin(), expression.parameters().end());
+    return expression;
+  } catch (const ExpressionError& error) {
+    fail(key, "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
+  }
+}
+
+Expression TableReader::expression(const std::string& key) {
+  return to_expression(require(key, "a number or an expression"), key);
+}
+
+Expression TableReader::expression(const std::string& key, double otherwise) {
+  const Value* value = find(key);
+  return value == nullptr ? Expression(otherwise) : to_expression(*value, key);
+}
+
+std::array<Expression, 3> TableReader::to_vector(const Value& value, const std::string& key) {
+  const auto* items = std::get_if<Array>(&value.data);
+  if (items == nullptr || items->size() != 3) {
+    fail(key, "expected three numbers or expressions [x, y, z], found " +
+                  (items == nullptr ? value.kind() : std::to_string(items->size()) + " of them"));
+  }
+  return {to_expression((*items)[0], key), to_expression((*items)[1], key), to_expression((*items)[2], key)};
+}
+
+std::array<Expression, 3> TableReader::vector(const std::string& key) {
+  return to_vector(require(key, "three numbers or expressions [x, y, z]"), key);
+}
+
+NameOrPosition TableReader::name_or_position(const std::string& key) {
+  const Value& value = require(key, "the name of a point, or a fixed place [x, y, z]");
+  if (const auto* name = std::get_if<std::string>(&value.data)) return *name;
+  return to_vector(value, key);
+}
+
+double TableReader::number(const std::string& key) {
+  const Value& value = require(key, "a number");
+  const auto* number = std::get_if<double>(&value.data);
+  if (number == nullptr) fail(key, "expected a number, found " + value.kind());
+  if (!std::isfinite(*number)) fail(key, "expected a finite number");
+  return *number;
+}
+
+std::string TableReader::text(const std::string& key) {
+  const Value& value = require(key, "a text");
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr) fail(key, "expected a text, found " + value.kind());
+  return *text;
+}
+
+std::vector<std::string> TableReader::texts(const std::string& key) {
+  const Value& value = require(key, "a list of texts");
+  const auto* items = std::get_if<Array>(&value.data);
+  if (items == nullptr) fail(key, "expected a list of texts, found " + value.kind());
+  std::vector<std::string> result;
+  for (const Value& item : *items) {
+    const auto* text = std::get_if<std::string>(&item.data);
+    if (text == nullptr) fail(key, "expected a list of texts, found " + item.kind() + " in it");
+    result.push_back(*text);
+  }
+  return result;
+}
+
+std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const std::string& key) {
+  const std::string expected = "a list of matrices, each a list of rows, lowest power first";
+  const auto items = [&](const Value& value) -> const Array& {
+    const auto* array = std::get_if<Array>(&value.data);
+    if (array == nullptr) fail(key, "expected " + expected + "; found " + value.kind());
+    return *array;
+  };
+  std::vector<std::vector<std::vector<Expression>>> result;
+  for (const Value& matrix : items(require(key, expected))) {
+    auto& rows = result.emplace_back();
+    for (const Value& row : items(matrix)) {
+      auto& entries = rows.emplace_back();
+      for (const Value& entry : items(row)) entries.push_back(to_expression(entry, key));
+    }
+  }
+  return result;
+}
+
+void TableReader::finish() const {
+  for (const auto& [key, value] : table_.entries) {
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+      throw scene_error(scene_, value.where, label_ + " " + key + ": unknown key; " + suggestion(key, known_));
+    }
+  }
+}
+
+std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
+  const Value* value = scene.root.find(key);
+  if (value == nullptr) return {};
+  if (const auto* table = std::get_if<Table>(&value->data)) return {table};
+  const auto* array = std::get_if<Array>(&value->data);
+  if (array == nullptr) throw scene_error(scene, value->where, key + ": expected a table [" + key + "], found " + value->kind());
+  std::vector<const Table*> result;
+  for (const Value& item : *array) {
+    const auto* table = std::get_if<Table>(&item.data);
+    if (table == nullptr) throw scene_error(scene, item.where, key + ": expected tables [[" + key + "]], found " + item.kind());
+    result.push_back(table);
+  }
+  return result;
+}
+
+void reject_unused_parameters(const Scene& scene, const std::set<int>& used) {
+  const int n = static_cast<int>(scene.parameters.size());
+  for (int i = 0; i < n; ++i) {
+    const bool is_used = std::any_of(used.begin(), used.end(), [&](int u) { return scene.parameters.depends_on(u, i); });
+    if (!is_used) {
+      const Parameter& parameter = scene.parameters[static_cast<std::size_t>(i)];
+      throw scene_error(scene, parameter.where,
+                        "[parameters] " + parameter.name + ": nothing in the scene uses this parameter; remove it or use it");
+    }
+  }
+}
+
+}  // namespace eigentrail

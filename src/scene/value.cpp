@@ -1,0 +1,76 @@
+#include "eigentrail/scene/value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <toml++/toml.h>
+
+namespace eigentrail {
+namespace {
+
+SourceLocation location(const toml::node& node) {
+  return {static_cast<int>(node.source().begin.line), static_cast<int>(node.source().begin.column)};
+}
+
+std::string prefix(const std::string& path, SourceLocation where) {
+  return path + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+}
+
+Table convert_table(const toml::table& source, const std::string& path);
+
+Value convert(const toml::node& node, const std::string& path) {
+  const SourceLocation where = location(node);
+  if (const auto* table = node.as_table()) return {convert_table(*table, path), where};
+  if (const auto* array = node.as_array()) {
+    Array items;
+    for (const toml::node& item : *array) items.push_back(convert(item, path));
+    return {std::move(items), where};
+  }
+  if (const auto* text = node.as_string()) return {text->get(), where};
+  if (const auto* flag = node.as_boolean()) return {flag->get(), where};
+  if (const auto number = node.value<double>()) return {*number, where};
+  throw InputError(prefix(path, where) + "dates and times have no meaning in a scene");
+}
+
+Table convert_table(const toml::table& source, const std::string& path) {
+  Table table;
+  table.where = location(source);
+  for (const auto& [key, node] : source) {
+    Value value = convert(node, path);
+    // A wrong key is reported where the key stands, not where its value begins.
+    value.where = {static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
+    table.entries.emplace_back(std::string(key.str()), std::move(value));
+  }
+  const auto in_file_order = [](const auto& a, const auto& b) {
+    return std::pair(a.second.where.line, a.second.where.column) <
+           std::pair(b.second.where.line, b.second.where.column);
+  };
+  std::stable_sort(table.entries.begin(), table.entries.end(), in_file_order);
+  return table;
+}
+
+}  // namespace
+
+const Value* Table::find(std::string_view key) const {
+  for (const auto& [name, value] : entries) {
+    if (name == key) return &value;
+  }
+  return nullptr;
+}
+
+std::string Value::kind() const {
+  static const std::array<std::string, 5> names = {"true or false", "a number", "a text", "an array", "a table"};
+  return names[data.index()];
+}
+
+Table parse_toml(std::string_view text, const std::string& path) {
+  try {
+    return convert_table(toml::parse(text, path), path);
+  } catch (const toml::parse_error& error) {
+    const SourceLocation where{static_cast<int>(error.source().begin.line),
+                               static_cast<int>(error.source().begin.column)};
+    throw InputError(prefix(path, where) + "not valid TOML: " + std::string(error.description()));
+  }
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,232 @@
+#include "eigentrail/steady/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "steady/kinsol_solver.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Corrections below this fraction of the scale are rounding.
+constexpr double rounding = 1e-14;
+/// Corrections that no longer shrink are accepted as rounding below this fraction of the scale.
+constexpr double rounding_floor = 1e-9;
+constexpr int max_corrections = 6;
+
+/// Typical magnitudes at the guess. Coordinates of a model share one unit, so they share one scale.
+struct Scales {
+  double length;
+  double force;
+  Vector constraint;  ///< per row: |A row| * length
+  double multiplier;
+};
+
+Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin, const SteadyResidual& residual) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value) ? value : 1.0; };
+  Scales scales;
+  scales.length = positive(x.lpNorm<Eigen::Infinity>());
+  const Matrix& A = lin.A[0];
+  const Vector reaction = A.transpose() * lambda;
+  scales.force = positive(std::max({lin.K[0].lpNorm<Eigen::Infinity>() * scales.length,
+                                    reaction.lpNorm<Eigen::Infinity>(),
+                                    residual.force.col(0).lpNorm<Eigen::Infinity>()}));
+  scales.constraint = (A.rowwise().norm() * scales.length).unaryExpr(positive);
+  scales.multiplier = positive(A.rows() == 0 ? 1.0 : scales.force / positive(A.rowwise().norm().maxCoeff()));
+  return scales;
+}
+
+/// The model at fixed parameters, as a nonlinear problem in (x, lambda).
+class SteadyProblem {
+ public:
+  SteadyProblem(const Model& model, const Vector& parameters, EvaluationCounts& counts, SteadyReport& report)
+      : model_(model), counts_(counts), report_(report) {
+    path_.parameters = parameters;
+  }
+
+  /// Residual at (x, lambda), or the element whose contribution is not finite.
+  EvaluationFault evaluate(const Vector& x, const Vector& lambda, SteadyResidual& residual) {
+    ++report_.residual_evaluations;
+    path_.x = x;
+    path_.lambda = lambda;
+    return model_.residual(path_, 0, residual, counts_);
+  }
+
+  EvaluationFault linearize(const Vector& x, const Vector& lambda, Linearization& linearization) {
+    path_.x = x;
+    path_.lambda = lambda;
+    return model_.linearize(path_, 0, linearization, counts_);
+  }
+
+  KktFactorization factor(const Linearization& linearization) {
+    ++report_.factorizations;
+    return {linearization.K[0], linearization.A[0]};
+  }
+
+ private:
+  const Model& model_;
+  EvaluationCounts& counts_;
+  SteadyReport& report_;
+  Path path_;
+};
+
+/// Writes the largest scaled residual and the equation it belongs to into the report.
+void report_residual(const Model& model, const SteadyResidual& residual, const Scales& scales, SteadyReport& report) {
+  Eigen::Index row = 0;
+  report.residual = residual.force.col(0).cwiseAbs().maxCoeff(&row) / scales.force;
+  report.worst_equation =
+      "balance of forces at " + model.description().coordinate_names[static_cast<std::size_t>(row)];
+  if (residual.constraint.rows() == 0) return;
+  const double worst = residual.constraint.col(0).cwiseAbs().cwiseQuotient(scales.constraint).maxCoeff(&row);
+  if (worst > report.residual) {
+    report.residual = worst;
+    report.worst_equation = "constraint " + model.description().constraint_names[static_cast<std::size_t>(row)];
+  }
+}
+
+KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const SteadyOptions& options, Vector& x,
+                        Vector& lambda) {
+  const Eigen::Index n = x.size();
+  const Eigen::Index m = lambda.size();
+  KktFactorization kkt;
+  SteadyResidual residual;
+  Linearization linearization;
+  KinsolProblem nonlinear;
+  nonlinear.residual = [&](const Vector& u, Vector& f) {
+    if (problem.evaluate(u.head(n), u.tail(m), residual)) return false;
+    f.resize(n + m);
+    f << residual.force.col(0), residual.constraint.col(0);
+    return true;
+  };
+  nonlinear.factor = [&](const Vector& u) {
+    if (problem.linearize(u.head(n), u.tail(m), linearization)) return false;
+    kkt = problem.factor(linearization);
+    return true;
+  };
+  nonlinear.solve = [&](const Vector& b, Vector& du) {
+    Vector dx, dl;
+    kkt.solve(b.head(n), b.tail(m), dx, dl);
+    du.resize(n + m);
+    du << dx, dl;
+  };
+  nonlinear.u_scale.resize(n + m);
+  nonlinear.u_scale << Vector::Constant(n, 1.0 / scales.length), Vector::Constant(m, 1.0 / scales.multiplier);
+  nonlinear.f_scale.resize(n + m);
+  nonlinear.f_scale << Vector::Constant(n, 1.0 / scales.force), scales.constraint.cwiseInverse();
+
+  Vector u(n + m);
+  u << x, lambda;
+  KinsolResult result = solve_with_kinsol(nonlinear, options.tolerance, options.max_iterations, u);
+  x = u.head(n);
+  lambda = u.tail(m);
+  return result;
+}
+
+/// Newton corrections down to rounding; leaves linearization and factorization at the solution. The multipliers are
+/// judged by the reaction A^T lambda, which is all that the equations see of them (redundant constraints leave lambda
+/// itself undetermined).
+bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
+  double last = INFINITY;
+  SteadyResidual residual;
+  for (int i = 0; i < max_corrections; ++i) {
+    if (problem.evaluate(result.x, result.lambda, residual)) return false;
+    if (problem.linearize(result.x, result.lambda, result.linearization)) return false;
+    result.kkt = problem.factor(result.linearization);
+    Vector dx, dl;
+    result.kkt.solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
+    const Vector reaction = result.linearization.A[0].transpose() * dl;
+    const double size =
+        std::max(dx.lpNorm<Eigen::Infinity>() / scales.length, reaction.lpNorm<Eigen::Infinity>() / scales.force);
+    if (!std::isfinite(size)) return false;
+    result.x += dx;
+    result.lambda += dl;
+    if (size <= rounding) return true;
+    if (size > 0.5 * last) return size < rounding_floor;
+    last = size;
+  }
+  return last < rounding_floor;
+}
+
+Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
+  result.status = SteadyStatus::not_finite;
+  result.report.message = "a number that is not finite came out of " + fault.source;
+  return result;
+}
+
+}  // namespace
+
+Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
+                              const SteadyOptions& options, EvaluationCounts& counts) {
+  Equilibrium result;
+  result.x = x;
+  result.lambda = lambda;
+  SteadyProblem problem(model, parameters, counts, result.report);
+  SteadyResidual residual;
+  Linearization& linearization = result.linearization;
+  if (lambda.size() != model.n_constraints()) {
+    result.lambda = Vector::Zero(model.n_constraints());
+    if (const auto fault = problem.evaluate(x, result.lambda, residual)) return not_finite(std::move(result), fault);
+    if (const auto fault = problem.linearize(x, result.lambda, linearization)) {
+      return not_finite(std::move(result), fault);
+    }
+    const ConstraintFactorization constraints(linearization.A[0]);
+    result.lambda = constraints.transposed_pseudo_inverse_times(-residual.force.col(0));
+  }
+  if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) return not_finite(std::move(result), fault);
+  if (const auto fault = problem.linearize(result.x, result.lambda, linearization)) {
+    return not_finite(std::move(result), fault);
+  }
+  const Scales scales = find_scales(result.x, result.lambda, linearization, residual);
+  const KinsolResult kinsol = run_kinsol(problem, scales, options, result.x, result.lambda);
+  result.report.iterations = kinsol.iterations;
+  const bool polished = polish(problem, scales, result);
+  if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) return not_finite(std::move(result), fault);
+  report_residual(model, residual, scales, result.report);
+  // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last correction.
+  if (polished && result.report.residual < rounding_floor) {
+    result.status = SteadyStatus::converged;
+    return result;
+  }
+  std::ostringstream message;
+  message << "no equilibrium found: KINSOL stopped after " << kinsol.iterations << " iterations ("
+          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message) << "); largest residual "
+          << result.report.residual << " of its scale, in the " << result.report.worst_equation;
+  result.report.message = message.str();
+  return result;
+}
+
+Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
+                             EvaluationCounts& counts) {
+  Equilibrium result;
+  result.x = x;
+  result.lambda = lambda;
+  const Path path{parameters, x, lambda};
+  if (const auto fault = model.linearize(path, 0, result.linearization, counts)) {
+    return not_finite(std::move(result), fault);
+  }
+  result.kkt = KktFactorization(result.linearization.A[0]);
+  result.status = SteadyStatus::converged;
+  return result;
+}
+
+EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium& equilibrium,
+                                          const VectorSeries& parameters, int order, Path& path,
+                                          EvaluationCounts& counts) {
+  path.parameters = parameters;
+  path.x = VectorSeries::Zero(model.n_coordinates(), order + 1);
+  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.x.col(0) = equilibrium.x;
+  path.lambda.col(0) = equilibrium.lambda;
+  SteadyResidual residual;
+  Vector dx, dl;
+  for (int k = 1; k <= order; ++k) {
+    if (auto fault = model.residual(path, k, residual, counts)) return fault;
+    equilibrium.kkt.solve(-residual.force.col(k), -residual.constraint.col(k), dx, dl);
+    path.x.col(k) = dx;
+    path.lambda.col(k) = dl;
+  }
+  return {};
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,106 @@
+#include "eigentrail/store/loci_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+
+namespace eigentrail {
+namespace {
+
+std::string to_text(double value) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+void read_attributes(const Hdf5File& file, LociFile& loci) {
+  for (const std::string& name : file.attribute_names()) {
+    if (name.starts_with("count_") || name == "schema_version") {
+      loci.attributes[name] = std::to_string(file.integer_attribute(name));
+    } else if (name == "tolerance" || name == "reference" || name == "seconds") {
+      loci.attributes[name] = to_text(file.real_attribute(name));
+    } else {
+      loci.attributes[name] = file.text_attribute(name);
+    }
+  }
+}
+
+void check_format(const Hdf5File& file, const std::string& path) {
+  if (!file.has_attribute("format") || file.text_attribute("format") != "eigentrail-loci") {
+    throw InputError(path + ": is an HDF5 file, but no loci file of eigentrail");
+  }
+  const std::int64_t schema = file.integer_attribute("schema_version");
+  if (schema != loci_schema_version) {
+    throw InputError(path + ": has schema " + std::to_string(schema) + ", this program reads schema " +
+                     std::to_string(loci_schema_version));
+  }
+}
+
+void read_series(const Hdf5File& file, LociFile& loci) {
+  loci.p = file.read_real(loci.parameter);
+  const Shape shape = file.shape("eigenvalue_series");
+  const bool consistent = shape.size() == 3 && shape[0] == loci.p.size() && shape[1] == loci.modes.size() &&
+                          shape[2] >= 2 && shape[2] <= static_cast<std::uint64_t>(max_order) + 1;
+  if (!consistent) throw InputError(loci.path + ": eigenvalue_series does not fit the other datasets");
+  const std::vector<Complex> data = file.read_complex("eigenvalue_series");
+  using RowMajor = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(shape[1]);
+  const auto columns = static_cast<Eigen::Index>(shape[2]);
+  for (std::size_t node = 0; node < loci.p.size(); ++node) {
+    loci.series.emplace_back(Eigen::Map<const RowMajor>(data.data() + node * shape[1] * shape[2], rows, columns));
+  }
+}
+
+}  // namespace
+
+double LociFile::lowest() const { return std::min(p.front(), p.back()); }
+double LociFile::highest() const { return std::max(p.front(), p.back()); }
+
+ComplexVector LociFile::eigenvalues_at(double value) const {
+  if (p.empty()) throw InputError(path + ": holds no points");
+  if (!(value >= lowest() && value <= highest())) {
+    throw InputError(path + ": " + parameter + " = " + to_text(value) + " lies outside the traced range " +
+                     to_text(lowest()) + " ... " + to_text(highest()));
+  }
+  const bool ascending = p.back() >= p.front();
+  const auto after = [&](double node, double target) { return ascending ? node < target : node > target; };
+  const auto found = std::lower_bound(p.begin(), p.end(), value, after);
+  const auto right = static_cast<std::size_t>(found - p.begin());
+  if (p[right] == value) return series[right].col(0);
+  return HermiteInterpolant(p[right - 1], series[right - 1], p[right], series[right])(value);
+}
+
+LociFile read_loci(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path + ": no such file");
+  try {
+    const Hdf5File file = Hdf5File::open(path);
+    check_format(file, path);
+    LociFile loci;
+    loci.path = path;
+    read_attributes(file, loci);
+    loci.parameter = file.text_attribute("parameter");
+    loci.parameter_unit = file.text_attribute(loci.parameter, "units");
+    loci.modes = file.read_texts("mode");
+    loci.coordinates = file.read_texts("coordinate");
+    if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
+    read_series(file, loci);
+    loci.residual = file.read_real("residual");
+    loci.condition = file.read_real("condition");
+    const std::size_t expected = loci.n_nodes() * loci.modes.size();
+    if (loci.residual.size() != expected || loci.condition.size() != expected) {
+      throw InputError(path + ": residual and condition do not fit the other datasets");
+    }
+    return loci;
+  } catch (const Hdf5Error& failure) {
+    throw InputError(path + ": cannot be read as a loci file: " + failure.what());
+  }
+}
+
+}  // namespace eigentrail
