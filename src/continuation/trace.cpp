@@ -137,21 +137,24 @@ class Tracer {
     double error = INFINITY;
     std::string reason;
     if (acceptable(point, prediction, reason)) {
-      error = control.estimate(largest_miss(point), h) / options_.tolerance;
+      error = error_from_miss(point, control.miss_to_error(h));
+      // An inaccurate step is often known before it is differentiated.
       if (error <= 1.0) {
-        if (auto node = differentiate_point(problem_, point, result_.counts)) {
+        auto node = differentiate_point(problem_, point, result_.counts);
+        error = node ? std::max(error, error_inside(*node)) : INFINITY;
+        if (error <= 1.0) {
           control.accept(h, error);
           previous_ = std::move(node_);
           return keep(std::move(*node));
         }
-        error = INFINITY;
       }
       ++result_.rejections.inaccurate;
       reason = "the error of the dense output stays above the tolerance";
     }
     control.reject(h, error);
     if (!control.exhausted()) return true;
-    return stop(TraceStatus::step_too_small, "the step became too small after " + at_parameter(options_, node_.p) + ": " + reason);
+    return stop(TraceStatus::step_too_small,
+                "the step became too small after " + at_parameter(options_, node_.p) + ": " + reason);
   }
 
   /// Whether the point was computed and its modes are the ones that were predicted.
@@ -187,14 +190,25 @@ class Tracer {
     return prediction;
   }
 
-  /// Largest miss of the eigenvalues extrapolated from the last step (from the series, on the first), relative to
-  /// what the tolerance is relative to.
-  double largest_miss(const PathPoint& point) const {
+  /// Estimated error / tolerance of the worst mode, given each mode's error.
+  double relative_error(const ComplexVector& s, const Vector& error) const {
+    const auto scale = s.cwiseAbs().cwiseMin(node_.s.col(0).cwiseAbs()).cwiseMax(problem_.s_ref);
+    return error.cwiseQuotient(scale).maxCoeff() / options_.tolerance;
+  }
+
+  /// From the miss of the eigenvalues extrapolated from the last step (from the series, on the first).
+  double error_from_miss(const PathPoint& point, double miss_to_error) const {
     const ComplexVector s = point.eigenvalues();
-    const ComplexVector expected =
-        previous_ ? HermiteInterpolant(previous_->p, previous_->s, node_.p, node_.s)(point.p)
-                  : ComplexVector(evaluate_series(node_.s, point.p - node_.p));
-    return (s - expected).cwiseAbs().cwiseQuotient(s.cwiseAbs().cwiseMax(problem_.s_ref)).maxCoeff();
+    const ComplexVector expected = previous_
+                                       ? HermiteInterpolant(previous_->p, previous_->s, node_.p, node_.s)(point.p)
+                                       : ComplexVector(evaluate_series(node_.s, point.p - node_.p));
+    return relative_error(s, miss_to_error * (s - expected).cwiseAbs());
+  }
+
+  /// From the decay of the interpolant's terms on the step to `next`.
+  double error_inside(const PathNode& next) const {
+    const HermiteInterpolant step(node_.p, node_.s, next.p, next.s);
+    return relative_error(next.s.col(0), step.estimated_error());
   }
 
   /// The first mode whose shape and place fit another track better than its own, or fit its own badly.

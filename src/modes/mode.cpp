@@ -64,7 +64,8 @@ BorderedFactorization::BorderedFactorization(const PencilAtPoint& pencil, Comple
   ComplexMatrix B(n + 1, n + 1);
   B.topLeftCorner(n, n) = pencil.matrix(s);
   const ComplexVector slope = pencil.slope(s, z);
-  const double size = std::max(B.topLeftCorner(n, n).norm() / std::sqrt(static_cast<double>(n)), 1e-300);
+  // The border gets the size of the terms of P, not of their sum, which vanishes at an eigenvalue when n = 1.
+  const double size = std::max(pencil.magnitude(s) / std::sqrt(static_cast<double>(n)), 1e-300);
   const auto scale_to_size = [size](double norm) { return norm > 0.0 ? size / norm : size; };
   slope_scale_ = scale_to_size(slope.norm());
   border_scale_ = scale_to_size(c.norm());

@@ -1,27 +1,25 @@
 // Step length from the error of the dense output.
 //
-// The eigenvalue extrapolated from the previous step's Hermite interpolant misses the corrected one by
-//     s^(2q+2)/(2q+2)! (h (h + h_old))^(q+1);   inside the new step the interpolant's error is at most
-//     s^(2q+2)/(2q+2)! (h^2 / 4)^(q+1).
-// Their ratio (1/4 / (1 + h_old/h))^(q+1) turns the observed miss into the estimate, and h grows or shrinks with its
-// (2q+2)-th root, as in a code for ordinary differential equations.
+// Two estimates of that error are at hand, and the larger counts. One is told by the interpolant itself
+// (HermiteInterpolant::estimated_error). The other comes from the miss of the previous step's interpolant,
+// extrapolated to the new point: it misses by s^(2q+2)/(2q+2)! (h (h + h_old))^(q+1), while inside the new step the
+// error is at most s^(2q+2)/(2q+2)! (h^2/4)^(q+1). The step then grows or shrinks with the (2q+2)-th root of the error,
+// with the trend of the last two steps taken on (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
 #pragma once
-
-#include <algorithm>
-#include <cmath>
 
 namespace eigentrail {
 
 class StepControl {
  public:
-  /// `range`: signed length of the trace; steps are positive lengths along it.
+  /// `range`: length of the trace, > 0; steps are positive lengths along it.
   StepControl(double range, int order, double first_step, double max_step);
 
-  /// Length of the next step from a point with `remaining` ahead; lands on the end without a sliver before it.
+  /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;
 
-  /// Estimated error of the dense output on a step of length h from the miss of the predictor at its end.
-  double estimate(double miss, double h) const;
+  /// Factor that turns the miss of the predictor at the end of a step of length h into an error estimate. The first
+  /// step has no previous interpolant and compares with the Taylor polynomial.
+  double miss_to_error(double h) const;
 
   /// After an accepted step with estimated error / tolerance = `error`.
   void accept(double h, double error);
@@ -32,17 +30,16 @@ class StepControl {
   /// Whether steps have become too short to mean anything.
   bool exhausted() const { return step_ < min_step_; }
 
-  bool has_history() const { return last_ > 0.0; }
-
  private:
-  double factor(double error) const;
+  double growth(double error) const;
 
   int order_;
   double step_;
   double max_step_;
   double min_step_;
-  double last_ = 0.0;     ///< length of the last accepted step
-  bool rejected_ = false; ///< the last attempt was rejected: do not grow at once
+  double last_step_ = 0.0;   ///< length of the last accepted step, 0 before the first
+  double last_error_ = 0.0;  ///< its error / tolerance
+  bool rejected_ = false;    ///< the last attempt was rejected: do not grow at once
 };
 
 }  // namespace eigentrail
