@@ -22,12 +22,13 @@ Equilibrium equilibrium_at(const PathProblem& problem, double p, const Vector& x
   return result;
 }
 
-/// Series of the equilibrium along p + h.
-EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, Path& path, RunCounts& counts) {
+/// Series of the equilibrium when `parameter` moves away from its value at the point.
+EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, int parameter, Path& path,
+                            RunCounts& counts) {
   VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
   parameters.col(0) = parameters_at(problem, point.p);
-  parameters(problem.traced, 1) = 1.0;
-  if (problem.structure.fixed_equilibrium) {
+  parameters(parameter, 1) = 1.0;
+  if (problem.model.structure(parameter).fixed_equilibrium) {
     path = {parameters, point.equilibrium.x, point.equilibrium.lambda};
     return {};
   }
@@ -111,10 +112,15 @@ PathPoint compute_point(const PathProblem& problem, double p, const Prediction& 
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, RunCounts& counts) {
+  return differentiate_point(problem, point, problem.traced, counts);
+}
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
+                                            RunCounts& counts) {
   const StageTimer timer(counts.differentiation_seconds);
   PathNode node;
   node.p = point.p;
-  if (path_series(problem, point, node.path, counts)) return std::nullopt;
+  if (path_series(problem, point, parameter, node.path, counts)) return std::nullopt;
   Linearization linearization;
   if (problem.model.linearize(node.path, problem.order, linearization, counts.evaluations)) return std::nullopt;
   TangentBasis basis = point.basis;

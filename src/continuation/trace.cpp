@@ -137,7 +137,7 @@ class Tracer {
     double error = INFINITY;
     std::string reason;
     if (acceptable(point, prediction, reason)) {
-      error = error_from_miss(point, control.miss_to_error(h));
+      error = control.error_from_miss(h, largest_miss(point));
       // An inaccurate step is often known before it is differentiated.
       if (error <= 1.0) {
         auto node = differentiate_point(problem_, point, result_.counts);
@@ -196,13 +196,13 @@ class Tracer {
     return error.cwiseQuotient(scale).maxCoeff() / options_.tolerance;
   }
 
-  /// From the miss of the eigenvalues extrapolated from the last step (from the series, on the first).
-  double error_from_miss(const PathPoint& point, double miss_to_error) const {
+  /// Miss / tolerance of the eigenvalues extrapolated from the last step (from the series, on the first).
+  double largest_miss(const PathPoint& point) const {
     const ComplexVector s = point.eigenvalues();
     const ComplexVector expected = previous_
                                        ? HermiteInterpolant(previous_->p, previous_->s, node_.p, node_.s)(point.p)
                                        : ComplexVector(evaluate_series(node_.s, point.p - node_.p));
-    return relative_error(s, miss_to_error * (s - expected).cwiseAbs());
+    return relative_error(s, (s - expected).cwiseAbs());
   }
 
   /// From the decay of the interpolant's terms on the step to `next`.

@@ -218,11 +218,17 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
   path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
+  // A kept equilibrium has its constraints factored only; the rest is made up for when it is needed after all.
+  KktFactorization complete;
+  if (!equilibrium.kkt.can_solve()) {
+    complete = KktFactorization(equilibrium.linearization.K[0], equilibrium.linearization.A[0]);
+  }
+  const KktFactorization& kkt = equilibrium.kkt.can_solve() ? equilibrium.kkt : complete;
   SteadyResidual residual;
   Vector dx, dl;
   for (int k = 1; k <= order; ++k) {
     if (auto fault = model.residual(path, k, residual, counts)) return fault;
-    equilibrium.kkt.solve(-residual.force.col(k), -residual.constraint.col(k), dx, dl);
+    kkt.solve(-residual.force.col(k), -residual.constraint.col(k), dx, dl);
     path.x.col(k) = dx;
     path.lambda.col(k) = dl;
   }

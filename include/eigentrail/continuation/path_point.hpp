@@ -96,7 +96,14 @@ PathPoint reduce_at(const PathProblem& problem, double p, const Vector& x, const
 PathPoint compute_point(const PathProblem& problem, double p, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
-/// Differentiates a computed point to the order of the problem. Empty when a series coefficient is not finite.
+/// Differentiates a computed point to the order of the problem along the traced parameter. Empty when a series
+/// coefficient is not finite.
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, RunCounts& counts);
+
+/// The same along another parameter, all others held: the sensitivities of the equilibrium and of the modes to it. The
+/// factorizations of the point are reused, so each further parameter costs back-substitutions only (seed paper, end of
+/// Sect. 4.3).
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
+                                            RunCounts& counts);
 
 }  // namespace eigentrail

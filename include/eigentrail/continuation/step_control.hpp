@@ -17,9 +17,9 @@ class StepControl {
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;
 
-  /// Factor that turns the miss of the predictor at the end of a step of length h into an error estimate. The first
-  /// step has no previous interpolant and compares with the Taylor polynomial.
-  double miss_to_error(double h) const;
+  /// Error / tolerance inside a step of length h from the predictor's `miss` / tolerance at its end. The first step
+  /// has no previous interpolant and compares with the Taylor polynomial.
+  double error_from_miss(double h, double miss) const;
 
   /// After an accepted step with estimated error / tolerance = `error`.
   void accept(double h, double error);
@@ -32,6 +32,8 @@ class StepControl {
 
  private:
   double growth(double error) const;
+  /// By how much the error of a step of length h exceeds what the last step's error scales to, as a ratio of lengths.
+  double trend(double h, double error) const;
 
   int order_;
   double step_;

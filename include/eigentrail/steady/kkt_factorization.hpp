@@ -24,6 +24,8 @@ class KktFactorization {
   /// Factors the constraints alone, for points whose equilibrium is known; `solve` must not be called.
   explicit KktFactorization(const Matrix& A) : constraints_(A) {}
 
+  bool can_solve() const { return K_.size() > 0; }
+
   /// Solves for (dx, dl) given (r, g).
   void solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const;
 
