@@ -46,8 +46,9 @@ void print_for_people(const LociFile& loci, const std::vector<double>& at) {
   for (const double p : at) {
     const ComplexVector s = loci.eigenvalues_at(p);
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-      rows.push_back({exact(p), loci.modes[static_cast<std::size_t>(i)], complex_text(s[i].real(), s[i].imag(), 10),
-                      rounded(std::abs(s[i]), 8), rounded(-s[i].real() / std::abs(s[i]), 6)});
+      rows.push_back({exact(p), loci.modes[static_cast<std::size_t>(i)],
+                      complex_text(s[i].real(), s[i].imag(), 10), rounded(std::abs(s[i]), 8),
+                      rounded(-s[i].real() / std::abs(s[i]), 6)});
     }
   }
   print_table(rows);
@@ -70,7 +71,8 @@ int run_eval(const EvalArguments& arguments) {
 
 void add_eval(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<EvalArguments>();
-  CLI::App* command = program.add_subcommand("eval", "eigenvalues at any parameter of a trace, from its dense output");
+  CLI::App* command =
+      program.add_subcommand("eval", "eigenvalues at any parameter of a trace, from its dense output");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command->add_option("--at", arguments->at, "parameter values, in the parameter's unit")->required();
   auto* csv = command->add_flag("--csv", arguments->csv, "print parameter,mode,real,imag");

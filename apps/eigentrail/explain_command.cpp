@@ -23,7 +23,9 @@ void print_parameters(const Model& model, int traced) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const std::string note = static_cast<int>(i) == traced ? "traced" : parameters[i].definition ? "derived" : "";
+    const std::string note = static_cast<int>(i) == traced ? "traced"
+                             : parameters[i].definition    ? "derived"
+                                                           : "";
     const std::string in_si = parameters[i].factor == 1.0 ? "" : "= " + rounded(si[at], 9) + " in SI";
     rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
   }
@@ -47,21 +49,26 @@ void print_effects(const Model& model) {
 }
 
 void print_structure(const Structure& structure, const std::string& parameter) {
-  const auto along = [&](bool constant) { return constant ? "constant along " + parameter : "changes with " + parameter; };
+  const auto along = [&](bool constant) {
+    return constant ? "constant along " + parameter : "changes with " + parameter;
+  };
   const char* stiffness = structure.circulatory ? "unsymmetric K (circulatory effects)" : "symmetric K";
-  const char* damping = structure.gyroscopic ? (structure.damped ? "C with a gyroscopic and a symmetric part" : "skew C (gyroscopic)")
+  const char* damping = structure.gyroscopic ? (structure.damped ? "C with a gyroscopic and a symmetric part"
+                                                                 : "skew C (gyroscopic)")
                         : structure.damped   ? "symmetric C"
                                              : "no C";
   std::printf("structure of the pencil\n");
   print_table({{"  mass", "symmetric M", along(structure.constant_mass)},
-               {"  damping", damping, structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
+               {"  damping", damping,
+                structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
                {"  stiffness", stiffness, along(structure.constant_stiffness)},
                {"  constraints", "A", along(structure.constant_constraints)}});
 }
 
 void print_solvers(const Model& model, const Structure& structure, const TraceOptions& options) {
   std::printf("solvers\n");
-  std::string equilibrium = "KINSOL with line search at every point, predicted by its series of order " + std::to_string(options.order);
+  std::string equilibrium = "KINSOL with line search at every point, predicted by its series of order " +
+                            std::to_string(options.order);
   if (structure.known_equilibrium) {
     equilibrium = "known: x = 0; KINSOL is never called";
   } else if (structure.fixed_equilibrium) {
@@ -73,16 +80,19 @@ void print_solvers(const Model& model, const Structure& structure, const TraceOp
   } else if (structure.constant_constraints) {
     basis = "rank-revealing QR at every point, T' = 0";
   }
-  print_table({{"  equilibrium", equilibrium},
-               {"  tangent basis", basis},
-               {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
-               {"  modes", "chord-Newton, one complex LU per mode and point, series of order " + std::to_string(options.order)},
-               {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * options.order + 1)}});
+  print_table(
+      {{"  equilibrium", equilibrium},
+       {"  tangent basis", basis},
+       {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
+       {"  modes",
+        "chord-Newton, one complex LU per mode and point, series of order " + std::to_string(options.order)},
+       {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * options.order + 1)}});
 }
 
 int run_explain(const ExplainArguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
-  const TraceOptions options = read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
+  const TraceOptions options =
+      read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
   const int traced = scene.parameters.index(options.parameter).value();
   std::vector<Vector> ends(2, scene.parameters.declared_values());
   ends[0][traced] = options.from;
@@ -105,7 +115,8 @@ int run_explain(const ExplainArguments& arguments) {
               static_cast<long long>(model->n_constraints()));
   if (point.status == PointStatus::computed) {
     const auto rank = static_cast<long long>(point.equilibrium.kkt.constraints().rank());
-    std::printf(", %lld of them redundant, %lld freedoms\n", static_cast<long long>(model->n_constraints()) - rank,
+    std::printf(", %lld of them redundant, %lld freedoms\n",
+                static_cast<long long>(model->n_constraints()) - rank,
                 static_cast<long long>(point.pencil.size()));
   } else {
     std::printf("\n");
@@ -120,7 +131,8 @@ int run_explain(const ExplainArguments& arguments) {
 
 void add_explain(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<ExplainArguments>();
-  CLI::App* command = program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
+  CLI::App* command =
+      program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   for (const std::string name : {"parameter", "from", "to", "order"}) {
     command->add_option_function<std::string>(

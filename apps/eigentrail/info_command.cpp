@@ -40,7 +40,8 @@ void print_for_people(const LociFile& loci) {
   if (loci.n_nodes() == 0) return;
   std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)\n", loci.parameter.c_str(),
               exact(loci.p.front()).c_str(), exact(loci.p.back()).c_str(),
-              loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(), attribute(loci, "tolerance").c_str(),
+              loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
+              attribute(loci, "tolerance").c_str(),
               rounded(std::stod(attribute(loci, "reference")), 4).c_str());
   std::vector<std::vector<std::string>> rows{
       {"mode", "s at the start", "s at the end", "worst residual", "worst condition"}};
@@ -96,7 +97,8 @@ void add_info(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("info", "what a loci file holds and how it was made");
   command->add_option("FILE", arguments->file, "loci file")->required();
   auto* json = command->add_flag("--json", arguments->json, "print one JSON object");
-  command->add_flag("--scene", arguments->scene, "print the scene that the file was made from")->excludes(json);
+  command->add_flag("--scene", arguments->scene, "print the scene that the file was made from")
+      ->excludes(json);
   command->footer("Example:\n  eigentrail info blade.h5");
   command->callback([arguments, &exit_code] { exit_code = run_info(*arguments); });
 }

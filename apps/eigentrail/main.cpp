@@ -8,10 +8,12 @@
 
 int main(int argc, char** argv) {
   using namespace eigentrail::app;
-  CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.", "eigentrail");
+  CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
+                   "eigentrail");
   program.set_version_flag("--version", "eigentrail " + eigentrail::version());
   program.require_subcommand(1);
-  program.footer("Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
+  program.footer(
+      "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
   int exit_code = done;
   add_trace(program, exit_code);
   add_eval(program, exit_code);

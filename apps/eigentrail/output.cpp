@@ -26,7 +26,8 @@ std::string complex_text(double real, double imag, int digits) {
 void print_table(const std::vector<std::vector<std::string>>& rows) {
   // Width in characters: continuation bytes of UTF-8 take no column.
   const auto width = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   };
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

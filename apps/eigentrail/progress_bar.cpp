@@ -22,7 +22,9 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 ProgressBar::ProgressBar(bool quiet)
-    : active_(!quiet && isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()), last_(start_) {}
+    : active_(!quiet && isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 
 void ProgressBar::finish() {
   if (drawn_) std::fprintf(stderr, "\r\033[K");
@@ -36,11 +38,13 @@ void ProgressBar::update(double fraction, int points) {
   last_ = now;
   drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string remaining = fraction > 0.01 ? duration_text(elapsed * (1.0 - fraction) / fraction) + " left" : "";
+  const std::string remaining =
+      fraction > 0.01 ? duration_text(elapsed * (1.0 - fraction) / fraction) + " left" : "";
   const int filled = std::clamp(static_cast<int>(fraction * bar_width), 0, bar_width);
-  std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %d points  %s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(bar_width - filled), '.').c_str(), 100.0 * fraction, points,
-               remaining.c_str());
+  std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %d points  %s",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(bar_width - filled), '.').c_str(), 100.0 * fraction,
+               points, remaining.c_str());
   std::fflush(stderr);
 }
 

@@ -20,7 +20,6 @@ class ProgressBar {
   void finish();
 
  private:
-
   bool active_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_, last_;

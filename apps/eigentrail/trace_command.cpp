@@ -56,7 +56,8 @@ void print_work(const TraceResult& result) {
                 r.no_equilibrium, r.mode_lost, r.mismatch, r.merged);
   }
   std::printf("\n        %s LU per mode and point, %llu KINSOL iterations, %llu KKT factorizations\n",
-              rounded(per_mode_and_step, 3).c_str(), static_cast<unsigned long long>(counts.equilibrium_iterations),
+              rounded(per_mode_and_step, 3).c_str(),
+              static_cast<unsigned long long>(counts.equilibrium_iterations),
               static_cast<unsigned long long>(counts.equilibrium_factorizations));
   std::printf("  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, output %s\n",
               rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
@@ -71,24 +72,27 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
   for (std::size_t i = 0; i < model.description().effects.size(); ++i) {
     const std::uint64_t evaluations = counts.residual[i] + counts.linearization[i];
     if (evaluations == 0) continue;
-    line += (line.empty() ? "" : ", ") + model.description().effects[i].name + " " + std::to_string(evaluations);
+    line +=
+        (line.empty() ? "" : ", ") + model.description().effects[i].name + " " + std::to_string(evaluations);
   }
   std::printf("  evaluations  %s\n", line.c_str());
 }
 
-void print_summary(const Scene& scene, const Model& model, const TraceOptions& options, const TraceResult& result,
-                   const Ends& ends) {
+void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
+                   const TraceResult& result, const Ends& ends) {
   const auto& parameters = model.description().parameters;
   const Parameter& traced = parameters[static_cast<std::size_t>(parameters.index(options.parameter).value())];
   if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
-  std::printf("  %s  %s -> %s %s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n", options.parameter.c_str(),
-              exact(options.from).c_str(), exact(result.reached).c_str(), traced.unit.c_str(),
-              exact(options.tolerance).c_str(), options.order, result.n_modes, result.n_available,
-              static_cast<long long>(result.n_independent));
+  std::printf("  %s  %s -> %s %s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
+              options.parameter.c_str(), exact(options.from).c_str(), exact(result.reached).c_str(),
+              traced.unit.c_str(), exact(options.tolerance).c_str(), options.order, result.n_modes,
+              result.n_available, static_cast<long long>(result.n_independent));
   if (result.n_infinite > 0) {
-    std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n", result.n_infinite);
+    std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n",
+                result.n_infinite);
   }
-  std::vector<std::vector<std::string>> rows{{"mode", "s at " + exact(options.from), "s at " + exact(result.reached)}};
+  std::vector<std::vector<std::string>> rows{
+      {"mode", "s at " + exact(options.from), "s at " + exact(result.reached)}};
   for (Eigen::Index i = 0; i < ends.first.size(); ++i) {
     rows.push_back({std::to_string(i + 1), complex_text(ends.first[i].real(), ends.first[i].imag(), 8),
                     complex_text(ends.last[i].real(), ends.last[i].imag(), 8)});
@@ -100,7 +104,8 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
 
 int run_trace(const TraceArguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
-  const TraceOptions options = read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
+  const TraceOptions options =
+      read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
   check_parameter_name(scene, options.parameter);
   check_output(arguments);
 
@@ -153,7 +158,8 @@ std::string flag(std::string key) {
 
 void add_trace(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<TraceArguments>();
-  CLI::App* command = program.add_subcommand("trace", "follow the eigenvalues of a scene and write a loci file");
+  CLI::App* command =
+      program.add_subcommand("trace", "follow the eigenvalues of a scene and write a loci file");
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", arguments->output, "loci file to write (HDF5)")->required();
   command->add_flag("--force", arguments->force, "replace an existing output");

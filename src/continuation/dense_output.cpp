@@ -16,7 +16,8 @@ ComplexMatrix in_unit_length(const ComplexMatrix& series, double length) {
 
 }  // namespace
 
-HermiteInterpolant::HermiteInterpolant(double a, const ComplexMatrix& left, double b, const ComplexMatrix& right)
+HermiteInterpolant::HermiteInterpolant(double a, const ComplexMatrix& left, double b,
+                                       const ComplexMatrix& right)
     : begin_(a), length_(b - a), at_left_(left.rows(), left.cols()), slope_(left.rows(), left.cols()) {
   const ComplexMatrix l = in_unit_length(left, length_);
   const ComplexMatrix r = in_unit_length(right, length_);
@@ -40,7 +41,8 @@ ComplexVector HermiteInterpolant::operator()(double p) const {
   const double t = (p - begin_) / length_;
   const double bubble = t * (t - 1.0);
   ComplexVector value = ComplexVector::Zero(at_left_.rows());
-  for (Eigen::Index k = at_left_.cols() - 1; k >= 0; --k) value = value * bubble + at_left_.col(k) + slope_.col(k) * t;
+  for (Eigen::Index k = at_left_.cols() - 1; k >= 0; --k)
+    value = value * bubble + at_left_.col(k) + slope_.col(k) * t;
   return value;
 }
 

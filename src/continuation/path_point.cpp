@@ -13,10 +13,12 @@ Equilibrium equilibrium_at(const PathProblem& problem, double p, const Vector& x
   const bool known = problem.structure.known_equilibrium ||
                      (problem.structure.fixed_equilibrium && lambda.size() == problem.model.n_constraints());
   if (known) {
-    const Vector multipliers = lambda.size() > 0 ? lambda : Vector(Vector::Zero(problem.model.n_constraints()));
+    const Vector multipliers =
+        lambda.size() > 0 ? lambda : Vector(Vector::Zero(problem.model.n_constraints()));
     return keep_equilibrium(problem.model, parameters, x, multipliers, counts.evaluations);
   }
-  Equilibrium result = solve_equilibrium(problem.model, parameters, x, lambda, problem.steady, counts.evaluations);
+  Equilibrium result =
+      solve_equilibrium(problem.model, parameters, x, lambda, problem.steady, counts.evaluations);
   counts.equilibrium_iterations += static_cast<std::uint64_t>(result.report.iterations);
   counts.equilibrium_factorizations += static_cast<std::uint64_t>(result.report.factorizations);
   return result;
@@ -98,7 +100,8 @@ PathPoint compute_point(const PathProblem& problem, double p, const Prediction& 
   const PencilAtPoint pencil(point.pencil);
   for (Eigen::Index i = 0; i < prediction.s.size(); ++i) {
     const ComplexVector shape = prediction.shapes.col(i);
-    const ComplexVector z = point.basis.is_identity ? shape : ComplexVector(point.basis.T[0].transpose().cast<Complex>() * shape);
+    const ComplexVector z =
+        point.basis.is_identity ? shape : ComplexVector(point.basis.T[0].transpose().cast<Complex>() * shape);
     point.modes.push_back(
         correct_mode(pencil, prediction.s[i], z, problem.s_ref, problem.corrector, counts.modes));
     if (point.modes.back().status != ModeStatus::converged) {
@@ -111,7 +114,8 @@ PathPoint compute_point(const PathProblem& problem, double p, const Prediction& 
   return point;
 }
 
-std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, RunCounts& counts) {
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            RunCounts& counts) {
   return differentiate_point(problem, point, problem.traced, counts);
 }
 
@@ -122,7 +126,8 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   node.p = point.p;
   if (path_series(problem, point, parameter, node.path, counts)) return std::nullopt;
   Linearization linearization;
-  if (problem.model.linearize(node.path, problem.order, linearization, counts.evaluations)) return std::nullopt;
+  if (problem.model.linearize(node.path, problem.order, linearization, counts.evaluations))
+    return std::nullopt;
   TangentBasis basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), linearization.A, problem.order, basis);
   const ReducedPencil pencil = reduce(linearization, basis, problem.order);

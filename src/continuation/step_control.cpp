@@ -15,7 +15,10 @@ constexpr double smallest_step = 1e-11;  ///< of the range
 }  // namespace
 
 StepControl::StepControl(double range, int order, double first_step, double max_step)
-    : order_(order), step_(std::min(first_step, max_step)), max_step_(max_step), min_step_(smallest_step * range) {}
+    : order_(order),
+      step_(std::min(first_step, max_step)),
+      max_step_(max_step),
+      min_step_(smallest_step * range) {}
 
 double StepControl::propose(double remaining) const {
   const double step = std::min(step_, max_step_);
@@ -26,8 +29,8 @@ double StepControl::propose(double remaining) const {
 double StepControl::error_from_miss(double h, double miss) const {
   const double ratio = last_step_ > 0.0 ? 0.25 / (1.0 + last_step_ / h) : 0.25;
   const double error = miss * std::pow(ratio, order_ + 1);
-  // The miss averages the derivative over this step and the last one. Where it grows from step to step, this step has
-  // the larger half of it.
+  // The miss averages the derivative over this step and the last one. Where it grows from step to step, this
+  // step has the larger half of it.
   return last_error_ > 0.0 ? error * std::pow(std::max(trend(h, error), 1.0), order_ + 1) : error;
 }
 
@@ -35,7 +38,9 @@ double StepControl::trend(double h, double error) const {
   return (last_step_ / h) * std::pow(error / last_error_, 1.0 / (2.0 * order_ + 2.0));
 }
 
-double StepControl::growth(double error) const { return std::pow(aim / error, 1.0 / (2.0 * order_ + 2.0)); }
+double StepControl::growth(double error) const {
+  return std::pow(aim / error, 1.0 / (2.0 * order_ + 2.0));
+}
 
 void StepControl::accept(double h, double error) {
   error = std::max(error, least_error);

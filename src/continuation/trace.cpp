@@ -73,13 +73,16 @@ class Tracer {
     result_.n_available = static_cast<int>(spectrum.modes.size());
     const std::string where = " at " + at_parameter(options_, options_.from);
     if (spectrum.status == SpectrumStatus::singular_pencil) {
-      stop(TraceStatus::singular_pencil, "the pencil is singular" + where + ": every number is an eigenvalue. A freedom "
-                                         "without mass, damping and stiffness causes this; remove or constrain it");
+      stop(TraceStatus::singular_pencil,
+           "the pencil is singular" + where +
+               ": every number is an eigenvalue. A freedom "
+               "without mass, damping and stiffness causes this; remove or constrain it");
       return std::nullopt;
     }
     if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) {
-      stop(TraceStatus::no_modes, "there are no modes to follow" + where +
-                                      (result_.n_independent == 0 ? ": the constraints leave no freedom" : ""));
+      stop(TraceStatus::no_modes,
+           "there are no modes to follow" + where +
+               (result_.n_independent == 0 ? ": the constraints leave no freedom" : ""));
       return std::nullopt;
     }
     auto& modes = spectrum.modes;
@@ -99,16 +102,19 @@ class Tracer {
     for (const StartingMode& mode : modes) {
       point.modes.push_back(
           correct_mode(pencil, mode.s, mode.z, problem_.s_ref, problem_.corrector, result_.counts.modes));
-      const double drift = std::abs(point.modes.back().s - mode.s) / std::max(std::abs(mode.s), problem_.s_ref);
+      const double drift =
+          std::abs(point.modes.back().s - mode.s) / std::max(std::abs(mode.s), problem_.s_ref);
       if (point.modes.back().status == ModeStatus::converged && drift < 1e-2) continue;
       std::ostringstream message;
-      message << "the mode at s = " << mode.s.real() << " + " << mode.s.imag() << "j is not a simple eigenvalue at "
-              << at_parameter(options_, options_.from) << "; begin the trace elsewhere";
+      message << "the mode at s = " << mode.s.real() << " + " << mode.s.imag()
+              << "j is not a simple eigenvalue at " << at_parameter(options_, options_.from)
+              << "; begin the trace elsewhere";
       return stop(TraceStatus::multiple_mode, message.str());
     }
     if (merged(point)) {
-      return stop(TraceStatus::multiple_mode, "two modes coincide at " + at_parameter(options_, options_.from) +
-                                                  "; begin the trace elsewhere");
+      return stop(
+          TraceStatus::multiple_mode,
+          "two modes coincide at " + at_parameter(options_, options_.from) + "; begin the trace elsewhere");
     }
     return true;
   }
@@ -121,7 +127,8 @@ class Tracer {
     while (node_.p != options_.to) {
       if (result_.nodes >= options_.max_nodes) {
         stop(TraceStatus::too_many_nodes, "stopped after " + std::to_string(result_.nodes) + " points at " +
-                                              at_parameter(options_, node_.p) + "; raise max_nodes or the tolerance");
+                                              at_parameter(options_, node_.p) +
+                                              "; raise max_nodes or the tolerance");
         return;
       }
       if (!advance(control)) return;
@@ -160,7 +167,8 @@ class Tracer {
   /// Whether the point was computed and its modes are the ones that were predicted.
   bool acceptable(const PathPoint& point, const Prediction& prediction, std::string& reason) {
     if (point.status != PointStatus::computed) {
-      ++(point.status == PointStatus::no_equilibrium ? result_.rejections.no_equilibrium : result_.rejections.mode_lost);
+      ++(point.status == PointStatus::no_equilibrium ? result_.rejections.no_equilibrium
+                                                     : result_.rejections.mode_lost);
       reason = point.message;
       return false;
     }
@@ -199,9 +207,9 @@ class Tracer {
   /// Miss / tolerance of the eigenvalues extrapolated from the last step (from the series, on the first).
   double largest_miss(const PathPoint& point) const {
     const ComplexVector s = point.eigenvalues();
-    const ComplexVector expected = previous_
-                                       ? HermiteInterpolant(previous_->p, previous_->s, node_.p, node_.s)(point.p)
-                                       : ComplexVector(evaluate_series(node_.s, point.p - node_.p));
+    const ComplexVector expected =
+        previous_ ? HermiteInterpolant(previous_->p, previous_->s, node_.p, node_.s)(point.p)
+                  : ComplexVector(evaluate_series(node_.s, point.p - node_.p));
     return relative_error(s, (s - expected).cwiseAbs());
   }
 
@@ -216,7 +224,8 @@ class Tracer {
     const ComplexVector s = point.eigenvalues();
     const Matrix assurance =
         modal_assurance(prediction.shapes, point.shapes(), point.equilibrium.linearization.M[0]);
-    // Modes may share a shape (the two roots of an overdamped freedom): the distance of the eigenvalues decides then.
+    // Modes may share a shape (the two roots of an overdamped freedom): the distance of the eigenvalues
+    // decides then.
     Matrix cost(s.size(), s.size());
     for (Eigen::Index i = 0; i < s.size(); ++i) {
       for (Eigen::Index j = 0; j < s.size(); ++j) {
@@ -250,7 +259,8 @@ class Tracer {
     const int q = options_.order;
     double step = 0.05 * range;
     for (Eigen::Index i = 0; i < node_.s.rows(); ++i) {
-      const double allowed = options_.tolerance * std::pow(4.0, q + 1) * std::max(std::abs(node_.s(i, 0)), problem_.s_ref);
+      const double allowed =
+          options_.tolerance * std::pow(4.0, q + 1) * std::max(std::abs(node_.s(i, 0)), problem_.s_ref);
       const double last = std::abs(node_.s(i, q));
       if (last > 0.0) step = std::min(step, std::pow(allowed / last, 1.0 / q));
     }
@@ -288,7 +298,8 @@ bool has_started(TraceStatus status) {
          status == TraceStatus::too_many_nodes || status == TraceStatus::stopped;
 }
 
-TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer, BasisChoice basis) {
+TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+                  BasisChoice basis) {
   return Tracer(model, options, observer, basis).run();
 }
 

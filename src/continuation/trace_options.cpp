@@ -55,10 +55,14 @@ class OptionReader {
     if (expression.is_constant()) return expression.evaluate(std::span<const double>());
     Vector si = scene_.parameters.declared_values();
     scene_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
-    const double value = expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
-    const bool in_parameter_unit = std::string_view(key) != "tolerance" && std::string_view(key) != "reference";
-    const auto traced = table_.has("parameter") ? scene_.parameters.index(table_.text("parameter")) : std::nullopt;
-    return in_parameter_unit && traced ? value / scene_.parameters[static_cast<std::size_t>(*traced)].factor : value;
+    const double value =
+        expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
+    const bool in_parameter_unit =
+        std::string_view(key) != "tolerance" && std::string_view(key) != "reference";
+    const auto traced =
+        table_.has("parameter") ? scene_.parameters.index(table_.text("parameter")) : std::nullopt;
+    return in_parameter_unit && traced ? value / scene_.parameters[static_cast<std::size_t>(*traced)].factor
+                                       : value;
   }
 
   int whole_number(const char* key) {
@@ -73,10 +77,12 @@ class OptionReader {
   TableReader& table_;
 };
 
-/// The [trace] table with the command line's values in place of its own. Texts that are numbers become numbers.
+/// The [trace] table with the command line's values in place of its own. Texts that are numbers become
+/// numbers.
 Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const auto found = tables(scene, "trace");
-  if (found.size() > 1) throw scene_error(scene, found[1]->where, "[trace]: a scene has one of these at most");
+  if (found.size() > 1)
+    throw scene_error(scene, found[1]->where, "[trace]: a scene has one of these at most");
   Table merged;
   if (!found.empty()) merged = *found[0];
   for (const auto& [key, text] : overrides) {
@@ -96,16 +102,20 @@ void check(const TraceOptions& options, const Scene& scene, const TableReader& t
     if (!holds) table.fail(key, message);
   };
   const std::vector<std::string>& names = scene.parameters.names();
-  require(!options.parameter.empty(), "parameter", "is missing; name the parameter to trace, or give --parameter");
+  require(!options.parameter.empty(), "parameter",
+          "is missing; name the parameter to trace, or give --parameter");
   const auto index = scene.parameters.index(options.parameter);
-  require(index.has_value(), "parameter", "no parameter is called '" + options.parameter + "'; " + suggestion(options.parameter, names));
+  require(index.has_value(), "parameter",
+          "no parameter is called '" + options.parameter + "'; " + suggestion(options.parameter, names));
   require(!scene.parameters[static_cast<std::size_t>(*index)].definition, "parameter",
           "'" + options.parameter + "' is defined by an expression; trace one of the parameters in it");
-  require(options.from != options.to, "to", "equals from (" + to_text(options.from) + "): the range is empty");
+  require(options.from != options.to, "to",
+          "equals from (" + to_text(options.from) + "): the range is empty");
   require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
           "must lie between 1e-13 and 0.1; found " + to_text(options.tolerance));
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
-  require(options.order >= 1 && options.order <= max_order, "order", "must lie between 1 and " + std::to_string(max_order));
+  require(options.order >= 1 && options.order <= max_order, "order",
+          "must lie between 1 and " + std::to_string(max_order));
   require(!options.reference || *options.reference > 0.0, "reference", "must be positive");
   require(!options.first_step || *options.first_step > 0.0, "first_step", "must be positive");
   require(!options.max_step || *options.max_step > 0.0, "max_step", "must be positive");

@@ -35,7 +35,9 @@ void check(herr_t code, const std::string& action) {
 }
 
 /// Errors are reported by our exceptions; HDF5's own stack dump on stderr is switched off.
-void silence_error_stack() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence_error_stack() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Handle text_type() {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
@@ -53,16 +55,21 @@ Handle complex_type() {
 
 Handle memory_type(ElementType type) {
   switch (type) {
-    case ElementType::complex: return complex_type();
-    case ElementType::text: return text_type();
-    case ElementType::integer: return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose, "make an integer type"};
-    default: return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
+    case ElementType::complex:
+      return complex_type();
+    case ElementType::text:
+      return text_type();
+    case ElementType::integer:
+      return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose, "make an integer type"};
+    default:
+      return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
   }
 }
 
 void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar space");
-  if (H5Aexists(object, name.c_str()) > 0) check(H5Adelete(object, name.c_str()), "replace attribute " + name);
+  if (H5Aexists(object, name.c_str()) > 0)
+    check(H5Adelete(object, name.c_str()), "replace attribute " + name);
   const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                          "create attribute " + name);
   check(H5Awrite(attribute, type, value), "write attribute " + name);
@@ -115,7 +122,8 @@ struct Hdf5File::Implementation {
     return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
   }
 
-  void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count, const void* data) {
+  void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
+             const void* data) {
     if (count == 0) return;
     const std::string action = "write dataset " + name + " of " + path;
     const Handle set = dataset(name);
@@ -138,7 +146,8 @@ struct Hdf5File::Implementation {
     }
     const Handle space(H5Dget_space(set), H5Sclose, action);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), action);
-    const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose, action);
+    const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
+                        action);
     check(H5Dwrite(set, memory_type(type), memory, space, H5P_DEFAULT, data), action);
   }
 
@@ -169,7 +178,8 @@ struct Hdf5File::Implementation {
   }
 };
 
-Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
 Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
 Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
 Hdf5File::~Hdf5File() = default;
@@ -199,18 +209,21 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
     for (hsize_t& c : chunk) c = std::max<hsize_t>(c, 1);
     check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), action);
   }
-  const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose, action);
-  const Handle set(H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, H5P_DEFAULT, properties,
-                              H5P_DEFAULT),
-                   H5Dclose, action);
+  const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose,
+                     action);
+  const Handle set(
+      H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+      H5Dclose, action);
   for (const auto& [name, value] : spec.attributes) write_text_attribute(set, name, value);
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<double>& data) {
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<double>& data) {
   implementation_->write(dataset, first_row, ElementType::real, data.size(), data.data());
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Complex>& data) {
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<Complex>& data) {
   implementation_->write(dataset, first_row, ElementType::complex, data.size(), data.data());
 }
 
@@ -219,7 +232,8 @@ void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
   implementation_->write(dataset, first_row, ElementType::integer, data.size(), data.data());
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::string>& data) {
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<std::string>& data) {
   std::vector<const char*> texts;
   texts.reserve(data.size());
   for (const std::string& text : data) texts.push_back(text.c_str());
@@ -259,7 +273,9 @@ bool Hdf5File::has(const std::string& dataset) const {
   }
 }
 
-Shape Hdf5File::shape(const std::string& dataset) const { return implementation_->shape(dataset); }
+Shape Hdf5File::shape(const std::string& dataset) const {
+  return implementation_->shape(dataset);
+}
 
 std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
   return implementation_->read<double>(dataset, ElementType::real);
@@ -303,7 +319,8 @@ std::vector<std::string> Hdf5File::attribute_names() const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  check(H5Aiterate2(implementation_->file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list attributes");
+  check(H5Aiterate2(implementation_->file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+        "list attributes");
   return names;
 }
 

@@ -46,7 +46,8 @@ class Hdf5File {
 
   void create_dataset(const DatasetSpec& spec);
 
-  /// Writes whole rows (first index) from `first_row` on, growing the dataset when it must. Data are row-major.
+  /// Writes whole rows (first index) from `first_row` on, growing the dataset when it must. Data are
+  /// row-major.
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<double>& data);
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Complex>& data);
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::int64_t>& data);

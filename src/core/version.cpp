@@ -2,6 +2,8 @@
 
 namespace eigentrail {
 
-std::string version() { return EIGENTRAIL_VERSION; }
+std::string version() {
+  return EIGENTRAIL_VERSION;
+}
 
 }  // namespace eigentrail

@@ -131,7 +131,8 @@ template <int Q, class Element>
 std::span<const Series<double, Q>> own_multipliers(const Placed<Element>& placed,
                                                    const PathValues<Series<double, Q>>& values) {
   if constexpr (HasConstraint<Element>) {
-    return std::span(values.lambda).subspan(static_cast<std::size_t>(placed.first_row), Element::constraint_count);
+    return std::span(values.lambda)
+        .subspan(static_cast<std::size_t>(placed.first_row), Element::constraint_count);
   } else {
     return {};
   }
@@ -165,7 +166,8 @@ EvaluationFault Assembly<Q>::residual(SteadyResidual& result, EvaluationCounts& 
       const auto lambda = own_multipliers<Q>(placed, values_);
       bool finite = true;
       if constexpr (HasForce<Element>) finite = force_residual<Q>(placed, values_, lambda, result) && finite;
-      if constexpr (HasConstraint<Element>) finite = constraint_residual<Q>(placed, values_, lambda, result) && finite;
+      if constexpr (HasConstraint<Element>)
+        finite = constraint_residual<Q>(placed, values_, lambda, result) && finite;
       if (!finite && !fault) fault.source = placed.label;
     }
     counts.residual[kind] += list.size();
@@ -186,7 +188,8 @@ EvaluationFault Assembly<Q>::linearize(Linearization& result, EvaluationCounts& 
       const auto lambda = own_multipliers<Q>(placed, values_);
       bool finite = true;
       if constexpr (HasForce<Element>) finite = linearize_force<Q>(placed, values_, lambda, result) && finite;
-      if constexpr (HasConstraint<Element>) finite = linearize_constraint<Q>(placed, values_, lambda, result) && finite;
+      if constexpr (HasConstraint<Element>)
+        finite = linearize_constraint<Q>(placed, values_, lambda, result) && finite;
       if (!finite && !fault) fault.source = placed.label;
     }
     counts.linearization[kind] += list.size();

@@ -67,7 +67,8 @@ struct QuantityField {
   Enters enters;
   std::string_view help;
   Range range = Range::any;
-  std::optional<double> otherwise = std::nullopt;  ///< value when the scene is silent; absent: the key is required
+  std::optional<double> otherwise =
+      std::nullopt;  ///< value when the scene is silent; absent: the key is required
 };
 
 /// Kinematic quantities a force depends on; the others are never differentiated.
@@ -108,8 +109,9 @@ struct PathValues {
   std::vector<Base> values;  ///< quantities, by slot
 };
 
-/// What an element sees and writes to during one evaluation. Scalar is Series<double, Q> (values along the path), or
-/// that nested once (with the derivative in direction `seeds[0]`) or twice (`seeds[0]` and `seeds[1]`).
+/// What an element sees and writes to during one evaluation. Scalar is Series<double, Q> (values along the
+/// path), or that nested once (with the derivative in direction `seeds[0]`) or twice (`seeds[0]` and
+/// `seeds[1]`).
 template <class Scalar>
 class ElementView {
  public:
@@ -134,7 +136,8 @@ class ElementView {
     return {coordinate(place, 0), coordinate(place, 1), coordinate(place, 2)};
   }
 
-  /// Velocity relative to the frame, m/s: zero at the steady state, present as a direction of differentiation.
+  /// Velocity relative to the frame, m/s: zero at the steady state, present as a direction of
+  /// differentiation.
   Vec3<Scalar> velocity(const Place& place) const { return rate(place, Motion::velocity); }
 
   /// Acceleration relative to the frame, m/s^2: likewise.

@@ -27,7 +27,9 @@ ParameterSeries parameter_series(const Parameters& parameters, int variable, con
   return result;
 }
 
-bool is_zero(const MatrixSeries& series, std::size_t k) { return series[k].isZero(0.0); }
+bool is_zero(const MatrixSeries& series, std::size_t k) {
+  return series[k].isZero(0.0);
+}
 
 /// Coefficients of the polynomial along the path up to h^order, trailing zeros dropped.
 MatrixSeries evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
@@ -80,22 +82,31 @@ MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPol
         const bool k_symmetric = symmetry(K) == Symmetry::symmetric;
         description.effects = {
             {"M", "mass matrix, polynomial in the traced parameter", count(M), {.inertia = true}},
-            {"C", "damping and gyroscopic matrix", count(C),
+            {"C",
+             "damping and gyroscopic matrix",
+             count(C),
              {.dissipative = c != Symmetry::skew, .gyroscopic = c != Symmetry::symmetric}},
             {"K", "stiffness matrix", count(K), {.conservative = true, .circulatory = !k_symmetric}},
             {"A", "constraint matrix", count(A), {.constraint = true}}};
         return std::move(description);
       }()),
-      variable_(variable), M_(std::move(M)), C_(std::move(C)), K_(std::move(K)), A_(std::move(A)) {}
+      variable_(variable),
+      M_(std::move(M)),
+      C_(std::move(C)),
+      K_(std::move(K)),
+      A_(std::move(A)) {}
 
-Vector MatrixFamily::initial_guess(const Vector&) const { return Vector::Zero(n_coordinates()); }
+Vector MatrixFamily::initial_guess(const Vector&) const {
+  return Vector::Zero(n_coordinates());
+}
 
 bool MatrixFamily::constant(const MatrixPolynomial& polynomial, int traced_parameter) const {
   const Parameters& parameters = description().parameters;
   if (polynomial.coefficients.size() > 1 && parameters.depends_on(variable_, traced_parameter)) return false;
-  return std::none_of(polynomial.entries.begin(), polynomial.entries.end(), [&](const MatrixPolynomial::Entry& entry) {
-    return parameters.depends_on(entry.expression, traced_parameter);
-  });
+  return std::none_of(polynomial.entries.begin(), polynomial.entries.end(),
+                      [&](const MatrixPolynomial::Entry& entry) {
+                        return parameters.depends_on(entry.expression, traced_parameter);
+                      });
 }
 
 Structure MatrixFamily::structure(int traced_parameter) const {

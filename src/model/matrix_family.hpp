@@ -25,8 +25,8 @@ class MatrixFamily final : public Model {
  public:
   /// `variable` is the index of the parameter whose powers multiply the coefficients. C and A may be empty.
   /// Shapes are n x n, of A m x n; the caller has checked them.
-  MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C, MatrixPolynomial K,
-               MatrixPolynomial A);
+  MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
+               MatrixPolynomial K, MatrixPolynomial A);
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;

@@ -39,12 +39,18 @@ class TracedRoles {
 template <class Visit>
 EvaluationFault dispatch(int order, Visit&& visit) {
   switch (order) {
-    case 0: return visit.template operator()<0>();
-    case 1: return visit.template operator()<1>();
-    case 2: return visit.template operator()<2>();
-    case 3: return visit.template operator()<3>();
-    case 4: return visit.template operator()<4>();
-    default: throw std::invalid_argument("order of a series: expected 0 to 4, got " + std::to_string(order));
+    case 0:
+      return visit.template operator()<0>();
+    case 1:
+      return visit.template operator()<1>();
+    case 2:
+      return visit.template operator()<2>();
+    case 3:
+      return visit.template operator()<3>();
+    case 4:
+      return visit.template operator()<4>();
+    default:
+      throw std::invalid_argument("order of a series: expected 0 to 4, got " + std::to_string(order));
   }
 }
 
@@ -58,7 +64,8 @@ Vector Multibody::initial_guess(const Vector& parameters) const {
   data_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
   const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
   Vector x(static_cast<Eigen::Index>(guess_.size()));
-  for (std::size_t i = 0; i < guess_.size(); ++i) x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
+  for (std::size_t i = 0; i < guess_.size(); ++i)
+    x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
   return x;
 }
 
@@ -81,8 +88,7 @@ Structure Multibody::structure(int traced_parameter) const {
   result.constant_mass = !changes.mass;
   result.constant_damping = !changes.damping;
   result.constant_stiffness = result.fixed_equilibrium;
-  result.constant_constraints =
-      !changes.constraint && (result.fixed_equilibrium || !curved_constraints);
+  result.constant_constraints = !changes.constraint && (result.fixed_equilibrium || !curved_constraints);
   return result;
 }
 

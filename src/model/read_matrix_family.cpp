@@ -15,7 +15,9 @@ struct FamilyReader {
   const Scene& scene;
   TableReader table;
 
-  [[noreturn]] void fail(const std::string& key, const std::string& message) const { table.fail(key, message); }
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const {
+    table.fail(key, message);
+  }
 
   /// The polynomial written in the scene; its numbers go to the coefficients, its expressions to the entries.
   MatrixPolynomial from_scene(const std::string& key) {
@@ -31,8 +33,8 @@ struct FamilyReader {
     return polynomial;
   }
 
-  void add_coefficient(MatrixPolynomial& polynomial, int power, const std::vector<std::vector<Expression>>& rows,
-                       const std::string& key) const {
+  void add_coefficient(MatrixPolynomial& polynomial, int power,
+                       const std::vector<std::vector<Expression>>& rows, const std::string& key) const {
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
     const auto n_columns = static_cast<Eigen::Index>(rows.empty() ? 0 : rows[0].size());
     Matrix& coefficient = polynomial.coefficients.emplace_back(Matrix::Zero(n_rows, n_columns));
@@ -61,7 +63,8 @@ struct FamilyReader {
       if (!file.has(name)) break;
       const Shape shape = file.shape(name);
       if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
-        fail("file", "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+        fail("file",
+             "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
       }
       const std::vector<double> data = file.read_real(name);
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -75,9 +78,10 @@ struct FamilyReader {
     for (const Matrix& c : polynomial.coefficients) {
       const bool square = key == "A" || c.rows() == n;
       if (c.cols() != n || !square || c.rows() != polynomial.coefficients[0].rows()) {
-        fail(key, "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols()) + ", M is " + std::to_string(n) +
-                      " x " + std::to_string(n) + "; " +
-                      (key == "A" ? "A needs as many columns, and the same rows for every power" : "all have the same size"));
+        fail(key, "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols()) + ", M is " +
+                      std::to_string(n) + " x " + std::to_string(n) + "; " +
+                      (key == "A" ? "A needs as many columns, and the same rows for every power"
+                                  : "all have the same size"));
       }
       if (!c.allFinite()) fail(key, "has an entry that is not finite");
     }
@@ -108,14 +112,17 @@ void check_top_level(const Scene& scene) {
   const std::vector<std::string> known = {"title", "parameters", "trace", "matrix_family"};
   for (const auto& [key, value] : scene.root.entries) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw scene_error(scene, value.where, key + ": unknown key in a scene with [matrix_family]; " + suggestion(key, known));
+      throw scene_error(scene, value.where,
+                        key + ": unknown key in a scene with [matrix_family]; " + suggestion(key, known));
     }
   }
 }
 
 }  // namespace
 
-bool is_matrix_family(const Scene& scene) { return scene.root.find("matrix_family") != nullptr; }
+bool is_matrix_family(const Scene& scene) {
+  return scene.root.find("matrix_family") != nullptr;
+}
 
 std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
   check_top_level(scene);
@@ -133,7 +140,8 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
       K = reader.from_file(file, "K");
       A = reader.from_file(file, "A");
     } catch (const Hdf5Error& error) {
-      reader.fail("file", std::string(error.what()) + "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...");
+      reader.fail("file",
+                  std::string(error.what()) + "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...");
     }
     if (M.empty() || K.empty()) reader.fail("file", path + " has no dataset /M/0 or no /K/0");
   } else {
@@ -149,9 +157,11 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
   const std::string variable = variable_name(scene);
   const auto index = scene.parameters.index(variable);
   if (!index) {
-    throw InputError(scene.path + ": [trace] parameter: name the parameter whose powers multiply the matrices");
+    throw InputError(scene.path +
+                     ": [trace] parameter: name the parameter whose powers multiply the matrices");
   }
-  for (const auto& [polynomial, key] : {std::pair(&M, "M"), std::pair(&C, "C"), std::pair(&K, "K"), std::pair(&A, "A")}) {
+  for (const auto& [polynomial, key] :
+       {std::pair(&M, "M"), std::pair(&C, "C"), std::pair(&K, "K"), std::pair(&A, "A")}) {
     reader.check_shape(*polynomial, key, n);
     if (polynomial->coefficients.size() > 1) used.insert(*index);
   }
@@ -166,8 +176,8 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
     description.constraint_names.push_back("A row " + std::to_string(i + 1));
   }
   description.parameters = scene.parameters;
-  return std::make_unique<MatrixFamily>(std::move(description), *index, std::move(M), std::move(C), std::move(K),
-                                        std::move(A));
+  return std::make_unique<MatrixFamily>(std::move(description), *index, std::move(M), std::move(C),
+                                        std::move(K), std::move(A));
 }
 
 }  // namespace eigentrail

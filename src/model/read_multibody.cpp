@@ -40,7 +40,8 @@ struct Draft {
     return values;
   }
 
-  void check_range(const TableReader& reader, const std::string& key, const Expression& expression, Range range) const {
+  void check_range(const TableReader& reader, const std::string& key, const Expression& expression,
+                   Range range) const {
     for (const double value : check_values(expression)) {
       const std::string found = "found " + std::to_string(value);
       if (!std::isfinite(value)) reader.fail(key, "is not a finite number at an end of the trace");
@@ -51,7 +52,8 @@ struct Draft {
 
   int point_index(const TableReader& reader, const std::string& key, const std::string& name) const {
     const auto found = std::find(points.begin(), points.end(), name);
-    if (found == points.end()) reader.fail(key, "no point is called '" + name + "'; " + suggestion(name, points));
+    if (found == points.end())
+      reader.fail(key, "no point is called '" + name + "'; " + suggestion(name, points));
     return static_cast<int>(found - points.begin());
   }
 };
@@ -143,7 +145,8 @@ void read_elements(Draft& draft, std::vector<Placed<Element>>& list) {
   const std::vector<const Table*> all = tables(draft.scene, std::string(Element::name));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string number = numbered(Element::name, i);
-    TableReader table = draft.reader(*all[i], "[[" + std::string(Element::name) + "]] " + std::to_string(i + 1));
+    TableReader table =
+        draft.reader(*all[i], "[[" + std::string(Element::name) + "]] " + std::to_string(i + 1));
     Element element;
     FieldReader fields(draft, table);
     Element::fields(element, fields);
@@ -151,7 +154,8 @@ void read_elements(Draft& draft, std::vector<Placed<Element>>& list) {
     table.finish();
     add_element(draft, list, std::move(element), label);
     if (list.back().points.empty()) {
-      throw scene_error(draft.scene, all[i]->where, table.label() + ": joins no moving point; name one in it");
+      throw scene_error(draft.scene, all[i]->where,
+                        table.label() + ": joins no moving point; name one in it");
     }
   }
 }
@@ -189,7 +193,8 @@ std::optional<std::array<Expression, 3>> read_field(Draft& draft, const std::str
   const std::vector<const Table*> found = tables(draft.scene, std::string(Element::name));
   if (found.empty()) return std::nullopt;
   const std::string label = "[" + std::string(Element::name) + "]";
-  if (found.size() > 1) throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
+  if (found.size() > 1)
+    throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
   TableReader table = draft.reader(*found[0], label);
   const std::array<Expression, 3> field = table.vector(key);
   for (const Expression& e : field) draft.check_range(table, key, e, Range::any);
@@ -207,15 +212,17 @@ std::optional<std::array<Expression, 3>> read_field(Draft& draft, const std::str
 void check_gravity(const Draft& draft, const std::array<Expression, 3>& rotation,
                    const std::array<Expression, 3>& gravity) {
   const auto values = [&](const std::array<Expression, 3>& v, std::size_t i) {
-    return Eigen::Vector3d(draft.check_values(v[0])[i], draft.check_values(v[1])[i], draft.check_values(v[2])[i]);
+    return Eigen::Vector3d(draft.check_values(v[0])[i], draft.check_values(v[1])[i],
+                           draft.check_values(v[2])[i]);
   };
   for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
     const Eigen::Vector3d w = values(rotation, i);
     const Eigen::Vector3d g = values(gravity, i);
     if (w.cross(g).norm() <= 1e-12 * w.norm() * g.norm()) continue;
-    throw scene_error(draft.scene, tables(draft.scene, "gravity")[0]->where,
-                      "[gravity] acceleration: must be parallel to [frame] angular_velocity, or it turns in the frame "
-                      "and there is no steady state");
+    throw scene_error(
+        draft.scene, tables(draft.scene, "gravity")[0]->where,
+        "[gravity] acceleration: must be parallel to [frame] angular_velocity, or it turns in the frame "
+        "and there is no steady state");
   }
 }
 

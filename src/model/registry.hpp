@@ -58,15 +58,21 @@ using Elements = ElementTable<  //
     Plane,                      //
     FixedCoordinate>;
 
-/// Masses, the frame and gravity are read from [[point]], [frame] and [gravity]; all others from a table each.
+/// Masses, the frame and gravity are read from [[point]], [frame] and [gravity]; all others from a table
+/// each.
 template <class Element>
-inline constexpr bool has_own_table = !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RotatingFrame> &&
-                                      !std::is_same_v<Element, Gravity>;
+inline constexpr bool has_own_table =
+    !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RotatingFrame> &&
+    !std::is_same_v<Element, Gravity>;
 
 template <class Element>
-concept HasForce = requires { Element::depends; };
+concept HasForce = requires {
+  Element::depends;
+};
 
 template <class Element>
-concept HasConstraint = requires { Element::constraint_count; };
+concept HasConstraint = requires {
+  Element::constraint_count;
+};
 
 }  // namespace eigentrail

@@ -20,8 +20,8 @@ ComplexVector multiply(const Matrix& B, const ComplexVector& z) {
   return result;
 }
 
-/// Corrects an approximate solution until its corrections stop shrinking or vanish; `correct` returns the size of one
-/// correction relative to the solution.
+/// Corrects an approximate solution until its corrections stop shrinking or vanish; `correct` returns the
+/// size of one correction relative to the solution.
 template <class Correct>
 void refine(Correct&& correct) {
   double last = INFINITY;

@@ -45,8 +45,8 @@ bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   return true;
 }
 
-/// Right vector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu z],
-/// whichever is larger.
+/// Right vector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu
+/// z], whichever is larger.
 ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex) {
   const Eigen::Index n = vectors.rows() / 2;
   ComplexVector both(2 * n);
@@ -88,11 +88,13 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
     if (std::abs(beta[j]) <= infinite * std::abs(alpha)) {
       ++spectrum.n_infinite;
     } else if (alpha_imag[j] >= 0.0) {
-      spectrum.modes.push_back({scaling.gamma * alpha / beta[j], right_vector(vectors, j, alpha_imag[j] > 0.0)});
+      spectrum.modes.push_back(
+          {scaling.gamma * alpha / beta[j], right_vector(vectors, j, alpha_imag[j] > 0.0)});
     }
   }
   std::sort(spectrum.modes.begin(), spectrum.modes.end(), [](const StartingMode& p, const StartingMode& q) {
-    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) < std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
+    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
+           std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
   });
   spectrum.status = SpectrumStatus::complete;
   return spectrum;

@@ -9,8 +9,8 @@ TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Mat
   const Matrix& Q2 = constraints.null_basis();
   if (constraints.rank() == 0) return {{Q2}, true};
   if (previous.cols() != Q2.cols() || previous.rows() != Q2.rows()) return {{Q2}, false};
-  // W = Q2^T T_previous is close to orthogonal on a short step; W L^-T with W^T W = L L^T is the nearby orthogonal
-  // matrix. A step that turns the tangent space by 90 degrees has no nearby one and starts afresh.
+  // W = Q2^T T_previous is close to orthogonal on a short step; W L^-T with W^T W = L L^T is the nearby
+  // orthogonal matrix. A step that turns the tangent space by 90 degrees has no nearby one and starts afresh.
   const Matrix W = Q2.transpose() * previous;
   const Eigen::LLT<Matrix> cholesky(W.transpose() * W);
   if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > 1e-8)) return {{Q2}, false};

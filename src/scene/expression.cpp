@@ -21,8 +21,12 @@ const std::map<std::string_view, Op>& functions() {
   return table;
 }
 
-bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool continues_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool starts_name(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+}
+bool continues_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
 
 constexpr int max_depth = 100;
 constexpr std::size_t max_length = 4096;
@@ -32,12 +36,14 @@ constexpr std::size_t max_length = 4096;
 // Recursive descent over the grammar in the header, one function per rule, emitting postfix code.
 class ExpressionParser {
  public:
-  ExpressionParser(std::string_view text, const std::vector<std::string>& names) : text_(text), names_(names) {
+  ExpressionParser(std::string_view text, const std::vector<std::string>& names)
+      : text_(text), names_(names) {
     result_.code_.clear();
   }
 
   Expression parse() {
-    if (text_.size() > max_length) fail("expression longer than " + std::to_string(max_length) + " characters");
+    if (text_.size() > max_length)
+      fail("expression longer than " + std::to_string(max_length) + " characters");
     sum();
     if (!at_end()) fail(std::string("unexpected '") + text_[at_] + "'");
     auto& used = result_.parameters_;
@@ -162,7 +168,8 @@ class ExpressionParser {
     } else if (name == "pi") {
       push({Op::number, std::numbers::pi});
     } else {
-      throw ExpressionError("unknown parameter '" + std::string(name) + "'; " + suggestion(name, names_), begin);
+      throw ExpressionError("unknown parameter '" + std::string(name) + "'; " + suggestion(name, names_),
+                            begin);
     }
   }
 
@@ -171,7 +178,8 @@ class ExpressionParser {
     if (function == functions().end()) {
       std::vector<std::string> known;
       for (const auto& [text, op] : functions()) known.emplace_back(text);
-      throw ExpressionError("unknown function '" + std::string(name) + "'; " + suggestion(name, known), begin);
+      throw ExpressionError("unknown function '" + std::string(name) + "'; " + suggestion(name, known),
+                            begin);
     }
     parenthesis();
     emit(function->second);
@@ -183,8 +191,8 @@ class ExpressionParser {
   }
 
   void emit(Op op) {
-    const bool binary = op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide ||
-                        op == Op::power;
+    const bool binary =
+        op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::power;
     if (binary) --stack_;
     result_.code_.push_back({op});
   }

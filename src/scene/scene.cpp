@@ -11,7 +11,8 @@ namespace eigentrail {
 namespace {
 
 std::string at(SourceLocation where) {
-  return where.line == 0 ? ": " : ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+  return where.line == 0 ? ": "
+                         : ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
 bool is_name(std::string_view text) {
@@ -45,7 +46,8 @@ class ParameterReader {
     Parameter parameter;
     parameter.name = name;
     parameter.where = entry.where;
-    if (!is_name(name)) fail(entry, name, "a parameter's name is letters, digits and '_', so that expressions can use it");
+    if (!is_name(name))
+      fail(entry, name, "a parameter's name is letters, digits and '_', so that expressions can use it");
     const Value* value = &entry;
     if (const auto* fields = std::get_if<Table>(&entry.data)) {
       value = fields->find("value");
@@ -58,12 +60,14 @@ class ParameterReader {
 
   void read_field(Parameter& parameter, const std::string& key, const Value& field) {
     if (key == "value") return;
-    if (key != "unit") fail(field, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
+    if (key != "unit")
+      fail(field, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
     const auto* unit = std::get_if<std::string>(&field.data);
     if (unit == nullptr) fail(field, parameter.name, "unit: expected a text, found " + field.kind());
     const auto factor = unit_factor(*unit);
     if (!factor) {
-      fail(field, parameter.name, "unit '" + *unit + "' is not known; write it like \"rad/s\", \"rpm\", \"mm\" or \"N m^-1\"");
+      fail(field, parameter.name,
+           "unit '" + *unit + "' is not known; write it like \"rad/s\", \"rpm\", \"mm\" or \"N m^-1\"");
     }
     parameter.unit = *unit;
     parameter.factor = *factor;
@@ -76,7 +80,8 @@ class ParameterReader {
       try {
         parameter.definition = Expression::parse(*text, names_);
       } catch (const ExpressionError& error) {
-        fail(value, parameter.name, "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
+        fail(value, parameter.name,
+             "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
       }
     } else {
       fail(value, parameter.name, "expected a number or an expression, found " + value.kind());
@@ -123,7 +128,8 @@ Scene parse_scene(std::string text, const std::string& path) {
   scene.root = parse_toml(scene.text, path);
   if (const Value* title = scene.root.find("title")) {
     const auto* words = std::get_if<std::string>(&title->data);
-    if (words == nullptr) throw scene_error(scene, title->where, "title: expected a text, found " + title->kind());
+    if (words == nullptr)
+      throw scene_error(scene, title->where, "title: expected a text, found " + title->kind());
     scene.title = *words;
   }
   const Value* parameters = scene.root.find("parameters");
@@ -158,7 +164,9 @@ const Value* TableReader::find(const std::string& key) {
   return table_.find(key);
 }
 
-bool TableReader::has(const std::string& key) { return find(key) != nullptr; }
+bool TableReader::has(const std::string& key) {
+  return find(key) != nullptr;
+}
 
 const Value& TableReader::require(const std::string& key, const std::string& expected) {
   const Value* value = find(key);
@@ -168,7 +176,8 @@ const Value& TableReader::require(const std::string& key, const std::string& exp
 
 void TableReader::fail(const std::string& key, const std::string& message) const {
   const Value* value = table_.find(key);
-  throw scene_error(scene_, value != nullptr ? value->where : table_.where, label_ + " " + key + ": " + message);
+  throw scene_error(scene_, value != nullptr ? value->where : table_.where,
+                    label_ + " " + key + ": " + message);
 }
 
 Expression TableReader::to_expression(const Value& value, const std::string& key) {
@@ -264,7 +273,8 @@ std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const st
 void TableReader::finish() const {
   for (const auto& [key, value] : table_.entries) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-      throw scene_error(scene_, value.where, label_ + " " + key + ": unknown key; " + suggestion(key, known_));
+      throw scene_error(scene_, value.where,
+                        label_ + " " + key + ": unknown key; " + suggestion(key, known_));
     }
   }
 }
@@ -274,11 +284,13 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
   if (value == nullptr) return {};
   if (const auto* table = std::get_if<Table>(&value->data)) return {table};
   const auto* array = std::get_if<Array>(&value->data);
-  if (array == nullptr) throw scene_error(scene, value->where, key + ": expected a table [" + key + "], found " + value->kind());
+  if (array == nullptr)
+    throw scene_error(scene, value->where, key + ": expected a table [" + key + "], found " + value->kind());
   std::vector<const Table*> result;
   for (const Value& item : *array) {
     const auto* table = std::get_if<Table>(&item.data);
-    if (table == nullptr) throw scene_error(scene, item.where, key + ": expected tables [[" + key + "]], found " + item.kind());
+    if (table == nullptr)
+      throw scene_error(scene, item.where, key + ": expected tables [[" + key + "]], found " + item.kind());
     result.push_back(table);
   }
   return result;
@@ -287,11 +299,13 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
 void reject_unused_parameters(const Scene& scene, const std::set<int>& used) {
   const int n = static_cast<int>(scene.parameters.size());
   for (int i = 0; i < n; ++i) {
-    const bool is_used = std::any_of(used.begin(), used.end(), [&](int u) { return scene.parameters.depends_on(u, i); });
+    const bool is_used =
+        std::any_of(used.begin(), used.end(), [&](int u) { return scene.parameters.depends_on(u, i); });
     if (!is_used) {
       const Parameter& parameter = scene.parameters[static_cast<std::size_t>(i)];
       throw scene_error(scene, parameter.where,
-                        "[parameters] " + parameter.name + ": nothing in the scene uses this parameter; remove it or use it");
+                        "[parameters] " + parameter.name +
+                            ": nothing in the scene uses this parameter; remove it or use it");
     }
   }
 }

@@ -1,9 +1,9 @@
 #include "eigentrail/scene/value.hpp"
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
 #include <sstream>
-#include <toml++/toml.h>
 
 namespace eigentrail {
 namespace {
@@ -59,7 +59,8 @@ const Value* Table::find(std::string_view key) const {
 }
 
 std::string Value::kind() const {
-  static const std::array<std::string, 5> names = {"true or false", "a number", "a text", "an array", "a table"};
+  static const std::array<std::string, 5> names = {"true or false", "a number", "a text", "an array",
+                                                   "a table"};
   return names[data.index()];
 }
 

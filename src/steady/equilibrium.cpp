@@ -23,15 +23,16 @@ struct Scales {
   double multiplier;
 };
 
-Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin, const SteadyResidual& residual) {
+Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin,
+                   const SteadyResidual& residual) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value) ? value : 1.0; };
   Scales scales;
   scales.length = positive(x.lpNorm<Eigen::Infinity>());
   const Matrix& A = lin.A[0];
   const Vector reaction = A.transpose() * lambda;
-  scales.force = positive(std::max({lin.K[0].lpNorm<Eigen::Infinity>() * scales.length,
-                                    reaction.lpNorm<Eigen::Infinity>(),
-                                    residual.force.col(0).lpNorm<Eigen::Infinity>()}));
+  scales.force = positive(
+      std::max({lin.K[0].lpNorm<Eigen::Infinity>() * scales.length, reaction.lpNorm<Eigen::Infinity>(),
+                residual.force.col(0).lpNorm<Eigen::Infinity>()}));
   scales.constraint = (A.rowwise().norm() * scales.length).unaryExpr(positive);
   scales.multiplier = positive(A.rows() == 0 ? 1.0 : scales.force / positive(A.rowwise().norm().maxCoeff()));
   return scales;
@@ -72,7 +73,8 @@ class SteadyProblem {
 };
 
 /// Writes the largest scaled residual and the equation it belongs to into the report.
-void report_residual(const Model& model, const SteadyResidual& residual, const Scales& scales, SteadyReport& report) {
+void report_residual(const Model& model, const SteadyResidual& residual, const Scales& scales,
+                     SteadyReport& report) {
   Eigen::Index row = 0;
   report.residual = residual.force.col(0).cwiseAbs().maxCoeff(&row) / scales.force;
   report.worst_equation =
@@ -81,7 +83,8 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
   const double worst = residual.constraint.col(0).cwiseAbs().cwiseQuotient(scales.constraint).maxCoeff(&row);
   if (worst > report.residual) {
     report.residual = worst;
-    report.worst_equation = "constraint " + model.description().constraint_names[static_cast<std::size_t>(row)];
+    report.worst_equation =
+        "constraint " + model.description().constraint_names[static_cast<std::size_t>(row)];
   }
 }
 
@@ -123,9 +126,9 @@ KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const Stea
   return result;
 }
 
-/// Newton corrections down to rounding; leaves linearization and factorization at the solution. The multipliers are
-/// judged by the reaction A^T lambda, which is all that the equations see of them (redundant constraints leave lambda
-/// itself undetermined).
+/// Newton corrections down to rounding; leaves linearization and factorization at the solution. The
+/// multipliers are judged by the reaction A^T lambda, which is all that the equations see of them (redundant
+/// constraints leave lambda itself undetermined).
 bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
   double last = INFINITY;
   SteadyResidual residual;
@@ -136,8 +139,8 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     Vector dx, dl;
     result.kkt.solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
     const Vector reaction = result.linearization.A[0].transpose() * dl;
-    const double size =
-        std::max(dx.lpNorm<Eigen::Infinity>() / scales.length, reaction.lpNorm<Eigen::Infinity>() / scales.force);
+    const double size = std::max(dx.lpNorm<Eigen::Infinity>() / scales.length,
+                                 reaction.lpNorm<Eigen::Infinity>() / scales.force);
     if (!std::isfinite(size)) return false;
     result.x += dx;
     result.lambda += dl;
@@ -156,8 +159,8 @@ Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
 
 }  // namespace
 
-Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
-                              const SteadyOptions& options, EvaluationCounts& counts) {
+Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
   Equilibrium result;
   result.x = x;
   result.lambda = lambda;
@@ -166,14 +169,16 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   Linearization& linearization = result.linearization;
   if (lambda.size() != model.n_constraints()) {
     result.lambda = Vector::Zero(model.n_constraints());
-    if (const auto fault = problem.evaluate(x, result.lambda, residual)) return not_finite(std::move(result), fault);
+    if (const auto fault = problem.evaluate(x, result.lambda, residual))
+      return not_finite(std::move(result), fault);
     if (const auto fault = problem.linearize(x, result.lambda, linearization)) {
       return not_finite(std::move(result), fault);
     }
     const ConstraintFactorization constraints(linearization.A[0]);
     result.lambda = constraints.transposed_pseudo_inverse_times(-residual.force.col(0));
   }
-  if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) return not_finite(std::move(result), fault);
+  if (const auto fault = problem.evaluate(result.x, result.lambda, residual))
+    return not_finite(std::move(result), fault);
   if (const auto fault = problem.linearize(result.x, result.lambda, linearization)) {
     return not_finite(std::move(result), fault);
   }
@@ -181,23 +186,26 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   const KinsolResult kinsol = run_kinsol(problem, scales, options, result.x, result.lambda);
   result.report.iterations = kinsol.iterations;
   const bool polished = polish(problem, scales, result);
-  if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) return not_finite(std::move(result), fault);
+  if (const auto fault = problem.evaluate(result.x, result.lambda, residual))
+    return not_finite(std::move(result), fault);
   report_residual(model, residual, scales, result.report);
-  // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last correction.
+  // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last
+  // correction.
   if (polished && result.report.residual < rounding_floor) {
     result.status = SteadyStatus::converged;
     return result;
   }
   std::ostringstream message;
   message << "no equilibrium found: KINSOL stopped after " << kinsol.iterations << " iterations ("
-          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message) << "); largest residual "
-          << result.report.residual << " of its scale, in the " << result.report.worst_equation;
+          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message)
+          << "); largest residual " << result.report.residual << " of its scale, in the "
+          << result.report.worst_equation;
   result.report.message = message.str();
   return result;
 }
 
-Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
-                             EvaluationCounts& counts) {
+Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                             const Vector& lambda, EvaluationCounts& counts) {
   Equilibrium result;
   result.x = x;
   result.lambda = lambda;
@@ -218,7 +226,8 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
   path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
-  // A kept equilibrium has its constraints factored only; the rest is made up for when it is needed after all.
+  // A kept equilibrium has its constraints factored only; the rest is made up for when it is needed after
+  // all.
   KktFactorization complete;
   if (!equilibrium.kkt.can_solve()) {
     complete = KktFactorization(equilibrium.linearization.K[0], equilibrium.linearization.A[0]);

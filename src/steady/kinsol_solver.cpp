@@ -32,10 +32,13 @@ Owned<T> own(T object, void (*release)(T), const char* what) {
 }
 
 void check(int code, const char* call) {
-  if (code < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " returned " + std::to_string(code));
+  if (code < 0)
+    throw std::runtime_error(std::string("SUNDIALS: ") + call + " returned " + std::to_string(code));
 }
 
-Eigen::Map<Vector> view(N_Vector v) { return {NV_DATA_S(v), NV_LENGTH_S(v)}; }
+Eigen::Map<Vector> view(N_Vector v) {
+  return {NV_DATA_S(v), NV_LENGTH_S(v)};
+}
 
 /// Runs a callback; an exception is kept for later and KINSOL told to stop.
 template <class Body>
@@ -58,8 +61,8 @@ int evaluate_residual(N_Vector u, N_Vector f, void* data) {
   });
 }
 
-// The Jacobian is factored where KINSOL asks for it to be filled in: our linear solver keeps it, and the SUNMatrix is
-// only the token that makes KINSOL ask.
+// The Jacobian is factored where KINSOL asks for it to be filled in: our linear solver keeps it, and the
+// SUNMatrix is only the token that makes KINSOL ask.
 int fill_jacobian(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {
   auto& session = *static_cast<Session*>(data);
   return guarded(session, [&] { return session.problem.factor(view(u)); });
@@ -97,12 +100,17 @@ Owned<SUNLinearSolver> linear_solver(Session& session, SUNContext context) {
   return solver;
 }
 
-void free_context(SUNContext context) { SUNContext_Free(&context); }
-void free_kinsol(void* memory) { KINFree(&memory); }
+void free_context(SUNContext context) {
+  SUNContext_Free(&context);
+}
+void free_kinsol(void* memory) {
+  KINFree(&memory);
+}
 
 }  // namespace
 
-KinsolResult solve_with_kinsol(const KinsolProblem& problem, double tolerance, int max_iterations, Vector& u) {
+KinsolResult solve_with_kinsol(const KinsolProblem& problem, double tolerance, int max_iterations,
+                               Vector& u) {
   Session session{problem};
   SUNContext raw_context = nullptr;
   check(SUNContext_Create(nullptr, &raw_context), "SUNContext_Create");

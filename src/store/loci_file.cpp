@@ -53,14 +53,19 @@ void read_series(const Hdf5File& file, LociFile& loci) {
   const auto rows = static_cast<Eigen::Index>(shape[1]);
   const auto columns = static_cast<Eigen::Index>(shape[2]);
   for (std::size_t node = 0; node < loci.p.size(); ++node) {
-    loci.series.emplace_back(Eigen::Map<const RowMajor>(data.data() + node * shape[1] * shape[2], rows, columns));
+    loci.series.emplace_back(
+        Eigen::Map<const RowMajor>(data.data() + node * shape[1] * shape[2], rows, columns));
   }
 }
 
 }  // namespace
 
-double LociFile::lowest() const { return std::min(p.front(), p.back()); }
-double LociFile::highest() const { return std::max(p.front(), p.back()); }
+double LociFile::lowest() const {
+  return std::min(p.front(), p.back());
+}
+double LociFile::highest() const {
+  return std::max(p.front(), p.back());
+}
 
 ComplexVector LociFile::eigenvalues_at(double value) const {
   if (p.empty()) throw InputError(path + ": holds no points");

@@ -17,10 +17,23 @@ namespace {
 constexpr auto flush_interval = std::chrono::seconds(1);
 constexpr std::size_t flush_nodes = 256;
 
-const std::array<std::string, 17> reserved = {
-    "node",       "mode",          "coordinate", "constraint", "order",     "eigenvalue", "eigenvalue_derivative",
-    "frequency",  "damping_ratio", "mode_shape", "residual",   "condition", "equilibrium", "multiplier",
-    "eigenvalue_series", "events", "block"};
+const std::array<std::string, 17> reserved = {"node",
+                                              "mode",
+                                              "coordinate",
+                                              "constraint",
+                                              "order",
+                                              "eigenvalue",
+                                              "eigenvalue_derivative",
+                                              "frequency",
+                                              "damping_ratio",
+                                              "mode_shape",
+                                              "residual",
+                                              "condition",
+                                              "equilibrium",
+                                              "multiplier",
+                                              "eigenvalue_series",
+                                              "events",
+                                              "block"};
 
 std::vector<std::int64_t> count_from(std::int64_t first, std::size_t n) {
   std::vector<std::int64_t> list(n);
@@ -76,32 +89,41 @@ struct LociWriter::Implementation {
   void create_datasets(const Model& model, const TraceOptions& options, int n_modes) {
     const ModelDescription& description = model.description();
     const Parameter& traced =
-        description.parameters[static_cast<std::size_t>(description.parameters.index(options.parameter).value())];
+        description
+            .parameters[static_cast<std::size_t>(description.parameters.index(options.parameter).value())];
     const std::string unit = traced.unit.empty() ? "1" : traced.unit;
     has_constraints = model.n_constraints() > 0;
 
     std::vector<std::string> modes;
     for (int i = 0; i < n_modes; ++i) modes.push_back("mode " + std::to_string(i + 1));
-    file.create_dataset({"node", ElementType::integer, {0}, true, {{"units", "1"}, {"long_name", "path point"}}});
+    file.create_dataset(
+        {"node", ElementType::integer, {0}, true, {{"units", "1"}, {"long_name", "path point"}}});
     file.make_scale("node", "node");
     create_dimension("mode", ElementType::text, modes, "mode");
     create_dimension("coordinate", ElementType::text, description.coordinate_names, "coordinate");
-    create_dimension("order", ElementType::integer, count_from(0, static_cast<std::size_t>(options.order) + 1),
+    create_dimension("order", ElementType::integer,
+                     count_from(0, static_cast<std::size_t>(options.order) + 1),
                      "power of the distance from the point");
-    if (has_constraints) create_dimension("constraint", ElementType::text, description.constraint_names, "constraint");
+    if (has_constraints)
+      create_dimension("constraint", ElementType::text, description.constraint_names, "constraint");
 
     const std::string per_unit = unit == "1" ? "1/s" : "1/s/(" + unit + ")";
     create_growing(parameter, ElementType::real, {"node"}, unit, "traced parameter " + parameter, true);
     create_growing("eigenvalue", ElementType::complex, {"node", "mode"}, "1/s", "eigenvalue s");
-    create_growing("eigenvalue_derivative", ElementType::complex, {"node", "mode"}, per_unit, "ds/d" + parameter);
-    create_growing("eigenvalue_series", ElementType::complex, {"node", "mode", "order"}, "1/s/(" + unit + ")^order",
-                   "Taylor coefficients of s(" + parameter + ") at the point; two neighbouring points give the dense output");
+    create_growing("eigenvalue_derivative", ElementType::complex, {"node", "mode"}, per_unit,
+                   "ds/d" + parameter);
+    create_growing("eigenvalue_series", ElementType::complex, {"node", "mode", "order"},
+                   "1/s/(" + unit + ")^order",
+                   "Taylor coefficients of s(" + parameter +
+                       ") at the point; two neighbouring points give the dense output");
     create_growing("frequency", ElementType::real, {"node", "mode"}, "rad/s", "abs(s)");
     create_growing("damping_ratio", ElementType::real, {"node", "mode"}, "1", "-Re(s)/abs(s)");
     create_growing("mode_shape", ElementType::complex, {"node", "mode", "coordinate"}, "1",
                    "mode shape in physical coordinates, unit M-norm");
-    create_growing("residual", ElementType::real, {"node", "mode"}, "1", "normwise backward error of the eigenpair");
-    create_growing("condition", ElementType::real, {"node", "mode"}, "1", "relative condition number of the eigenvalue");
+    create_growing("residual", ElementType::real, {"node", "mode"}, "1",
+                   "normwise backward error of the eigenpair");
+    create_growing("condition", ElementType::real, {"node", "mode"}, "1",
+                   "relative condition number of the eigenvalue");
     create_growing("equilibrium", ElementType::real, {"node", "coordinate"}, description.coordinate_units[0],
                    "steady equilibrium x0");
     if (has_constraints) {
@@ -114,7 +136,8 @@ struct LociWriter::Implementation {
 LociWriter::LociWriter(std::string path, const Scene& scene, const Model& model, const TraceOptions& options,
                        const TraceStart& start, int n_modes) {
   const std::string partial = path + ".partial";
-  implementation_ = std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
+  implementation_ =
+      std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
   try {
     Hdf5File& file = implementation_->file;
     file.set_attribute("format", "eigentrail-loci");

@@ -1,4 +1,5 @@
-// One point of the path, in five calls: solve the equilibrium, linearize, reduce, correct the modes, differentiate.
+// One point of the path, in five calls: solve the equilibrium, linearize, reduce, correct the modes,
+// differentiate.
 #pragma once
 
 #include <chrono>
@@ -13,13 +14,13 @@ namespace eigentrail {
 
 /// What a point leaves behind for prediction, dense output and the file.
 struct PathNode {
-  double p = 0.0;                            ///< traced parameter, in its unit
-  Path path;                                 ///< equilibrium series
-  ComplexMatrix s;                           ///< modes x (order + 1): eigenvalue series
-  std::vector<ComplexVectorSeries> shapes;   ///< per mode, n x (order + 1): physical vector v = T z
-  Vector backward_error, condition;          ///< per mode
-  Matrix mass;                               ///< n x n, weight of the modal assurance criterion
-  Matrix basis;                              ///< n x (n - rank)
+  double p = 0.0;                           ///< traced parameter, in its unit
+  Path path;                                ///< equilibrium series
+  ComplexMatrix s;                          ///< modes x (order + 1): eigenvalue series
+  std::vector<ComplexVectorSeries> shapes;  ///< per mode, n x (order + 1): physical vector v = T z
+  Vector backward_error, condition;         ///< per mode
+  Matrix mass;                              ///< n x n, weight of the modal assurance criterion
+  Matrix basis;                             ///< n x (n - rank)
 };
 
 /// Work and wall time of a run, stage by stage.
@@ -39,7 +40,9 @@ struct RunCounts {
 class StageTimer {
  public:
   explicit StageTimer(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-  ~StageTimer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  ~StageTimer() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
@@ -51,11 +54,11 @@ class StageTimer {
 /// The setting of a run: what does not change from point to point.
 struct PathProblem {
   const Model& model;
-  int traced = 0;            ///< index of the traced parameter
-  Vector parameters = {};    ///< declared values; the traced entry is replaced at each point
+  int traced = 0;          ///< index of the traced parameter
+  Vector parameters = {};  ///< declared values; the traced entry is replaced at each point
   Structure structure = {};
   int order = 3;
-  double s_ref = 1.0;        ///< magnitude below which an eigenvalue counts as zero, 1/s
+  double s_ref = 1.0;  ///< magnitude below which an eigenvalue counts as zero, 1/s
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
@@ -96,13 +99,14 @@ PathPoint reduce_at(const PathProblem& problem, double p, const Vector& x, const
 PathPoint compute_point(const PathProblem& problem, double p, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
-/// Differentiates a computed point to the order of the problem along the traced parameter. Empty when a series
-/// coefficient is not finite.
-std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, RunCounts& counts);
+/// Differentiates a computed point to the order of the problem along the traced parameter. Empty when a
+/// series coefficient is not finite.
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            RunCounts& counts);
 
-/// The same along another parameter, all others held: the sensitivities of the equilibrium and of the modes to it. The
-/// factorizations of the point are reused, so each further parameter costs back-substitutions only (seed paper, end of
-/// Sect. 4.3).
+/// The same along another parameter, all others held: the sensitivities of the equilibrium and of the modes
+/// to it. The factorizations of the point are reused, so each further parameter costs back-substitutions only
+/// (seed paper, end of Sect. 4.3).
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
                                             RunCounts& counts);
 

@@ -2,9 +2,10 @@
 //
 // Two estimates of that error are at hand, and the larger counts. One is told by the interpolant itself
 // (HermiteInterpolant::estimated_error). The other comes from the miss of the previous step's interpolant,
-// extrapolated to the new point: it misses by s^(2q+2)/(2q+2)! (h (h + h_old))^(q+1), while inside the new step the
-// error is at most s^(2q+2)/(2q+2)! (h^2/4)^(q+1). The step then grows or shrinks with the (2q+2)-th root of the error,
-// with the trend of the last two steps taken on (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+// extrapolated to the new point: it misses by s^(2q+2)/(2q+2)! (h (h + h_old))^(q+1), while inside the new
+// step the error is at most s^(2q+2)/(2q+2)! (h^2/4)^(q+1). The step then grows or shrinks with the (2q+2)-th
+// root of the error, with the trend of the last two steps taken on (Gustafsson, ACM Trans. Math. Softw. 20,
+// 1994).
 #pragma once
 
 namespace eigentrail {
@@ -17,8 +18,8 @@ class StepControl {
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;
 
-  /// Error / tolerance inside a step of length h from the predictor's `miss` / tolerance at its end. The first step
-  /// has no previous interpolant and compares with the Taylor polynomial.
+  /// Error / tolerance inside a step of length h from the predictor's `miss` / tolerance at its end. The
+  /// first step has no previous interpolant and compares with the Taylor polynomial.
   double error_from_miss(double h, double miss) const;
 
   /// After an accepted step with estimated error / tolerance = `error`.
@@ -32,7 +33,8 @@ class StepControl {
 
  private:
   double growth(double error) const;
-  /// By how much the error of a step of length h exceeds what the last step's error scales to, as a ratio of lengths.
+  /// By how much the error of a step of length h exceeds what the last step's error scales to, as a ratio of
+  /// lengths.
   double trend(double h, double error) const;
 
   int order_;

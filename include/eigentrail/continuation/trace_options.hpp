@@ -1,4 +1,5 @@
-// Options of a trace. One list of fields feeds the scene's [trace] table, the command line and the file's provenance.
+// Options of a trace. One list of fields feeds the scene's [trace] table, the command line and the file's
+// provenance.
 #pragma once
 
 #include <optional>
@@ -11,14 +12,14 @@
 namespace eigentrail {
 
 struct TraceOptions {
-  std::string parameter;             ///< name of the traced parameter
-  double from = 0.0;                 ///< where the trace begins, in the parameter's unit
-  double to = 0.0;                   ///< where it ends; may be below `from`, not equal
-  double tolerance = 1e-6;           ///< bounds |s_dense - s| <= tolerance * max(|s|, reference), 1e-13 <= . <= 0.1
-  std::optional<int> modes;          ///< follow the N modes of least |s|, >= 1; absent: all
-  int order = 3;                     ///< of the series at each point, 1 to 4
-  std::optional<double> reference;   ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0; absent:
-                                     ///< 1e-3 of the median |s| of the followed modes at the start
+  std::string parameter;     ///< name of the traced parameter
+  double from = 0.0;         ///< where the trace begins, in the parameter's unit
+  double to = 0.0;           ///< where it ends; may be below `from`, not equal
+  double tolerance = 1e-6;   ///< bounds |s_dense - s| <= tolerance * max(|s|, reference), 1e-13 <= . <= 0.1
+  std::optional<int> modes;  ///< follow the N modes of least |s|, >= 1; absent: all
+  int order = 3;             ///< of the series at each point, 1 to 4
+  std::optional<double> reference;  ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
+                                    ///< absent: 1e-3 of the median |s| of the followed modes at the start
   std::optional<double> first_step;  ///< in the parameter's unit, > 0; absent: from the series at the start
   std::optional<double> max_step;    ///< in the parameter's unit, > 0; absent: a quarter of the range
   int max_nodes = 100000;            ///< the trace stops there, >= 2
@@ -29,7 +30,8 @@ struct TraceOptions {
     visit("parameter", "name of the traced parameter", self.parameter);
     visit("from", "where the trace begins, in the parameter's unit", self.from);
     visit("to", "where the trace ends, in the parameter's unit", self.to);
-    visit("tolerance", "bound of the relative error of every eigenvalue, everywhere on the range", self.tolerance);
+    visit("tolerance", "bound of the relative error of every eigenvalue, everywhere on the range",
+          self.tolerance);
     visit("modes", "follow this many modes of lowest |s|, or \"all\"", self.modes);
     visit("order", "order of the power series at each point, 1 to 4", self.order);
     visit("reference", "eigenvalues below this (1/s) count as zero in the tolerance", self.reference);
@@ -42,8 +44,8 @@ struct TraceOptions {
 /// Values given on the command line: key and text, in order.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers may be
-/// expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
+/// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers
+/// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
 /// Throws InputError listing what is wrong.
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides);
 

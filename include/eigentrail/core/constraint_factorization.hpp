@@ -1,7 +1,9 @@
-// Rank-revealing factorization of a constraint Jacobian A (m x n): A^T = [Q1 Q2] [R1; 0] (seed paper, Eq. 48).
+// Rank-revealing factorization of a constraint Jacobian A (m x n): A^T = [Q1 Q2] [R1; 0] (seed paper, Eq.
+// 48).
 //
-// The rows of A are scaled to unit length first, so that the rank does not depend on the units of the constraints. The
-// complete orthogonal decomposition serves redundant rows: A+ b is then the minimum-norm least-squares solution.
+// The rows of A are scaled to unit length first, so that the rank does not depend on the units of the
+// constraints. The complete orthogonal decomposition serves redundant rows: A+ b is then the minimum-norm
+// least-squares solution.
 #pragma once
 
 #include <Eigen/QR>
@@ -12,8 +14,8 @@ namespace eigentrail {
 
 class ConstraintFactorization {
  public:
-  /// Pivots below this fraction of the largest count as zero. Two rods at an angle of 1e-10 stay two constraints; a
-  /// rod written twice is one.
+  /// Pivots below this fraction of the largest count as zero. Two rods at an angle of 1e-10 stay two
+  /// constraints; a rod written twice is one.
   static constexpr double rank_tolerance = 1e-13;
 
   ConstraintFactorization() = default;

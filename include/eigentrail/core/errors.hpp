@@ -1,4 +1,5 @@
-// Errors that end a run. Numerical outcomes (no convergence, a step that became too small) are values instead.
+// Errors that end a run. Numerical outcomes (no convergence, a step that became too small) are values
+// instead.
 #pragma once
 
 #include <stdexcept>

@@ -1,10 +1,11 @@
 // Truncated power series: the one differentiation mechanism of eigentrail.
 //
-// Series<T, Q> holds the coefficients of c0 + c1 h + ... + cQ h^Q over a ring T and computes with them exactly
-// up to the truncation (Griewank & Walther, Evaluating Derivatives, 2nd ed., Sect. 13.2).
+// Series<T, Q> holds the coefficients of c0 + c1 h + ... + cQ h^Q over a ring T and computes with them
+// exactly up to the truncation (Griewank & Walther, Evaluating Derivatives, 2nd ed., Sect. 13.2).
 //
 //   * Series<double, Q>              a quantity along the path, h = distance along the path;
-//   * Series<Series<double, Q>, 1>   the same with one directional derivative: coefficient 1 is d/dx_i, itself
+//   * Series<Series<double, Q>, 1>   the same with one directional derivative: coefficient 1 is d/dx_i,
+//   itself
 //                                    a series along the path;
 //   * nested once more               second derivatives (constraint curvature).
 //
@@ -29,8 +30,7 @@ class Series {
   Series() = default;
   Series(double constant) { c_[0] = T(constant); }  // NOLINT: numbers are constant series
   Series(const T& constant)                         // NOLINT: likewise
-    requires(!std::is_same_v<T, double>)
-  {
+      requires(!std::is_same_v<T, double>) {
     c_[0] = constant;
   }
 
@@ -84,8 +84,9 @@ class Series {
 
 namespace detail {
 
-/// The function y(h) with y(0) = y0 and dy/dh = g dx/dh: k y_k = sum_{j=1..k} j x_j g_{k-j}. Coefficient k needs
-/// g only up to k-1, so g may be filled from y as the recursion proceeds: `rate(k)` returns g_k from y_0..y_k.
+/// The function y(h) with y(0) = y0 and dy/dh = g dx/dh: k y_k = sum_{j=1..k} j x_j g_{k-j}. Coefficient k
+/// needs g only up to k-1, so g may be filled from y as the recursion proceeds: `rate(k)` returns g_k from
+/// y_0..y_k.
 template <class T, int Q, class Rate>
 Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, Rate rate) {
   Series<T, Q> y(y0), g;

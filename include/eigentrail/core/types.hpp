@@ -16,8 +16,9 @@ using ComplexMatrix = Eigen::MatrixXcd;
 /// Highest order of the series along the path.
 inline constexpr int max_order = 4;
 
-/// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order it is
-/// used at; the coefficients it lacks are zero. A constant therefore has size 1 and costs nothing in products.
+/// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order it
+/// is used at; the coefficients it lacks are zero. A constant therefore has size 1 and costs nothing in
+/// products.
 using MatrixSeries = std::vector<Matrix>;
 
 /// Power series with vector coefficients: column k multiplies h^k; missing columns are zero.

@@ -11,9 +11,9 @@
 namespace eigentrail {
 
 /// Builds the model that a scene describes: a multibody system, or a family of matrices when the scene has
-/// [matrix_family]. `check_at` lists parameter values (declared units) at which masses, lengths and the direction of
-/// gravity are checked: the ends of the trace. Throws InputError for every fault of the scene, unknown keys and unused
-/// parameters included.
+/// [matrix_family]. `check_at` lists parameter values (declared units) at which masses, lengths and the
+/// direction of gravity are checked: the ends of the trace. Throws InputError for every fault of the scene,
+/// unknown keys and unused parameters included.
 std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at);
 
 /// Whether the scene gives matrices instead of elements.

@@ -2,7 +2,8 @@
 //
 //   M(x, p) x'' + A^T lambda = f(x, x', p),   c(x, p) = 0,   A = c_/x          (seed paper, Eqs. 3a, 3b)
 //
-// A model answers with power series along a path (x(h), lambda(h), p(h)), so its derivatives are total derivatives.
+// A model answers with power series along a path (x(h), lambda(h), p(h)), so its derivatives are total
+// derivatives.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace eigentrail {
 
-/// What an effect contributes to the linearized equations; the structure of the pencil follows from these alone.
+/// What an effect contributes to the linearized equations; the structure of the pencil follows from these
+/// alone.
 struct Contribution {
   bool inertia = false;       ///< symmetric M
   bool conservative = false;  ///< symmetric K
@@ -37,7 +39,7 @@ struct Structure {
   bool damped = false;
   bool gyroscopic = false;
   bool circulatory = false;
-  bool constant_mass = false;         ///< M does not change along the path; likewise below
+  bool constant_mass = false;  ///< M does not change along the path; likewise below
   bool constant_damping = false;
   bool constant_stiffness = false;    ///< K + (A^T lambda)_/x
   bool constant_constraints = false;  ///< A: the tangent basis is kept
@@ -88,8 +90,12 @@ class Model {
   Model& operator=(const Model&) = delete;
 
   const ModelDescription& description() const { return description_; }
-  Eigen::Index n_coordinates() const { return static_cast<Eigen::Index>(description_.coordinate_names.size()); }
-  Eigen::Index n_constraints() const { return static_cast<Eigen::Index>(description_.constraint_names.size()); }
+  Eigen::Index n_coordinates() const {
+    return static_cast<Eigen::Index>(description_.coordinate_names.size());
+  }
+  Eigen::Index n_constraints() const {
+    return static_cast<Eigen::Index>(description_.constraint_names.size());
+  }
 
   /// Starting guess for x at given parameters (declared units).
   virtual Vector initial_guess(const Vector& parameters) const = 0;

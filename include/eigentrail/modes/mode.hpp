@@ -2,9 +2,9 @@
 //
 //     P(s) z = (s^2 M + s C + K) z = 0,     c^H z = 1                    (seed paper, Eq. 32)
 //
-// The bordered matrix B = [[P, P_s z], [c^H, 0]] is factored once per mode and point, at the predicted pair. The same
-// factors serve the Newton corrections, the left vector and every order of the sensitivities (Eq. 35), each brought to
-// full accuracy by residual correction with the exact matrices.
+// The bordered matrix B = [[P, P_s z], [c^H, 0]] is factored once per mode and point, at the predicted pair.
+// The same factors serve the Newton corrections, the left vector and every order of the sensitivities (Eq.
+// 35), each brought to full accuracy by residual correction with the exact matrices.
 #pragma once
 
 #include <Eigen/LU>
@@ -16,9 +16,9 @@
 namespace eigentrail {
 
 struct CorrectorOptions {
-  double tolerance = 1e-14;          ///< relative size of the last correction, > 0
-  double refactor_contraction = 0.1; ///< a slower contraction of the corrections factors anew, 0 < . < 1
-  int max_iterations = 30;           ///< >= 1
+  double tolerance = 1e-14;           ///< relative size of the last correction, > 0
+  double refactor_contraction = 0.1;  ///< a slower contraction of the corrections factors anew, 0 < . < 1
+  int max_iterations = 30;            ///< >= 1
 };
 
 /// Work done on modes, summed over a run.
@@ -39,16 +39,17 @@ struct PencilAtPoint {
 
   explicit PencilAtPoint(const ReducedPencil& pencil);
 
-  ComplexMatrix matrix(Complex s) const;                            ///< P(s)
-  ComplexVector times(Complex s, const ComplexVector& z) const;     ///< P(s) z
-  ComplexVector slope(Complex s, const ComplexVector& z) const;     ///< P_s(s) z = (2 s M + C) z
+  ComplexMatrix matrix(Complex s) const;                         ///< P(s)
+  ComplexVector times(Complex s, const ComplexVector& z) const;  ///< P(s) z
+  ComplexVector slope(Complex s, const ComplexVector& z) const;  ///< P_s(s) z = (2 s M + C) z
   double magnitude(Complex s) const;  ///< |s|^2 |M| + |s| |C| + |K|, the scale of backward errors
 };
 
 /// LU factors of B at a pair (s, z), columns scaled to one magnitude.
 class BorderedFactorization {
  public:
-  BorderedFactorization(const PencilAtPoint& pencil, Complex s, const ComplexVector& z, const ComplexVector& c);
+  BorderedFactorization(const PencilAtPoint& pencil, Complex s, const ComplexVector& z,
+                        const ComplexVector& c);
 
   /// Solves B [dz; ds] = [r; 0].
   void solve(const ComplexVector& r, ComplexVector& dz, Complex& ds) const;
@@ -64,16 +65,16 @@ class BorderedFactorization {
 struct Mode {
   ModeStatus status = ModeStatus::not_converged;
   Complex s;
-  ComplexVector z;      ///< right vector, c^H z = 1
-  ComplexVector y;      ///< left vector, y^H P = 0, unit length
-  ComplexVector c;      ///< gauge
+  ComplexVector z;              ///< right vector, c^H z = 1
+  ComplexVector y;              ///< left vector, y^H P = 0, unit length
+  ComplexVector c;              ///< gauge
   double backward_error = 0.0;  ///< |P z| / (magnitude(s) |z|)  (Tisseur 2000, Eq. 2.2)
-  double condition = 0.0;       ///< relative condition number of s (Tisseur 2000, Th. 5), w.r.t. max(|s|, s_ref)
+  double condition = 0.0;  ///< relative condition number of s (Tisseur 2000, Th. 5), w.r.t. max(|s|, s_ref)
   std::optional<BorderedFactorization> factors;
 };
 
-/// Refines (s, z) by chord-Newton with one LU, then takes s from the two-sided Rayleigh quotient. `s_ref` is the
-/// magnitude below which an eigenvalue counts as zero in relative measures, > 0.
+/// Refines (s, z) by chord-Newton with one LU, then takes s from the two-sided Rayleigh quotient. `s_ref` is
+/// the magnitude below which an eigenvalue counts as zero in relative measures, > 0.
 Mode correct_mode(const PencilAtPoint& pencil, Complex s, const ComplexVector& z, double s_ref,
                   const CorrectorOptions& options, ModeCounts& counts);
 
@@ -83,7 +84,8 @@ struct ModeSeries {
   ComplexVectorSeries z;  ///< size x (order + 1), c^H z(h) = 1
 };
 
-/// Sensitivities of any order: coefficient k of P(s, h) z formed with s_k = z_k = 0 is the right side of Eq. (35).
+/// Sensitivities of any order: coefficient k of P(s, h) z formed with s_k = z_k = 0 is the right side of Eq.
+/// (35).
 ModeSeries differentiate_mode(const ReducedPencil& pencil, const Mode& mode, int order, ModeCounts& counts);
 
 }  // namespace eigentrail

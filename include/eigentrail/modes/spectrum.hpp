@@ -21,8 +21,9 @@ struct [[nodiscard]] Spectrum {
   double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), the typical magnitude of eigenvalues
 };
 
-/// Solves (s^2 M + s C + K) z = 0. The pencil is scaled by s = gamma mu and a common factor so that all three matrices
-/// have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60 (2n)^3.
+/// Solves (s^2 M + s C + K) z = 0. The pencil is scaled by s = gamma mu and a common factor so that all three
+/// matrices have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60
+/// (2n)^3.
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
 
 }  // namespace eigentrail

@@ -1,4 +1,5 @@
-// Tangent basis T of the constraint manifold, A T = 0, and its power series along the path (seed paper, Eqs. 48, 67).
+// Tangent basis T of the constraint manifold, A T = 0, and its power series along the path (seed paper, Eqs.
+// 48, 67).
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,8 @@
 
 namespace eigentrail {
 
-/// T(h) with T(0) orthonormal. In the chart T(h) = T0 + Q1 X(h) it stays a null-space basis of A(h), though not an
-/// orthonormal one beyond first order, which eigenvalues do not mind.
+/// T(h) with T(0) orthonormal. In the chart T(h) = T0 + Q1 X(h) it stays a null-space basis of A(h), though
+/// not an orthonormal one beyond first order, which eigenvalues do not mind.
 struct TangentBasis {
   MatrixSeries T;            ///< n x (n - rank); T[0] orthonormal
   bool is_identity = false;  ///< no constraints: T is the identity and is never multiplied
@@ -20,8 +21,8 @@ enum class BasisChoice {
   random    ///< turned by a random orthogonal matrix: for tests
 };
 
-/// T(0) = Q2 turned towards `previous` (n x (n - rank); ignored when empty or of another size), which keeps reduced
-/// coordinates continuous from point to point.
+/// T(0) = Q2 turned towards `previous` (n x (n - rank); ignored when empty or of another size), which keeps
+/// reduced coordinates continuous from point to point.
 TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Matrix& previous);
 
 /// Turns the basis by a random orthogonal matrix drawn from `seed`.

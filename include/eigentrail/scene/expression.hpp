@@ -31,8 +31,27 @@ class ExpressionError : public std::runtime_error {
 class Expression {
  public:
   enum class Op {
-    number, parameter, add, subtract, multiply, divide, negate, power, integer_power,
-    sqrt, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log
+    number,
+    parameter,
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    power,
+    integer_power,
+    sqrt,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log
   };
   struct Instruction {
     Op op;
@@ -69,22 +88,35 @@ namespace detail {
 template <class Scalar>
 Scalar apply(Expression::Op op, const Scalar& x) {
   // The standard functions for numbers; those for series are found by argument.
-  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt,
-      std::tan, std::tanh;
+  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh,
+      std::sqrt, std::tan, std::tanh;
   switch (op) {
-    case Expression::Op::negate: return -x;
-    case Expression::Op::sqrt: return sqrt(x);
-    case Expression::Op::sin: return sin(x);
-    case Expression::Op::cos: return cos(x);
-    case Expression::Op::tan: return tan(x);
-    case Expression::Op::asin: return asin(x);
-    case Expression::Op::acos: return acos(x);
-    case Expression::Op::atan: return atan(x);
-    case Expression::Op::sinh: return sinh(x);
-    case Expression::Op::cosh: return cosh(x);
-    case Expression::Op::tanh: return tanh(x);
-    case Expression::Op::exp: return exp(x);
-    default: return log(x);
+    case Expression::Op::negate:
+      return -x;
+    case Expression::Op::sqrt:
+      return sqrt(x);
+    case Expression::Op::sin:
+      return sin(x);
+    case Expression::Op::cos:
+      return cos(x);
+    case Expression::Op::tan:
+      return tan(x);
+    case Expression::Op::asin:
+      return asin(x);
+    case Expression::Op::acos:
+      return acos(x);
+    case Expression::Op::atan:
+      return atan(x);
+    case Expression::Op::sinh:
+      return sinh(x);
+    case Expression::Op::cosh:
+      return cosh(x);
+    case Expression::Op::tanh:
+      return tanh(x);
+    case Expression::Op::exp:
+      return exp(x);
+    default:
+      return log(x);
   }
 }
 
@@ -92,11 +124,16 @@ template <class Scalar>
 Scalar apply(Expression::Op op, const Scalar& a, const Scalar& b) {
   using std::pow;
   switch (op) {
-    case Expression::Op::add: return a + b;
-    case Expression::Op::subtract: return a - b;
-    case Expression::Op::multiply: return a * b;
-    case Expression::Op::divide: return a / b;
-    default: return pow(a, b);
+    case Expression::Op::add:
+      return a + b;
+    case Expression::Op::subtract:
+      return a - b;
+    case Expression::Op::multiply:
+      return a * b;
+    case Expression::Op::divide:
+      return a / b;
+    default:
+      return pow(a, b);
   }
 }
 

@@ -14,10 +14,11 @@ namespace eigentrail {
 
 struct Parameter {
   std::string name;
-  double value = 0.0;                    ///< in `unit`; of a derived parameter: not used
-  std::string unit;                      ///< as written; empty: SI or dimensionless
-  double factor = 1.0;                   ///< SI value = factor * value
-  std::optional<Expression> definition;  ///< derived parameter: its value, in `unit`, from SI values of the others
+  double value = 0.0;   ///< in `unit`; of a derived parameter: not used
+  std::string unit;     ///< as written; empty: SI or dimensionless
+  double factor = 1.0;  ///< SI value = factor * value
+  std::optional<Expression>
+      definition;  ///< derived parameter: its value, in `unit`, from SI values of the others
   SourceLocation where;
 };
 
@@ -26,7 +27,8 @@ class Parameters {
  public:
   Parameters() = default;
 
-  /// Orders the derived parameters. Throws std::invalid_argument naming the cycle when they define each other.
+  /// Orders the derived parameters. Throws std::invalid_argument naming the cycle when they define each
+  /// other.
   explicit Parameters(std::vector<Parameter> list);
 
   std::size_t size() const { return list_.size(); }

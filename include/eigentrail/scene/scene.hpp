@@ -21,8 +21,9 @@ struct Scene {
   Parameters parameters;
 };
 
-/// Reads and parses a scene file. The parameter that a scene with [matrix_family] traces need not be declared: it is
-/// added, with the value where the trace begins. Throws InputError for a file that cannot be read or is no scene.
+/// Reads and parses a scene file. The parameter that a scene with [matrix_family] traces need not be
+/// declared: it is added, with the value where the trace begins. Throws InputError for a file that cannot be
+/// read or is no scene.
 Scene read_scene(const std::string& path);
 
 /// The same from memory; `path` names the text in messages.
@@ -80,10 +81,12 @@ class TableReader {
   std::vector<std::string> known_;
 };
 
-/// The tables of an array of tables ("[[rod]]"); a single "[rod]" counts as one. Empty when the key is absent.
+/// The tables of an array of tables ("[[rod]]"); a single "[rod]" counts as one. Empty when the key is
+/// absent.
 std::vector<const Table*> tables(const Scene& scene, const std::string& key);
 
-/// Rejects parameters that neither an expression nor another used parameter names. `used` as TableReader fills it.
+/// Rejects parameters that neither an expression nor another used parameter names. `used` as TableReader
+/// fills it.
 void reject_unused_parameters(const Scene& scene, const std::set<int>& used);
 
 /// The largest scene file that is read, in bytes.

@@ -7,8 +7,8 @@
 namespace eigentrail {
 
 /// Factor that turns a value in `unit` into SI (radians for angles): unit_factor("rpm") = 2 pi / 60.
-/// Units multiply by a space, '*' or '·', divide by '/', and take whole powers ("m^2"); "" and "1" and "-" are 1.
-/// Empty when the text is not understood.
+/// Units multiply by a space, '*' or '·', divide by '/', and take whole powers ("m^2"); "" and "1" and "-"
+/// are 1. Empty when the text is not understood.
 std::optional<double> unit_factor(std::string_view unit);
 
 }  // namespace eigentrail

@@ -9,20 +9,21 @@
 namespace eigentrail {
 
 struct SteadyOptions {
-  int max_iterations = 200;   ///< of KINSOL, >= 1
-  double tolerance = 1e-12;   ///< KINSOL stops when every equation's residual is below this fraction of its scale, > 0
+  int max_iterations = 200;  ///< of KINSOL, >= 1
+  double tolerance =
+      1e-12;  ///< KINSOL stops when every equation's residual is below this fraction of its scale, > 0
 };
 
 enum class SteadyStatus { converged, not_converged, not_finite };
 
 /// What the solver did; complete also when it failed.
 struct SteadyReport {
-  int iterations = 0;            ///< of KINSOL
-  int factorizations = 0;        ///< of the KKT matrix, polishing included
+  int iterations = 0;      ///< of KINSOL
+  int factorizations = 0;  ///< of the KKT matrix, polishing included
   int residual_evaluations = 0;
-  double residual = 0.0;         ///< largest scaled residual at the end
-  std::string worst_equation;    ///< the equation it belongs to
-  std::string message;           ///< reason of a failure, in words
+  double residual = 0.0;       ///< largest scaled residual at the end
+  std::string worst_equation;  ///< the equation it belongs to
+  std::string message;         ///< reason of a failure, in words
 };
 
 struct [[nodiscard]] Equilibrium {
@@ -34,18 +35,20 @@ struct [[nodiscard]] Equilibrium {
   SteadyReport report;
 };
 
-/// Solves the steady equations at given parameters (declared units) from the guess (x, lambda): KINSOL with line
-/// search and the exact Jacobian, then Newton corrections until they reach rounding. An empty `lambda` guess is
-/// replaced by the least-squares multipliers (Eq. 15) at x.
-Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
-                              const SteadyOptions& options, EvaluationCounts& counts);
+/// Solves the steady equations at given parameters (declared units) from the guess (x, lambda): KINSOL with
+/// line search and the exact Jacobian, then Newton corrections until they reach rounding. An empty `lambda`
+/// guess is replaced by the least-squares multipliers (Eq. 15) at x.
+Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 
-/// An equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without solving.
-Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
-                             EvaluationCounts& counts);
+/// An equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without
+/// solving.
+Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                             const Vector& lambda, EvaluationCounts& counts);
 
-/// Extends an equilibrium to its series of the given order along `parameters` (n_parameters x (<= order + 1), column 0
-/// the values at the equilibrium). One back-substitution per order with the factorization of the equilibrium.
+/// Extends an equilibrium to its series of the given order along `parameters` (n_parameters x (<= order + 1),
+/// column 0 the values at the equilibrium). One back-substitution per order with the factorization of the
+/// equilibrium.
 EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium& equilibrium,
                                           const VectorSeries& parameters, int order, Path& path,
                                           EvaluationCounts& counts);

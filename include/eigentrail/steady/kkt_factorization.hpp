@@ -3,8 +3,8 @@
 //     [ K  A^T ] [ dx ]   [ r ]
 //     [ A   0  ] [ dl ] = [ g ]        K = -f_/x + (A^T lambda)_/x
 //
-// dx = A+ g + Q2 w,  (Q2^T K Q2) w = Q2^T (r - K A+ g),  A^T dl = r - K dx. Redundant constraints thus need no special
-// treatment; dl is then the solution of minimum norm.
+// dx = A+ g + Q2 w,  (Q2^T K Q2) w = Q2^T (r - K A+ g),  A^T dl = r - K dx. Redundant constraints thus need
+// no special treatment; dl is then the solution of minimum norm.
 #pragma once
 
 #include <Eigen/LU>
@@ -17,8 +17,8 @@ class KktFactorization {
  public:
   KktFactorization() = default;
 
-  /// Factors the system; cost O(n m^2 + (n - m)^3). Where Q2^T K Q2 is singular (a rigid-body freedom), solutions
-  /// are those of minimum norm.
+  /// Factors the system; cost O(n m^2 + (n - m)^3). Where Q2^T K Q2 is singular (a rigid-body freedom),
+  /// solutions are those of minimum norm.
   KktFactorization(const Matrix& K, const Matrix& A);
 
   /// Factors the constraints alone, for points whose equilibrium is known; `solve` must not be called.

@@ -16,9 +16,9 @@ struct LociFile {
   std::string parameter_unit;  ///< "1" when it has none
   std::vector<std::string> modes;
   std::vector<std::string> coordinates, constraints;
-  std::vector<double> p;                 ///< per node, monotonic
-  std::vector<ComplexMatrix> series;     ///< per node: modes x (order + 1)
-  std::vector<double> residual, condition;  ///< node x mode, row-major
+  std::vector<double> p;                          ///< per node, monotonic
+  std::vector<ComplexMatrix> series;              ///< per node: modes x (order + 1)
+  std::vector<double> residual, condition;        ///< node x mode, row-major
   std::map<std::string, std::string> attributes;  ///< root attributes as text
 
   std::size_t n_nodes() const { return p.size(); }

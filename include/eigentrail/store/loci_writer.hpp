@@ -15,8 +15,8 @@ void check_parameter_name(const Scene& scene, const std::string& parameter);
 
 class LociWriter {
  public:
-  /// Creates `path` with its header. The file appears under its name complete with header or not at all; an existing
-  /// file is replaced in that moment. Throws std::runtime_error when the file cannot be written.
+  /// Creates `path` with its header. The file appears under its name complete with header or not at all; an
+  /// existing file is replaced in that moment. Throws std::runtime_error when the file cannot be written.
   LociWriter(std::string path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, int n_modes);
   ~LociWriter();

@@ -8,7 +8,8 @@ namespace eigentrail {
 /// Massless rod of given length: c = |to - from|^2 - length^2   (seed paper, Eq. 131).
 struct Rod {
   static constexpr std::string_view name = "rod";
-  static constexpr std::string_view description = "massless rigid rod between two places: c = |d|^2 - length^2";
+  static constexpr std::string_view description =
+      "massless rigid rod between two places: c = |d|^2 - length^2";
   static constexpr Contribution contribution{.constraint = true};
   static constexpr int constraint_count = 1;
   static constexpr bool curved = true;
@@ -47,7 +48,8 @@ struct Plane {
   static void fields(Self& self, Visitor& visit) {
     visit.place("point", self.point, "the point");
     visit.vector({"normal", "", enters_constraint, "normal of the plane, of any length"}, self.normal);
-    visit.quantity({"offset", "m", enters_constraint, "normal . x on the plane", Range::any, 0.0}, self.offset);
+    visit.quantity({"offset", "m", enters_constraint, "normal . x on the plane", Range::any, 0.0},
+                   self.offset);
   }
 
   template <class Scalar>

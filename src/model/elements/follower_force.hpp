@@ -8,7 +8,8 @@ namespace eigentrail {
 
 struct FollowerForce {
   static constexpr std::string_view name = "follower_force";
-  static constexpr std::string_view description = "force of given magnitude that turns with the line between two places";
+  static constexpr std::string_view description =
+      "force of given magnitude that turns with the line between two places";
   static constexpr Contribution contribution{.circulatory = true};
   static constexpr Dependence depends{.position = true};
 
@@ -21,8 +22,10 @@ struct FollowerForce {
     visit.place("point", self.point, "the point it acts on");
     visit.place("from", self.from, "where the line begins");
     visit.place("to", self.to, "where the line ends");
-    visit.quantity({"magnitude", "N", enters_force, "the force, along from -> to where positive"}, self.magnitude);
-    visit.quantity({"angle", "rad", enters_force, "turns the direction about the axis", Range::any, 0.0}, self.angle);
+    visit.quantity({"magnitude", "N", enters_force, "the force, along from -> to where positive"},
+                   self.magnitude);
+    visit.quantity({"angle", "rad", enters_force, "turns the direction about the axis", Range::any, 0.0},
+                   self.angle);
     visit.vector({"axis", "", enters_force, "axis of that turn, of any length", Range::any, 1.0}, self.axis);
   }
 

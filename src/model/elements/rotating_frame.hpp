@@ -8,7 +8,8 @@ namespace eigentrail {
 
 struct RotatingFrame {
   static constexpr std::string_view name = "frame";
-  static constexpr std::string_view description = "steadily rotating frame: centrifugal and Coriolis forces on every mass";
+  static constexpr std::string_view description =
+      "steadily rotating frame: centrifugal and Coriolis forces on every mass";
   static constexpr Contribution contribution{.conservative = true, .gyroscopic = true};
   static constexpr Dependence depends{.position = true, .velocity = true};
 
@@ -19,7 +20,8 @@ struct RotatingFrame {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.place("point", self.point, "every point with mass");
-    visit.quantity({"mass", "kg", enters_damping_and_force, "mass of the point", Range::non_negative}, self.mass);
+    visit.quantity({"mass", "kg", enters_damping_and_force, "mass of the point", Range::non_negative},
+                   self.mass);
     visit.vector({"angular_velocity", "rad/s", enters_damping_and_force,
                   "angular velocity of the frame, about an axis through the origin"},
                  self.angular_velocity);

@@ -5,8 +5,8 @@
 
 namespace eigentrail {
 
-/// Between two places: tension k (|d| - free_length) along d = to - from. Coinciding ends have no direction; the
-/// evaluation then reports a number that is not finite.
+/// Between two places: tension k (|d| - free_length) along d = to - from. Coinciding ends have no direction;
+/// the evaluation then reports a number that is not finite.
 struct Spring {
   static constexpr std::string_view name = "spring";
   static constexpr std::string_view description = "linear spring between two places";
@@ -21,7 +21,8 @@ struct Spring {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
     visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
-    visit.quantity({"free_length", "m", enters_force, "length without force", Range::non_negative}, self.free_length);
+    visit.quantity({"free_length", "m", enters_force, "length without force", Range::non_negative},
+                   self.free_length);
   }
 
   template <class Scalar>
@@ -34,11 +35,12 @@ struct Spring {
   }
 };
 
-/// A spring that keeps its direction u (the seed paper's vertical spring, Eq. 107b): f = -k (u.x - reference) u with
-/// |u| = 1 after normalization.
+/// A spring that keeps its direction u (the seed paper's vertical spring, Eq. 107b): f = -k (u.x - reference)
+/// u with |u| = 1 after normalization.
 struct GuidedSpring {
   static constexpr std::string_view name = "guided_spring";
-  static constexpr std::string_view description = "linear spring that keeps its direction, its far end sliding along";
+  static constexpr std::string_view description =
+      "linear spring that keeps its direction, its far end sliding along";
   static constexpr Contribution contribution{.conservative = true};
   static constexpr Dependence depends{.position = true};
 
@@ -51,8 +53,9 @@ struct GuidedSpring {
     visit.place("point", self.point, "the point it acts on");
     visit.vector({"direction", "", enters_force, "direction of the spring, of any length"}, self.direction);
     visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
-    visit.quantity({"reference", "m", enters_force, "coordinate along the direction without force", Range::any, 0.0},
-                   self.reference);
+    visit.quantity(
+        {"reference", "m", enters_force, "coordinate along the direction without force", Range::any, 0.0},
+        self.reference);
   }
 
   template <class Scalar>

@@ -1,5 +1,6 @@
-// Force normal to the line from a hinge to a point, proportional to it (seed paper, Eq. 142): with d = point - hinge,
-// f = { -a_t d_y - a_n d_z, a_t d_x, a_n d_x }, "loosely representative of lift (a_n) and drag (a_t)". Circulatory.
+// Force normal to the line from a hinge to a point, proportional to it (seed paper, Eq. 142): with d = point
+// - hinge, f = { -a_t d_y - a_n d_z, a_t d_x, a_n d_x }, "loosely representative of lift (a_n) and drag
+// (a_t)". Circulatory.
 #pragma once
 
 #include "model/element.hpp"
@@ -8,7 +9,8 @@ namespace eigentrail {
 
 struct TransverseForce {
   static constexpr std::string_view name = "transverse_force";
-  static constexpr std::string_view description = "lift-and-drag-like force normal to the line hinge-point, growing with it";
+  static constexpr std::string_view description =
+      "lift-and-drag-like force normal to the line hinge-point, growing with it";
   static constexpr Contribution contribution{.circulatory = true};
   static constexpr Dependence depends{.position = true};
 
@@ -19,7 +21,8 @@ struct TransverseForce {
   static void fields(Self& self, Visitor& visit) {
     visit.place("point", self.point, "the point it acts on");
     visit.place("hinge", self.hinge, "where the line begins; the reaction is not applied to it");
-    visit.quantity({"tangential", "N/m", enters_force, "a_t: force along y per distance along x"}, self.tangential);
+    visit.quantity({"tangential", "N/m", enters_force, "a_t: force along y per distance along x"},
+                   self.tangential);
     visit.quantity({"normal", "N/m", enters_force, "a_n: force along z per distance along x"}, self.normal);
   }
 

@@ -1,0 +1,25 @@
+// Independent spectra and comparisons for tests.
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail::test {
+
+/// All eigenvalues of s E y = A y by LAPACK's QZ without any scaling; infinite ones are left out.
+/// `n_infinite` receives their number: |beta| <= `infinite` |alpha|.
+std::vector<Complex> qz_eigenvalues(const Matrix& A, const Matrix& E, double infinite = 1e-14,
+                                    int* n_infinite = nullptr);
+
+/// All 2n eigenvalues of (s^2 M + s C + K) z = 0 from the unscaled companion form.
+std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
+
+/// Distance from s to the nearest member of `spectrum`, relative to |s|.
+double relative_distance(Complex s, const std::vector<Complex>& spectrum);
+
+/// Largest relative distance when two lists are matched one to one by repeatedly taking the closest pair;
+/// infinite when the sizes differ.
+double matched_distance(std::vector<Complex> a, std::vector<Complex> b);
+
+}  // namespace eigentrail::test
