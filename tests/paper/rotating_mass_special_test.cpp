@@ -1,0 +1,111 @@
+// Rotating point mass without a_t, a_n, seed paper Sect. 6.3 and 6.3.1: Eqs. (146) to (160).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "eigentrail/modes/spectrum.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double tolerance = 1e-12;
+constexpr double m = 50.0;
+constexpr double e = 1.0;
+constexpr double length = 5.0;
+constexpr double r = 2.0;
+constexpr double omega = 40.0;
+
+const std::vector<std::pair<std::string, std::string>> without_force = {{"-100.0", "0.0"}, {"1000.0", "0.0"}};
+
+/// Square root with positive imaginary part: the pair's member that is stored.
+Complex upper_root(double argument) {
+  return std::sqrt(Complex(argument));
+}
+
+class RotatingMassSpecial : public testing::TestWithParam<double> {
+ protected:
+  RotatingMassSpecial() : setting(scene_setting("rotating_mass", {}, without_force)) {}
+
+  /// The point with T of Eq. (151) for the parameter alpha.
+  PathPoint point_for_alpha() {
+    const double alpha = GetParam();
+    PathPoint point = point_from_guess(setting.problem(), omega, counts);
+    Matrix T(3, 2);
+    T << 0.0, 0.0, std::cos(alpha), -std::sin(alpha), std::sin(alpha), std::cos(alpha);
+    point.basis = {{T}, false};
+    point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
+    const PencilAtPoint pencil(point.pencil);
+    for (Mode& mode : point.modes) {
+      const ComplexVector z = ComplexVector::Random(2);
+      mode = correct_mode(pencil, mode.s * 1.01, z + 10.0 * exact_vector(mode.s), 1.0, {}, counts.modes);
+      EXPECT_EQ(mode.status, ModeStatus::converged);
+    }
+    return point;
+  }
+
+  /// Eq. (154): the lag vector is {cos, -sin}, the flap vector {sin, cos}.
+  ComplexVector exact_vector(Complex s) const {
+    const double alpha = GetParam();
+    const bool lag = std::abs(s) < omega;
+    ComplexVector z(2);
+    z << (lag ? std::cos(alpha) : std::sin(alpha)), (lag ? -std::sin(alpha) : std::cos(alpha));
+    return z;
+  }
+
+  Setting setting;
+  RunCounts counts;
+};
+
+TEST_P(RotatingMassSpecial, MultiplierEqualsEq146) {
+  const PathPoint point = point_for_alpha();
+  const double expected = 0.5 * m * omega * omega * (1.0 + e / length);
+  EXPECT_NEAR(point.equilibrium.lambda[0], expected, tolerance * expected);
+}
+
+TEST_P(RotatingMassSpecial, ProjectedMatricesEqualEq152) {
+  const PathPoint point = point_for_alpha();
+  const double c = std::cos(GetParam());
+  const double s = std::sin(GetParam());
+  Matrix K(2, 2);
+  K << s * s + e / length, s * c, s * c, c * c + e / length;
+  EXPECT_LT((point.pencil.M[0] - m * Matrix::Identity(2, 2)).norm(), tolerance * m);
+  EXPECT_LT((point.pencil.C[0] - r * Matrix::Identity(2, 2)).norm(), tolerance * 2.0 * m * omega);
+  EXPECT_LT((point.pencil.K[0] - m * omega * omega * K).norm(), tolerance * m * omega * omega);
+}
+
+TEST_P(RotatingMassSpecial, EigensolutionEqualsEq154) {
+  const PathPoint point = point_for_alpha();
+  ASSERT_EQ(point.modes.size(), 2U);
+  const double half = r / (2.0 * m);
+  const Complex lag = -half + upper_root(half * half - omega * omega * e / length);
+  const Complex flap = -half + upper_root(half * half - omega * omega * (1.0 + e / length));
+  EXPECT_LT(std::abs(point.modes[0].s - lag), tolerance * std::abs(lag));
+  EXPECT_LT(std::abs(point.modes[1].s - flap), tolerance * std::abs(flap));
+  for (const Mode& mode : point.modes) {
+    const double parallel = std::abs(exact_vector(mode.s).dot(mode.z)) / mode.z.norm();
+    EXPECT_NEAR(parallel, 1.0, tolerance);
+  }
+}
+
+TEST_P(RotatingMassSpecial, SensitivityToSpeedEqualsEqs155To160) {
+  const PathPoint point = point_for_alpha();
+  const PathNode node = differentiate_point(setting.problem(), point, counts).value();
+  const double half = r / (2.0 * m);
+  const double lag = e / length;
+  const double flap = 1.0 + e / length;
+  for (const auto& [i, factor] : {std::pair(0, lag), std::pair(1, flap)}) {
+    // (155): s_/omega = -omega factor / sqrt(...) for the upper sign of (154).
+    const Complex expected = -omega * factor / upper_root(half * half - omega * omega * factor);
+    EXPECT_LT(std::abs(node.s(i, 1) - expected), tolerance * std::abs(expected));
+    EXPECT_LT(node.shapes[static_cast<std::size_t>(i)].col(1).norm(), tolerance);  // z_/p = 0
+  }
+  EXPECT_LT(node.path.x.col(1).norm(), tolerance * length / omega);  // (158)
+  const double lambda = m * omega * (1.0 + e / length);
+  EXPECT_NEAR(node.path.lambda(0, 1), lambda, tolerance * lambda);
+}
+
+INSTANTIATE_TEST_SUITE_P(Alpha, RotatingMassSpecial, testing::Values(0.0, 0.3, 0.785398163397448, 2.0, -1.1));
+
+}  // namespace
+}  // namespace eigentrail::test
