@@ -1,0 +1,124 @@
+// Families of matrices: polynomials in the traced parameter, entries that are expressions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double tolerance = 1e-14;
+
+const std::string flutter = R"(
+[trace]
+parameter = "p"
+from = 0
+to = 0.4
+[matrix_family]
+M = [ [[1, 0], [0, 1]] ]
+K = [ [[1, 0], [0, 2]], [[0, 1], [-1, 0]] ]
+)";
+
+Linearization linearize(const Setting& setting, double p, int order) {
+  Path path;
+  path.parameters = VectorSeries::Zero(static_cast<Eigen::Index>(setting.scene.parameters.size()), 2);
+  path.parameters.col(0) = setting.scene.parameters.declared_values();
+  const int traced = setting.parameter(setting.options.parameter);
+  path.parameters(traced, 0) = p;
+  path.parameters(traced, 1) = 1.0;
+  path.x = Vector::Zero(setting.model->n_coordinates());
+  path.lambda = Vector::Zero(setting.model->n_constraints());
+  Linearization lin;
+  EvaluationCounts counts = setting.model->new_counts();
+  EXPECT_FALSE(setting.model->linearize(path, order, lin, counts));
+  return lin;
+}
+
+TEST(MatrixFamily, PolynomialIsExpandedAboutThePoint) {
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1]] ]\nK = [ [[5]], [[3]], "
+      "[[-2]], [[4]] ]\n");
+  const double p = 0.7;
+  const Linearization lin = linearize(setting, p, 4);
+  ASSERT_EQ(lin.K.size(), 4U);  // the cubic ends at order 3
+  EXPECT_NEAR(lin.K[0](0, 0), 5 + 3 * p - 2 * p * p + 4 * p * p * p, tolerance * 10);
+  EXPECT_NEAR(lin.K[1](0, 0), 3 - 4 * p + 12 * p * p, tolerance * 10);
+  EXPECT_NEAR(lin.K[2](0, 0), -2 + 12 * p, tolerance * 10);
+  EXPECT_NEAR(lin.K[3](0, 0), 4, tolerance * 10);
+  EXPECT_EQ(lin.M.size(), 1U);  // constants have one coefficient
+  EXPECT_EQ(lin.C.size(), 1U);
+}
+
+TEST(MatrixFamily, EntriesMayBeExpressionsOfTheTracedParameter) {
+  const Setting setting = make_setting(
+      "[parameters]\na = 0.5\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 6\n"
+      "[matrix_family]\nM = [ [[1]] ]\nC = [ [[\"2*(1 + a*cos(p))\"]] ]\nK = [ [[1]] ]\n");
+  const double p = 1.3;
+  const Linearization lin = linearize(setting, p, 4);
+  const double expected[] = {2 + std::cos(p), -std::sin(p), -std::cos(p) / 2, std::sin(p) / 6,
+                             std::cos(p) / 24};
+  for (int k = 0; k <= 4; ++k)
+    EXPECT_NEAR(lin.C[static_cast<std::size_t>(k)](0, 0), expected[k], tolerance * 4) << k;
+}
+
+TEST(MatrixFamily, EquilibriumIsKnownAndNeverSolved) {
+  const Setting setting = make_setting(flutter);
+  const Structure structure = setting.model->structure(0);
+  EXPECT_TRUE(structure.known_equilibrium && structure.constant_mass && structure.circulatory);
+  EXPECT_FALSE(structure.constant_stiffness || structure.damped || structure.gyroscopic);
+  const RecordedTrace recorded = record_trace(setting);
+  EXPECT_EQ(recorded.result.status, TraceStatus::completed);
+  EXPECT_EQ(recorded.result.counts.equilibrium_iterations, 0U);
+  EXPECT_EQ(recorded.result.counts.equilibrium_factorizations, 0U);
+}
+
+TEST(MatrixFamily, FollowsTheClosedFormUpToTheExceptionalPoint) {
+  // s^2 = -(3/2 +- sqrt(1/4 - p^2)); the exceptional point lies at p = 1/2, outside this range.
+  const Setting setting = make_setting(flutter, {{"tolerance", "1e-10"}, {"to", "0.49"}});
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed);
+  for (int i = 0; i <= 200; ++i) {
+    const double p = 0.49 * i / 200.0;
+    const double root = std::sqrt(0.25 - p * p);
+    const ComplexVector s = recorded.eigenvalues_at(p);
+    EXPECT_NEAR(s[0].imag(), std::sqrt(1.5 - root), 4e-10 * 1.3);
+    EXPECT_NEAR(s[1].imag(), std::sqrt(1.5 + root), 4e-10 * 1.5);
+  }
+}
+
+TEST(MatrixFamily, StopsBeforeAnExceptionalPointAndSaysWhere) {
+  const RecordedTrace recorded = record_trace(make_setting(flutter, {{"to", "1"}}));
+  EXPECT_EQ(recorded.result.status, TraceStatus::step_too_small);
+  EXPECT_NEAR(recorded.result.reached, 0.5, 1e-3);
+  EXPECT_NE(recorded.result.message.find("p = 0.4999"), std::string::npos) << recorded.result.message;
+}
+
+TEST(MatrixFamily, ConstraintsReduceIt) {
+  // Two unit masses on springs 1 and 3, tied together: s^2 = -(1 + 3) / 2.
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
+      "K = [ [[1, 0], [0, 3]], [[1, 0], [0, 1]] ]\nA = [ [[1, -1]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.n_modes, 1);
+  EXPECT_NEAR(recorded.nodes.front().s(0, 0).imag(), std::sqrt(2.0), tolerance * 10);
+  EXPECT_NEAR(recorded.nodes.back().s(0, 0).imag(), std::sqrt(3.0), tolerance * 10);
+}
+
+TEST(MatrixFamily, ConstraintsThatTurnWithTheParameterTurnTheBasis) {
+  // A(p) = [cos p, sin p]: the free direction is {-sin p, cos p}, so s^2 = -(k1 sin^2 p + k2 cos^2 p).
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 6\ntolerance = 1e-9\n[matrix_family]\nM = [ [[1, 0], [0, "
+      "1]] ]\n"
+      "K = [ [[1, 0], [0, 4]] ]\nA = [ [[\"cos(p)\", \"sin(p)\"]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed);
+  for (int i = 0; i <= 300; ++i) {
+    const double p = 6.0 * i / 300.0;
+    const double expected = std::sqrt(std::pow(std::sin(p), 2) + 4.0 * std::pow(std::cos(p), 2));
+    EXPECT_NEAR(recorded.eigenvalues_at(p)[0].imag(), expected, 4e-9 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test

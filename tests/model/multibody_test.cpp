@@ -1,0 +1,89 @@
+// The multibody model as a whole: structure flags, counters, names, guesses.
+#include <gtest/gtest.h>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+TEST(Multibody, AbsentEffectsAreNeverEvaluated) {
+  const Setting setting = scene_setting("pendulum");
+  const RecordedTrace recorded = record_trace(setting);
+  const auto& effects = setting.model->description().effects;
+  const EvaluationCounts& counts = recorded.result.counts.evaluations;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (effects[i].count == 0) {
+      EXPECT_EQ(counts.residual[i] + counts.linearization[i], 0U) << effects[i].name;
+    } else {
+      EXPECT_GT(counts.linearization[i], 0U) << effects[i].name;
+    }
+  }
+}
+
+TEST(Multibody, NamesCoordinatesAndConstraintsAfterTheScene) {
+  const Setting setting = scene_setting("pendulum");
+  const ModelDescription& description = setting.model->description();
+  EXPECT_EQ(description.coordinate_names, (std::vector<std::string>{"bob.x", "bob.y", "bob.z"}));
+  EXPECT_EQ(description.constraint_names, (std::vector<std::string>{"rod 1", "fixed 1"}));
+}
+
+struct StructureCase {
+  std::string name;
+  std::string scene;
+  std::string parameter;
+  bool fixed_equilibrium, constant_mass, constant_damping, constant_stiffness, constant_constraints;
+};
+
+class MultibodyStructure : public testing::TestWithParam<StructureCase> {};
+
+TEST_P(MultibodyStructure, FollowsFromWhereTheParameterEnters) {
+  const StructureCase& c = GetParam();
+  const Setting setting = scene_setting(c.scene);
+  const Structure structure = setting.model->structure(setting.parameter(c.parameter));
+  EXPECT_EQ(structure.fixed_equilibrium, c.fixed_equilibrium);
+  EXPECT_EQ(structure.constant_mass, c.constant_mass);
+  EXPECT_EQ(structure.constant_damping, c.constant_damping);
+  EXPECT_EQ(structure.constant_stiffness, c.constant_stiffness);
+  EXPECT_EQ(structure.constant_constraints, c.constant_constraints);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Parameters, MultibodyStructure,
+    testing::Values(
+        StructureCase{"SpeedMovesEverythingButMass", "rotating_mass", "omega", false, true, false, false,
+                      false},
+        StructureCase{"DragEntersOnlyDamping", "rotating_mass", "drag", true, true, false, true, true},
+        StructureCase{"MassEntersWithTheFrame", "rotating_mass", "mass", false, false, false, false, false},
+        StructureCase{"GravityMovesTheEquilibrium", "pendulum", "g", false, true, true, false, false},
+        StructureCase{"LengthEntersTheConstraint", "pendulum", "length", false, true, true, false, false}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Multibody, StructureFlagsComeFromTheEffects) {
+  const Structure blade = scene_setting("rotating_mass").model->structure(0);
+  EXPECT_TRUE(blade.damped && blade.gyroscopic && blade.circulatory);
+  const Structure pendulum = scene_setting("pendulum").model->structure(0);
+  EXPECT_FALSE(pendulum.damped || pendulum.gyroscopic || pendulum.circulatory);
+}
+
+TEST(Multibody, TracingAParameterThatMovesNothingKeepsTheEquilibrium) {
+  const Setting setting =
+      scene_setting("rotating_mass", {{"parameter", "drag"}, {"from", "1"}, {"to", "30"}});
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed);
+  for (const PathNode& node : recorded.nodes) EXPECT_EQ(node.path.x.col(0), recorded.nodes[0].path.x.col(0));
+  // KINSOL ran at the first point only.
+  const RecordedTrace shorter =
+      record_trace(scene_setting("rotating_mass", {{"parameter", "drag"}, {"from", "1"}, {"to", "1.5"}}));
+  EXPECT_EQ(recorded.result.counts.equilibrium_iterations, shorter.result.counts.equilibrium_iterations);
+}
+
+TEST(Multibody, OrderBeyondTheHighestIsRefused) {
+  const Setting setting = scene_setting("pendulum");
+  EvaluationCounts counts = setting.model->new_counts();
+  Linearization lin;
+  const Path path{setting.scene.parameters.declared_values(), Vector::Zero(3), Vector::Zero(2)};
+  EXPECT_THROW((void)setting.model->linearize(path, 5, lin, counts), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
