@@ -15,6 +15,7 @@ namespace {
 
 /// |beta| below this fraction of |alpha| is an infinite eigenvalue of the scaled pencil.
 constexpr double infinite = 1e-13;
+constexpr double singular_pivot = 1e-15;
 
 struct Scaling {
   double gamma = 1.0;  ///< s = gamma mu
@@ -36,11 +37,22 @@ Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
   return scaling;
 }
 
+/// Whether P is singular to working precision, rows and columns brought to one magnitude first so that graded matrices
+/// are not mistaken for singular ones.
+bool is_singular_matrix(ComplexMatrix P) {
+  const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
+  const Vector rows = P.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
+  P = rows.asDiagonal() * P;
+  const Vector columns = P.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse);
+  P = P * columns.asDiagonal();
+  const Vector pivots = Eigen::PartialPivLU<ComplexMatrix>(P).matrixLU().diagonal().cwiseAbs();
+  return !(pivots.minCoeff() > singular_pivot * pivots.maxCoeff());
+}
+
 /// A pencil is singular when det P vanishes everywhere; it is then singular at any few points.
 bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   for (const Complex mu : {Complex(0.8, 0.6), Complex(-0.28, 0.96), Complex(1.9, -0.7)}) {
-    const ComplexMatrix P = (mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>();
-    if (Eigen::PartialPivLU<ComplexMatrix>(P).rcond() > 1e-15) return false;
+    if (!is_singular_matrix((mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>())) return false;
   }
   return true;
 }
@@ -61,12 +73,16 @@ ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_comple
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
   const Eigen::Index n = M.rows();
   Spectrum spectrum;
+  if (n == 0) {
+    spectrum.status = SpectrumStatus::complete;
+    return spectrum;
+  }
   const Scaling scaling = fan_lin_van_dooren(M, C, K);
   spectrum.scale = scaling.gamma;
   const Matrix scaled_M = scaling.delta * scaling.gamma * scaling.gamma * M;
   const Matrix scaled_C = scaling.delta * scaling.gamma * C;
   const Matrix scaled_K = scaling.delta * K;
-  if (n > 0 && is_singular(scaled_M, scaled_C, scaled_K)) {
+  if (is_singular(scaled_M, scaled_C, scaled_K)) {
     spectrum.status = SpectrumStatus::singular_pencil;
     return spectrum;
   }

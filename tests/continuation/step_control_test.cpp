@@ -1,0 +1,76 @@
+#include "eigentrail/continuation/step_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+TEST(StepControl, FirstStepIsTheGivenOne) {
+  EXPECT_EQ(StepControl(10.0, 3, 0.2, 2.5).propose(10.0), 0.2);
+  EXPECT_EQ(StepControl(10.0, 3, 7.0, 2.5).propose(10.0), 2.5);
+}
+
+TEST(StepControl, LandsOnTheEndWithoutASliver) {
+  const StepControl control(10.0, 3, 1.0, 2.5);
+  EXPECT_EQ(control.propose(1.01), 1.01);
+  EXPECT_EQ(control.propose(0.3), 0.3);
+  EXPECT_EQ(control.propose(1.8), 0.9);
+  EXPECT_EQ(control.propose(2.5), 1.0);
+}
+
+TEST(StepControl, SettlesWhereTheErrorIsAThirdOfTheTolerance) {
+  // A function whose error is (h / 0.7)^8 of the tolerance everywhere.
+  StepControl control(100.0, 3, 0.05, 50.0);
+  double h = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    h = control.propose(100.0);
+    const double error = std::pow(h / 0.7, 8);
+    error <= 1.0 ? control.accept(h, error) : control.reject(h, error);
+  }
+  EXPECT_NEAR(std::pow(h / 0.7, 8), 0.3, 0.01);
+}
+
+TEST(StepControl, FollowsASingularityWithoutRejections) {
+  // Distance to a singularity at 10: error (h / (10 - p))^8 scaled so that h is a third of the distance.
+  StepControl control(10.0, 3, 0.5, 10.0);
+  double p = 0.0;
+  int rejected = 0;
+  int accepted = 0;
+  while (10.0 - p > 1e-3) {
+    const double h = control.propose(10.0 - p);
+    const double error = std::pow(3.0 * h / (10.0 - p), 8);
+    if (error <= 1.0) {
+      control.accept(h, error);
+      p += h;
+      ++accepted;
+    } else {
+      control.reject(h, error);
+      ++rejected;
+    }
+  }
+  EXPECT_LE(rejected, 2);
+  EXPECT_LT(accepted, 60);
+}
+
+TEST(StepControl, FailedStepsShrinkUntilExhausted) {
+  StepControl control(1.0, 2, 0.1, 0.25);
+  int tries = 0;
+  while (!control.exhausted() && tries < 1000) {
+    control.reject(control.propose(1.0), INFINITY);
+    ++tries;
+  }
+  EXPECT_LT(tries, 40);
+}
+
+TEST(StepControl, ConvertsTheMissIntoTheErrorInside) {
+  // Equal steps: ((1/4) h^2 / (h (h + h)))^(q+1) = (1/8)^(q+1).
+  StepControl control(1.0, 1, 0.1, 0.5);
+  control.accept(0.1, 0.3);
+  const double miss = 0.3 * 64.0;
+  EXPECT_NEAR(control.error_from_miss(0.1, miss), 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace eigentrail

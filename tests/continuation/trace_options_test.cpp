@@ -1,0 +1,83 @@
+#include "eigentrail/continuation/trace_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace eigentrail {
+namespace {
+
+const std::string family = "[matrix_family]\nM = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n";
+
+TraceOptions read(const std::string& trace, const OptionTexts& overrides = {}) {
+  return read_trace_options(parse_scene("[trace]\n" + trace + family, "scene.toml"), overrides);
+}
+
+TEST(TraceOptions, DefaultsAreDocumented) {
+  const TraceOptions options = read("parameter = \"p\"\nfrom = 0\nto = 1\n");
+  EXPECT_EQ(options.tolerance, 1e-6);
+  EXPECT_EQ(options.order, 3);
+  EXPECT_FALSE(options.modes || options.reference || options.first_step || options.max_step);
+}
+
+TEST(TraceOptions, CommandLineOverridesTheScene) {
+  const TraceOptions options = read("parameter = \"p\"\nfrom = 0\nto = 1\nmodes = 3\n",
+                                    {{"to", "2.5"}, {"modes", "all"}, {"tolerance", "1e-9"}});
+  EXPECT_EQ(options.to, 2.5);
+  EXPECT_FALSE(options.modes);
+  EXPECT_EQ(options.tolerance, 1e-9);
+}
+
+TEST(TraceOptions, NumbersAreInTheParametersUnitAndExpressionsInSi) {
+  const Scene scene = parse_scene(
+      "[parameters]\nspeed = { value = 10, unit = \"rpm\" }\nlimit = { value = 600, unit = \"rpm\" }\n"
+      "[trace]\nparameter = \"speed\"\nfrom = 100\nto = \"limit\"\n",
+      "scene.toml");
+  const TraceOptions options = read_trace_options(scene, {});
+  EXPECT_EQ(options.from, 100.0);
+  EXPECT_NEAR(options.to, 600.0, 1e-10);
+}
+
+TEST(TraceOptions, ProvenanceListsEveryOption) {
+  const TraceOptions options = read("parameter = \"p\"\nfrom = 0.1\nto = 1\n");
+  const OptionTexts texts = describe_options(options);
+  int fields = 0;
+  TraceOptions::fields(options, [&](const char*, const char*, const auto&) { ++fields; });
+  EXPECT_EQ(static_cast<int>(texts.size()), fields);
+  EXPECT_NE(std::find(texts.begin(), texts.end(), std::pair<std::string, std::string>("from", "0.1")),
+            texts.end());
+  EXPECT_NE(std::find(texts.begin(), texts.end(), std::pair<std::string, std::string>("modes", "all")),
+            texts.end());
+}
+
+struct BadOption {
+  std::string name, trace, fragment;
+};
+
+class BadTraceOptions : public testing::TestWithParam<BadOption> {};
+
+TEST_P(BadTraceOptions, AreRefusedWithTheKey) {
+  try {
+    read("parameter = \"p\"\nfrom = 0\n" + GetParam().trace);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(GetParam().fragment), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadTraceOptions,
+    testing::Values(
+        BadOption{"MissingTo", "", "[trace] to: is missing"},
+        BadOption{"EmptyRange", "to = 0\n", "scene.toml:4:1: [trace] to: equals from"},
+        BadOption{"Tolerance", "to = 1\ntolerance = 2\n", "scene.toml:5:1: [trace] tolerance"},
+        BadOption{"Order", "to = 1\norder = 5\n", "[trace] order: must lie between 1 and 4"},
+        BadOption{"FractionalOrder", "to = 1\norder = 2.5\n", "[trace] order: expected a whole number"},
+        BadOption{"NoModes", "to = 1\nmodes = 0\n", "[trace] modes: must be at least 1"},
+        BadOption{"ModesText", "to = 1\nmodes = \"some\"\n", "[trace] modes"},
+        BadOption{"NegativeStep", "to = 1\nmax_step = -1\n", "[trace] max_step: must be positive"},
+        BadOption{"UnknownKey", "to = 1\ntolerence = 1e-3\n", "did you mean 'tolerance'?"}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace eigentrail

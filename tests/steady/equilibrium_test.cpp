@@ -1,0 +1,225 @@
+#include "eigentrail/steady/equilibrium.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double tolerance = 1e-12;
+
+const std::string pushed_pendulum = R"(
+[parameters]
+g = 9.81
+m = 2.0
+length = 1.5
+p = 0.5
+[trace]
+parameter = "p"
+from = 0
+to = 0.9
+tolerance = 1e-9
+[gravity]
+acceleration = [0, 0, "-g"]
+[[point]]
+name = "bob"
+mass = "m"
+position = [0.01, 0, "-length"]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = "length"
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]                    # tangential: the rod's direction turned by a quarter about -y
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p * m * g"
+axis = [0, -1, 0]
+angle = "pi / 2"
+)";
+
+TEST(Equilibrium, PushedPendulumStandsWhereSineEqualsTheForce) {
+  const Setting setting = make_setting(pushed_pendulum);
+  EvaluationCounts counts = setting.model->new_counts();
+  for (const double p : {0.0, 0.3, 0.7, 0.95}) {
+    Vector parameters = setting.scene.parameters.declared_values();
+    parameters[setting.parameter("p")] = p;
+    const Equilibrium found = solve_equilibrium(
+        *setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {}, counts);
+    ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
+    EXPECT_NEAR(std::abs(found.x[0]), 1.5 * p, tolerance * 10);
+    EXPECT_NEAR(found.x[2], -1.5 * std::sqrt(1.0 - p * p), tolerance * 10);
+  }
+}
+
+TEST(Equilibrium, PushedPendulumLociFollowTheClosedForm) {
+  const RecordedTrace recorded = record_trace(make_setting(pushed_pendulum));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  for (int i = 0; i <= 100; ++i) {
+    const double p = 0.9 * i / 100.0;
+    const double expected = std::sqrt(9.81 / 1.5 * std::sqrt(1.0 - p * p));
+    EXPECT_NEAR(recorded.eigenvalues_at(p)[0].imag(), expected, 4e-9 * expected);
+  }
+}
+
+TEST(Equilibrium, NoEquilibriumBeyondTheFoldIsReportedWithTheWorstEquation) {
+  const Setting setting = make_setting(pushed_pendulum);
+  EvaluationCounts counts = setting.model->new_counts();
+  Vector parameters = setting.scene.parameters.declared_values();
+  parameters[setting.parameter("p")] = 1.2;  // the fold is at 1
+  const Equilibrium found = solve_equilibrium(*setting.model, parameters,
+                                              setting.model->initial_guess(parameters), Vector(), {}, counts);
+  EXPECT_EQ(found.status, SteadyStatus::not_converged);
+  EXPECT_NE(found.report.message.find("KINSOL"), std::string::npos);
+  EXPECT_NE(found.report.message.find(found.report.worst_equation), std::string::npos);
+  EXPECT_GT(found.report.residual, 1e-3);
+}
+
+/// Series of every order miss the equilibrium ahead with one order more.
+TEST(Equilibrium, SeriesHaveTheirOrder) {
+  const Setting setting = make_setting(pushed_pendulum);
+  EvaluationCounts counts = setting.model->new_counts();
+  const int p_index = setting.parameter("p");
+  Vector parameters = setting.scene.parameters.declared_values();
+  const auto solve = [&](double p) {
+    parameters[p_index] = p;
+    return solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
+                             {}, counts);
+  };
+  const double p0 = 0.6;
+  const Equilibrium start = solve(p0);
+  VectorSeries direction = VectorSeries::Zero(parameters.size(), 2);
+  direction.col(0) = parameters;
+  direction(p_index, 1) = 1.0;
+  for (int order = 1; order <= 4; ++order) {
+    Path path;
+    ASSERT_FALSE(differentiate_equilibrium(*setting.model, start, direction, order, path, counts));
+    const auto miss = [&](double h) { return (evaluate_series(path.x, h) - solve(p0 + h).x).norm(); };
+    EXPECT_NEAR(std::log2(miss(0.04) / miss(0.02)), order + 1.0, 0.35) << "order " << order;
+  }
+}
+
+/// Rotating mass in other units: the same solution, scaled.
+struct Units {
+  std::string name;
+  double length;  ///< how many of the new unit make a metre
+  double time;    ///< how many of the new unit make a second
+};
+
+class EquilibriumUnits : public testing::TestWithParam<Units> {};
+
+TEST_P(EquilibriumUnits, ChangeNothingButTheScale) {
+  const double L = GetParam().length;
+  const double T = GetParam().time;
+  const auto text = [](double value) {
+    std::ostringstream stream;
+    stream.precision(17);
+    stream << std::scientific << value;
+    return stream.str();
+  };
+  const Setting original = scene_setting("rotating_mass", {{"from", "40"}, {"to", "30"}});
+  const Setting scaled = scene_setting("rotating_mass", {{"from", text(40.0 / T)}, {"to", text(30.0 / T)}},
+                                       {{"40.0", text(40.0 / T)},
+                                        {"value = 5.0", "value = " + text(5.0 * L)},
+                                        {"value = 1.0", "value = " + text(L)},
+                                        {"value = 2.0", "value = " + text(2.0 / T)},
+                                        {"-100.0", text(-100.0 / T / T)},
+                                        {"1000.0", text(1000.0 / T / T)}});
+  RunCounts counts;
+  const PathPoint a = point_from_guess(original.problem(), 40.0, counts);
+  const PathPoint b = point_from_guess(scaled.problem(), 40.0 / T, counts);
+  EXPECT_LT((a.equilibrium.x * L - b.equilibrium.x).norm(), tolerance * L * 6.0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(std::abs(a.modes[i].s / T - b.modes[i].s), tolerance * std::abs(b.modes[i].s)) << "mode " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, EquilibriumUnits,
+                         testing::Values(Units{"Micrometre", 1e6, 1.0}, Units{"Kilometre", 1e-3, 1.0},
+                                         Units{"Nanosecond", 1.0, 1e9},
+                                         Units{"MicrometreAndNanosecond", 1e6, 1e9},
+                                         Units{"KilometreAndHour", 1e-3, 1.0 / 3600.0}),
+                         [](const auto& info) { return info.param.name; });
+
+/// Redundant and nearly parallel constraints.
+const std::string plain_pendulum = R"(
+[parameters]
+length = 1.5
+[trace]
+parameter = "length"
+from = 1
+to = 2
+[gravity]
+acceleration = [0, 0, -9.81]
+[[point]]
+name = "bob"
+mass = 2
+position = [0.1, 0, "-length"]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = "length"
+)";
+const std::string in_plane = "[[fixed]]\npoint = \"bob\"\ncoordinate = \"y\"\n";
+const std::string second_rod = "[[rod]]\nfrom = [0, 0, 0]\nto = \"bob\"\nlength = \"length\"\n";
+
+/// A rod from a place beside the hinge, so that the rods enclose the given angle.
+std::string rod_at_angle(double angle) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[[rod]]\nfrom = [0, \"" << std::tan(angle) << " * length\", 0]\nto = \"bob\"\nlength = \"length / "
+       << std::cos(angle) << "\"\n";
+  return text.str();
+}
+
+constexpr double redundancy_tolerance = 1e-9;
+
+TEST(Equilibrium, RodWrittenTwiceChangesNoEigenvalue) {
+  const RecordedTrace once = record_trace(make_setting(plain_pendulum + in_plane));
+  const RecordedTrace twice = record_trace(make_setting(plain_pendulum + in_plane + second_rod));
+  ASSERT_EQ(once.result.status, TraceStatus::completed);
+  ASSERT_EQ(twice.result.status, TraceStatus::completed) << twice.result.message;
+  EXPECT_EQ(twice.result.n_modes, 1);
+  for (const PathNode& node : twice.nodes) {
+    const double expected = std::sqrt(9.81 / node.p);
+    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected);
+    EXPECT_NEAR(node.s(0, 1).imag(), -0.5 * expected / node.p, redundancy_tolerance * expected / node.p);
+  }
+}
+
+class RodsAtAnAngle : public testing::TestWithParam<double> {};
+
+TEST_P(RodsAtAnAngle, LeaveTheSwingInTheirCommonPlaneUnchanged) {
+  // Both rods hinge on the y axis, so the bob swings about it with the same length. The second rod takes away
+  // the freedom along y, whatever the angle.
+  const RecordedTrace recorded = record_trace(make_setting(plain_pendulum + rod_at_angle(GetParam())));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  ASSERT_EQ(recorded.result.n_modes, 1);
+  for (const PathNode& node : recorded.nodes) {
+    const double expected = std::sqrt(9.81 / node.p);
+    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected) << "at " << node.p;
+  }
+}
+
+TEST_P(RodsAtAnAngle, AreOneConstraintTooManyInAPlane) {
+  const RecordedTrace recorded =
+      record_trace(make_setting(plain_pendulum + in_plane + rod_at_angle(GetParam())));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  ASSERT_EQ(recorded.result.n_modes, 1);
+  for (const PathNode& node : recorded.nodes) {
+    const double expected = std::sqrt(9.81 / node.p);
+    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected) << "at " << node.p;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle, testing::Values(1e-2, 1e-4, 1e-6, 1e-8, 1e-10));
+
+}  // namespace
+}  // namespace eigentrail::test
