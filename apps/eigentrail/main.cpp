@@ -6,11 +6,13 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/version.hpp"
 
-int main(int argc, char** argv) {
-  using namespace eigentrail::app;
+namespace eigentrail::app {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
                    "eigentrail");
-  program.set_version_flag("--version", "eigentrail " + eigentrail::version());
+  program.set_version_flag("--version", "eigentrail " + version());
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
@@ -22,13 +24,23 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     return exit_code;
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? done : bad_input;
-  } catch (const eigentrail::InputError& error) {
-    std::fprintf(stderr, "eigentrail: %s\n", error.what());
+    std::fprintf(stderr, "eigentrail: %s (see eigentrail --help)\n", error.what());
     return bad_input;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "eigentrail: %s\n", error.what());
-    return numbers_failed;
   }
+}
+
+}  // namespace
+}  // namespace eigentrail::app
+
+int main(int argc, char** argv) try {
+  return eigentrail::app::run(argc, argv);
+} catch (const eigentrail::InputError& error) {
+  std::fprintf(stderr, "eigentrail: %s\n", error.what());
+  return eigentrail::app::bad_input;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "eigentrail: %s\n", error.what());
+  return eigentrail::app::numbers_failed;
 }

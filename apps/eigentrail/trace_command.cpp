@@ -81,7 +81,7 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
                    const TraceResult& result, const Ends& ends) {
   const auto& parameters = model.description().parameters;
-  const Parameter& traced = parameters[static_cast<std::size_t>(parameters.index(options.parameter).value())];
+  const Parameter& traced = parameters.at(options.parameter);
   if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
   std::printf("  %s  %s -> %s %s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
               options.parameter.c_str(), exact(options.from).c_str(), exact(result.reached).c_str(),

@@ -85,14 +85,14 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
     throw scene_error(scene, found[1]->where, "[trace]: a scene has one of these at most");
   Table merged;
   if (!found.empty()) merged = *found[0];
-  for (const auto& [key, text] : overrides) {
+  for (const auto& option : overrides) {
+    const std::string& text = option.second;
     Value value{text, {}};
     double number = 0.0;
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
     if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
-    const auto same = [&key](const auto& entry) { return entry.first == key; };
-    std::erase_if(merged.entries, same);
-    merged.entries.emplace_back(key, std::move(value));
+    std::erase_if(merged.entries, [&option](const auto& entry) { return entry.first == option.first; });
+    merged.entries.emplace_back(option.first, std::move(value));
   }
   return merged;
 }
@@ -107,7 +107,7 @@ void check(const TraceOptions& options, const Scene& scene, const TableReader& t
   const auto index = scene.parameters.index(options.parameter);
   require(index.has_value(), "parameter",
           "no parameter is called '" + options.parameter + "'; " + suggestion(options.parameter, names));
-  require(!scene.parameters[static_cast<std::size_t>(*index)].definition, "parameter",
+  require(!scene.parameters.at(options.parameter).definition, "parameter",
           "'" + options.parameter + "' is defined by an expression; trace one of the parameters in it");
   require(options.from != options.to, "to",
           "equals from (" + to_text(options.from) + "): the range is empty");

@@ -11,8 +11,9 @@ namespace eigentrail {
 /// A matrix polynomial in the family's variable; coefficients are numbers plus entries that are expressions.
 struct MatrixPolynomial {
   struct Entry {
-    int power;
-    Eigen::Index row, column;
+    int power = 0;
+    Eigen::Index row = 0;
+    Eigen::Index column = 0;
     Expression expression;
   };
   std::vector<Matrix> coefficients;  ///< by power, lowest first

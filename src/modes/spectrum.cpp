@@ -37,8 +37,8 @@ Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
   return scaling;
 }
 
-/// Whether P is singular to working precision, rows and columns brought to one magnitude first so that graded matrices
-/// are not mistaken for singular ones.
+/// Whether P is singular to working precision, rows and columns brought to one magnitude first so that graded
+/// matrices are not mistaken for singular ones.
 bool is_singular_matrix(ComplexMatrix P) {
   const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
   const Vector rows = P.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
@@ -52,7 +52,8 @@ bool is_singular_matrix(ComplexMatrix P) {
 /// A pencil is singular when det P vanishes everywhere; it is then singular at any few points.
 bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   for (const Complex mu : {Complex(0.8, 0.6), Complex(-0.28, 0.96), Complex(1.9, -0.7)}) {
-    if (!is_singular_matrix((mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>())) return false;
+    if (!is_singular_matrix((mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>()))
+      return false;
   }
   return true;
 }

@@ -34,6 +34,12 @@ std::optional<int> Parameters::index(std::string_view name) const {
   return found == names_.end() ? std::nullopt : std::optional(static_cast<int>(found - names_.begin()));
 }
 
+const Parameter& Parameters::at(std::string_view name) const {
+  const auto i = index(name);
+  if (!i) throw std::out_of_range("no parameter is called '" + std::string(name) + "'");
+  return list_[static_cast<std::size_t>(*i)];
+}
+
 Vector Parameters::declared_values() const {
   Vector values(static_cast<Eigen::Index>(size()));
   for (std::size_t i = 0; i < size(); ++i) values[static_cast<Eigen::Index>(i)] = list_[i].value;

@@ -289,8 +289,10 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
   std::vector<const Table*> result;
   for (const Value& item : *array) {
     const auto* table = std::get_if<Table>(&item.data);
-    if (table == nullptr)
-      throw scene_error(scene, item.where, key + ": expected tables [[" + key + "]], found " + item.kind());
+    if (table == nullptr) {
+      const std::string expected = key + ": expected tables [[" + key + "]], found ";
+      throw scene_error(scene, item.where, expected + item.kind());
+    }
     result.push_back(table);
   }
   return result;

@@ -51,6 +51,13 @@ Table convert_table(const toml::table& source, const std::string& path) {
 
 }  // namespace
 
+Table::Table() = default;
+Table::Table(const Table&) = default;
+Table::Table(Table&&) noexcept = default;
+Table& Table::operator=(const Table&) = default;
+Table& Table::operator=(Table&&) noexcept = default;
+Table::~Table() = default;
+
 const Value* Table::find(std::string_view key) const {
   for (const auto& [name, value] : entries) {
     if (name == key) return &value;

@@ -17,10 +17,10 @@ constexpr int max_corrections = 6;
 
 /// Typical magnitudes at the guess. Coordinates of a model share one unit, so they share one scale.
 struct Scales {
-  double length;
-  double force;
+  double length = 1.0;
+  double force = 1.0;
   Vector constraint;  ///< per row: |A row| * length
-  double multiplier;
+  double multiplier = 1.0;
 };
 
 Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin,

@@ -88,14 +88,12 @@ struct LociWriter::Implementation {
 
   void create_datasets(const Model& model, const TraceOptions& options, int n_modes) {
     const ModelDescription& description = model.description();
-    const Parameter& traced =
-        description
-            .parameters[static_cast<std::size_t>(description.parameters.index(options.parameter).value())];
+    const Parameter& traced = description.parameters.at(options.parameter);
     const std::string unit = traced.unit.empty() ? "1" : traced.unit;
     has_constraints = model.n_constraints() > 0;
 
-    std::vector<std::string> modes;
-    for (int i = 0; i < n_modes; ++i) modes.push_back("mode " + std::to_string(i + 1));
+    std::vector<std::string> modes(static_cast<std::size_t>(n_modes));
+    for (std::size_t i = 0; i < modes.size(); ++i) modes[i] = "mode " + std::to_string(i + 1);
     file.create_dataset(
         {"node", ElementType::integer, {0}, true, {{"units", "1"}, {"long_name", "path point"}}});
     file.make_scale("node", "node");
@@ -133,8 +131,8 @@ struct LociWriter::Implementation {
   }
 };
 
-LociWriter::LociWriter(std::string path, const Scene& scene, const Model& model, const TraceOptions& options,
-                       const TraceStart& start, int n_modes) {
+LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model& model,
+                       const TraceOptions& options, const TraceStart& start, int n_modes) {
   const std::string partial = path + ".partial";
   implementation_ =
       std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});

@@ -18,8 +18,8 @@ struct TraceOptions {
   double tolerance = 1e-6;   ///< bounds |s_dense - s| <= tolerance * max(|s|, reference), 1e-13 <= . <= 0.1
   std::optional<int> modes;  ///< follow the N modes of least |s|, >= 1; absent: all
   int order = 3;             ///< of the series at each point, 1 to 4
-  std::optional<double> reference;  ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
-                                    ///< absent: 1e-3 of the median |s| of the followed modes at the start
+  std::optional<double> reference;   ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
+                                     ///< absent: 1e-3 of the median |s| of the followed modes at the start
   std::optional<double> first_step;  ///< in the parameter's unit, > 0; absent: from the series at the start
   std::optional<double> max_step;    ///< in the parameter's unit, > 0; absent: a quarter of the range
   int max_nodes = 100000;            ///< the trace stops there, >= 2

@@ -54,7 +54,7 @@ class Expression {
     log
   };
   struct Instruction {
-    Op op;
+    Op op = Op::number;
     double number = 0.0;  ///< value of a number, exponent of an integer power
     int parameter = -1;   ///< index of a parameter
   };
@@ -141,7 +141,8 @@ Scalar apply(Expression::Op op, const Scalar& a, const Scalar& b) {
 
 template <class Scalar>
 Scalar Expression::evaluate(std::span<const Scalar> parameters) const {
-  std::array<Scalar, max_stack> stack;
+  if (is_constant() && code_.size() == 1) return Scalar(code_[0].number);
+  std::array<Scalar, max_stack> stack{};
   int top = -1;
   for (const Instruction& i : code_) {
     switch (i.op) {

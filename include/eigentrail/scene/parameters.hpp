@@ -36,6 +36,9 @@ class Parameters {
   const std::vector<std::string>& names() const { return names_; }
   std::optional<int> index(std::string_view name) const;
 
+  /// The parameter of that name; throws std::out_of_range when there is none.
+  const Parameter& at(std::string_view name) const;
+
   /// Values as the scene declares them, in declared units; derived ones are filled in.
   Vector declared_values() const;
 

@@ -17,7 +17,7 @@ class LociWriter {
  public:
   /// Creates `path` with its header. The file appears under its name complete with header or not at all; an
   /// existing file is replaced in that moment. Throws std::runtime_error when the file cannot be written.
-  LociWriter(std::string path, const Scene& scene, const Model& model, const TraceOptions& options,
+  LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, int n_modes);
   ~LociWriter();
   LociWriter(const LociWriter&) = delete;
