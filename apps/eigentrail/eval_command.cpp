@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 
@@ -21,8 +22,8 @@ void print_csv(const LociFile& loci, const std::vector<double>& at) {
   for (const double p : at) {
     const ComplexVector s = loci.eigenvalues_at(p);
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-      std::printf("%s,%s,%s,%s\n", exact(p).c_str(), loci.modes[static_cast<std::size_t>(i)].c_str(),
-                  exact(s[i].real()).c_str(), exact(s[i].imag()).c_str());
+      std::printf("%s,%s,%s,%s\n", exact_text(p).c_str(), loci.modes[static_cast<std::size_t>(i)].c_str(),
+                  exact_text(s[i].real()).c_str(), exact_text(s[i].imag()).c_str());
     }
   }
 }
@@ -46,9 +47,9 @@ void print_for_people(const LociFile& loci, const std::vector<double>& at) {
   for (const double p : at) {
     const ComplexVector s = loci.eigenvalues_at(p);
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-      rows.push_back({exact(p), loci.modes[static_cast<std::size_t>(i)],
+      rows.push_back({exact_text(p), loci.modes[static_cast<std::size_t>(i)],
                       complex_text(s[i].real(), s[i].imag(), 10), rounded(std::abs(s[i]), 8),
-                      rounded(-s[i].real() / std::abs(s[i]), 6)});
+                      rounded(-s[i].real() / std::abs(s[i]) + 0.0, 6)});
     }
   }
   print_table(rows);

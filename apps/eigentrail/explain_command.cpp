@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "output.hpp"
 
@@ -48,7 +49,7 @@ void print_effects(const Model& model) {
   if (!absent.empty()) std::printf("    absent, never evaluated: %s\n", absent.c_str());
 }
 
-void print_structure(const Structure& structure, const std::string& parameter) {
+void print_structure(const Structure& structure, bool has_constraints, const std::string& parameter) {
   const auto along = [&](bool constant) {
     return constant ? "constant along " + parameter : "changes with " + parameter;
   };
@@ -58,11 +59,13 @@ void print_structure(const Structure& structure, const std::string& parameter) {
                         : structure.damped   ? "symmetric C"
                                              : "no C";
   std::printf("structure of the pencil\n");
-  print_table({{"  mass", "symmetric M", along(structure.constant_mass)},
-               {"  damping", damping,
-                structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
-               {"  stiffness", stiffness, along(structure.constant_stiffness)},
-               {"  constraints", "A", along(structure.constant_constraints)}});
+  print_table(
+      {{"  mass", structure.symmetric_mass ? "symmetric M" : "unsymmetric M", along(structure.constant_mass)},
+       {"  damping", damping,
+        structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
+       {"  stiffness", stiffness, along(structure.constant_stiffness)},
+       {"  constraints", has_constraints ? "A" : "none",
+        has_constraints ? along(structure.constant_constraints) : ""}});
 }
 
 void print_solvers(const Model& model, const Structure& structure, const TraceOptions& options) {
@@ -90,14 +93,10 @@ void print_solvers(const Model& model, const Structure& structure, const TraceOp
 }
 
 int run_explain(const ExplainArguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
-  const TraceOptions options =
-      read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
-  const int traced = scene.parameters.index(options.parameter).value();
-  std::vector<Vector> ends(2, scene.parameters.declared_values());
-  ends[0][traced] = options.from;
-  ends[1][traced] = options.to;
-  const std::unique_ptr<Model> model = build_model(scene, ends);
+  const TraceSetup setup =
+      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+  const auto& [scene, options, model] = setup;
+  const int traced = setup.traced();
   const Structure structure = model->structure(traced);
 
   if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
@@ -110,7 +109,7 @@ int run_explain(const ExplainArguments& arguments) {
   counts.evaluations = model->new_counts();
   const Vector guess = model->initial_guess(parameters_at(problem, options.from));
   const PathPoint point = reduce_at(problem, options.from, guess, Vector(), Matrix(), counts);
-  std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact(options.from).c_str());
+  std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact_text(options.from).c_str());
   std::printf("    %lld coordinates, %lld constraints", static_cast<long long>(model->n_coordinates()),
               static_cast<long long>(model->n_constraints()));
   if (point.status == PointStatus::computed) {
@@ -121,7 +120,7 @@ int run_explain(const ExplainArguments& arguments) {
   } else {
     std::printf("\n");
   }
-  print_structure(structure, options.parameter);
+  print_structure(structure, model->n_constraints() > 0, options.parameter);
   print_solvers(*model, structure, options);
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
   return done;

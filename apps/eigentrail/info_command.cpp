@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 
@@ -39,7 +40,7 @@ void print_for_people(const LociFile& loci) {
               loci.constraints.size(), loci.modes.size(), loci.n_nodes());
   if (loci.n_nodes() == 0) return;
   std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)\n", loci.parameter.c_str(),
-              exact(loci.p.front()).c_str(), exact(loci.p.back()).c_str(),
+              exact_text(loci.p.front()).c_str(), exact_text(loci.p.back()).c_str(),
               loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
               attribute(loci, "tolerance").c_str(),
               rounded(std::stod(attribute(loci, "reference")), 4).c_str());

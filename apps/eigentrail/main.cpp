@@ -1,4 +1,5 @@
 // eigentrail: follows the eigenvalues of a constrained mechanical system while a parameter changes.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -8,6 +9,19 @@
 
 namespace eigentrail::app {
 namespace {
+
+/// CLI11 would only say that a command is required.
+void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> commands;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command->get_name());
+  }
+  const std::string given = argv[1];
+  if (std::find(commands.begin(), commands.end(), given) == commands.end()) {
+    throw InputError("unknown command '" + given + "'; " + suggestion(given, commands));
+  }
+}
 
 int run(int argc, char** argv) {
   CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
@@ -21,6 +35,7 @@ int run(int argc, char** argv) {
   add_eval(program, exit_code);
   add_info(program, exit_code);
   add_explain(program, exit_code);
+  reject_unknown_command(program, argc, argv);
   try {
     program.parse(argc, argv);
     return exit_code;

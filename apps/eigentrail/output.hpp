@@ -6,9 +6,6 @@
 
 namespace eigentrail::app {
 
-/// Shortest text that reads back as the same double; "nan" and "inf" as such.
-std::string exact(double value);
-
 /// Text with `digits` significant digits.
 std::string rounded(double value, int digits = 6);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
@@ -32,12 +33,27 @@ void check_output(const TraceArguments& arguments) {
   if (std::filesystem::is_directory(arguments.output, error)) {
     throw InputError(arguments.output + ": is a folder; give the name of a file");
   }
-  if (!arguments.force && std::filesystem::exists(arguments.output, error)) {
-    throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
+  if (std::filesystem::exists(arguments.output, error)) {
+    if (!arguments.force) {
+      throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
+    }
+    if (!may_be_replaced(arguments.output)) {
+      throw InputError(arguments.output + ": is no loci file; --force replaces loci files only");
+    }
   }
   const auto folder = std::filesystem::path(arguments.output).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
     throw InputError(arguments.output + ": the folder " + folder.string() + " does not exist");
+  }
+}
+
+/// A file that cannot be created is a matter of the command line; one that cannot be written to later is not.
+void create_output(std::optional<LociWriter>& writer, const std::string& path, const TraceSetup& setup,
+                   const TraceStart& start, int n_modes) {
+  try {
+    writer.emplace(path, setup.scene, *setup.model, setup.options, start, n_modes);
+  } catch (const std::exception& error) {
+    throw InputError(path + ": cannot be created: " + error.what());
   }
 }
 
@@ -80,19 +96,19 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
 
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
                    const TraceResult& result, const Ends& ends) {
-  const auto& parameters = model.description().parameters;
-  const Parameter& traced = parameters.at(options.parameter);
+  const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
-  std::printf("  %s  %s -> %s %s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
-              options.parameter.c_str(), exact(options.from).c_str(), exact(result.reached).c_str(),
-              traced.unit.c_str(), exact(options.tolerance).c_str(), options.order, result.n_modes,
-              result.n_available, static_cast<long long>(result.n_independent));
+  std::printf("  %s  %s -> %s%s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
+              options.parameter.c_str(), exact_text(options.from).c_str(), exact_text(result.reached).c_str(),
+              (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),
+              options.order, result.n_modes, result.n_available,
+              static_cast<long long>(result.n_independent));
   if (result.n_infinite > 0) {
     std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n",
                 result.n_infinite);
   }
   std::vector<std::vector<std::string>> rows{
-      {"mode", "s at " + exact(options.from), "s at " + exact(result.reached)}};
+      {"mode", "s at " + exact_text(options.from), "s at " + exact_text(result.reached)}};
   for (Eigen::Index i = 0; i < ends.first.size(); ++i) {
     rows.push_back({std::to_string(i + 1), complex_text(ends.first[i].real(), ends.first[i].imag(), 8),
                     complex_text(ends.last[i].real(), ends.last[i].imag(), 8)});
@@ -103,18 +119,12 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
 }
 
 int run_trace(const TraceArguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
-  const TraceOptions options =
-      read_trace_options(scene, {arguments.options.begin(), arguments.options.end()});
+  if (arguments.output.empty()) throw InputError("--output: expected the name of a file");
+  const TraceSetup setup =
+      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+  const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
   check_output(arguments);
-
-  std::vector<Vector> ends_of_range;
-  for (const double p : {options.from, options.to}) {
-    ends_of_range.push_back(scene.parameters.declared_values());
-    ends_of_range.back()[scene.parameters.index(options.parameter).value()] = p;
-  }
-  const std::unique_ptr<Model> model = build_model(scene, ends_of_range);
 
   std::optional<LociWriter> writer;
   std::optional<TraceStart> started;
@@ -125,7 +135,7 @@ int run_trace(const TraceArguments& arguments) {
   observer.started = [&](const TraceStart& start) { started = start; };
   observer.node = [&](const PathNode& node) {
     if (!writer) {
-      writer.emplace(arguments.output, scene, *model, options, *started, static_cast<int>(node.s.rows()));
+      create_output(writer, arguments.output, setup, *started, static_cast<int>(node.s.rows()));
       ends.first = node.s.col(0);
     }
     writer->append(node);

@@ -5,14 +5,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "eigentrail/core/text.hpp"
+
 namespace eigentrail {
 namespace {
-
-std::string to_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
 
 /// Reads options from a table of texts and numbers: the [trace] table, or the command line turned into one.
 class OptionReader {
@@ -52,6 +48,12 @@ class OptionReader {
   /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
   double number(const char* key) {
     const Expression expression = table_.expression(key);
+    const double value = this->value(expression, key);
+    if (!std::isfinite(value)) table_.fail(key, "is not a finite number");
+    return value;
+  }
+
+  double value(const Expression& expression, const char* key) {
     if (expression.is_constant()) return expression.evaluate(std::span<const double>());
     Vector si = scene_.parameters.declared_values();
     scene_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
@@ -68,7 +70,7 @@ class OptionReader {
   int whole_number(const char* key) {
     const double value = number(key);
     if (value != std::floor(value) || std::abs(value) > 1e9) {
-      table_.fail(key, "expected a whole number, found " + to_text(value));
+      table_.fail(key, "expected a whole number, found " + exact_text(value));
     }
     return static_cast<int>(value);
   }
@@ -110,9 +112,9 @@ void check(const TraceOptions& options, const Scene& scene, const TableReader& t
   require(!scene.parameters.at(options.parameter).definition, "parameter",
           "'" + options.parameter + "' is defined by an expression; trace one of the parameters in it");
   require(options.from != options.to, "to",
-          "equals from (" + to_text(options.from) + "): the range is empty");
+          "equals from (" + exact_text(options.from) + "): the range is empty");
   require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
-          "must lie between 1e-13 and 0.1; found " + to_text(options.tolerance));
+          "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
   require(options.order >= 1 && options.order <= max_order, "order",
           "must lie between 1 and " + std::to_string(max_order));
@@ -139,6 +141,17 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   return options;
 }
 
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
+  check_top_level(scene);
+  TraceSetup setup{std::move(scene), {}, nullptr};
+  setup.options = read_trace_options(setup.scene, overrides);
+  std::vector<Vector> ends(2, setup.scene.parameters.declared_values());
+  ends[0][setup.traced()] = setup.options.from;
+  ends[1][setup.traced()] = setup.options.to;
+  setup.model = build_model(setup.scene, ends);
+  return setup;
+}
+
 OptionTexts describe_options(const TraceOptions& options) {
   OptionTexts texts;
   const auto describe = [&texts](const char* key, const char*, const auto& value) {
@@ -148,11 +161,11 @@ OptionTexts describe_options(const TraceOptions& options) {
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
       texts.emplace_back(key, value ? std::to_string(*value) : "all");
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
-      texts.emplace_back(key, value ? to_text(*value) : "auto");
+      texts.emplace_back(key, value ? exact_text(*value) : "auto");
     } else if constexpr (std::is_same_v<T, int>) {
       texts.emplace_back(key, std::to_string(value));
     } else {
-      texts.emplace_back(key, to_text(value));
+      texts.emplace_back(key, exact_text(value));
     }
   };
   TraceOptions::fields(options, describe);

@@ -87,8 +87,17 @@ hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
   return std::clamp<std::uint64_t>(65536 / std::max<std::uint64_t>(row, 1), 1, 4096);
 }
 
+/// Opens an attribute that holds one value; an array would be read past the end of that value.
+Handle open_scalar_attribute(hid_t object, const std::string& name) {
+  Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of attribute " + name);
+  if (H5Sget_simple_extent_npoints(space) != 1)
+    throw Hdf5Error("HDF5 attribute " + name + " is not a single value");
+  return attribute;
+}
+
 std::string read_text_attribute(hid_t object, const std::string& name) {
-  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  const Handle attribute = open_scalar_attribute(object, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
   if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) <= 0) {
     throw Hdf5Error("HDF5 attribute " + name + " is not a text");
@@ -103,7 +112,10 @@ std::string read_text_attribute(hid_t object, const std::string& name) {
 
 template <class Number>
 Number read_number_attribute(hid_t object, const std::string& name, hid_t type) {
-  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  const Handle attribute = open_scalar_attribute(object, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
+  if (H5Tget_class(stored) != H5Tget_class(type))
+    throw Hdf5Error("HDF5 attribute " + name + " is of another type");
   Number value{};
   check(H5Aread(attribute, type, &value), "read attribute " + name);
   return value;
@@ -135,7 +147,7 @@ struct Hdf5File::Implementation {
     }
     hsize_t row = 1;
     for (std::size_t i = 1; i < dims.size(); ++i) row *= dims[i];
-    if (count % row != 0) throw Hdf5Error(action + ": the data are no whole number of rows");
+    if (row == 0 || count % row != 0) throw Hdf5Error(action + ": the data are no whole number of rows");
     std::vector<hsize_t> start(dims.size(), 0);
     std::vector<hsize_t> block = dims;
     start[0] = first_row;

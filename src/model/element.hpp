@@ -57,7 +57,7 @@ inline constexpr Enters enters_force{.force = true};
 inline constexpr Enters enters_damping_and_force{.damping = true, .force = true};
 inline constexpr Enters enters_constraint{.constraint = true};
 
-/// Values for which a quantity makes sense.
+/// Values for which a quantity makes sense. Of a vector, positive means of non-zero length.
 enum class Range { any, non_negative, positive };
 
 /// A quantity's entry in an element's list of fields.

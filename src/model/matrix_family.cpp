@@ -117,6 +117,7 @@ Structure MatrixFamily::structure(int traced_parameter) const {
     result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
     result.circulatory = result.circulatory || effect.contribution.circulatory;
   }
+  result.symmetric_mass = symmetry(M_) == Symmetry::symmetric;
   result.constant_mass = constant(M_, traced_parameter);
   result.constant_damping = constant(C_, traced_parameter);
   result.constant_stiffness = constant(K_, traced_parameter);

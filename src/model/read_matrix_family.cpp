@@ -108,30 +108,19 @@ std::string variable_name(const Scene& scene) {
   return scene.parameters.size() > 0 ? scene.parameters[scene.parameters.size() - 1].name : "";
 }
 
-void check_top_level(const Scene& scene) {
-  const std::vector<std::string> known = {"title", "parameters", "trace", "matrix_family"};
-  for (const auto& [key, value] : scene.root.entries) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw scene_error(scene, value.where,
-                        key + ": unknown key in a scene with [matrix_family]; " + suggestion(key, known));
-    }
-  }
-}
-
 }  // namespace
 
-bool is_matrix_family(const Scene& scene) {
-  return scene.root.find("matrix_family") != nullptr;
-}
-
 std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
-  check_top_level(scene);
   const auto found = tables(scene, "matrix_family");
-  if (found.size() != 1) throw InputError(scene.path + ": [matrix_family]: a scene has one of these");
+  if (found.size() != 1)
+    throw scene_error(scene, found[1]->where, "[matrix_family]: a scene has one of these");
   std::set<int> used;
   FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}};
   MatrixPolynomial M, C, K, A;
   if (reader.table.has("file")) {
+    for (const char* key : {"M", "C", "K", "A"}) {
+      if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
+    }
     const std::string path = beside_scene(reader, reader.table.text("file"));
     try {
       const Hdf5File file = Hdf5File::open(path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eigentrail/core/text.hpp"
 #include "model/multibody.hpp"
 
 namespace eigentrail {
@@ -42,12 +43,31 @@ struct Draft {
 
   void check_range(const TableReader& reader, const std::string& key, const Expression& expression,
                    Range range) const {
-    for (const double value : check_values(expression)) {
-      const std::string found = "found " + std::to_string(value);
-      if (!std::isfinite(value)) reader.fail(key, "is not a finite number at an end of the trace");
-      if (range == Range::positive && !(value > 0.0)) reader.fail(key, "must be positive; " + found);
-      if (range == Range::non_negative && value < 0.0) reader.fail(key, "must not be negative; " + found);
+    const std::vector<double> values = check_values(expression);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string found = "; found " + exact_text(values[i]) + where_on_trace(i);
+      if (!std::isfinite(values[i])) reader.fail(key, "is not a finite number" + found);
+      if (range == Range::positive && !(values[i] > 0.0)) reader.fail(key, "must be positive" + found);
+      if (range == Range::non_negative && values[i] < 0.0) reader.fail(key, "must not be negative" + found);
     }
+  }
+
+  /// A vector of finite components; of non-zero length where `range` asks for more than any value.
+  void check_range(const TableReader& reader, const std::string& key, const std::array<Expression, 3>& vector,
+                   Range range) const {
+    for (const Expression& e : vector) check_range(reader, key, e, Range::any);
+    for (std::size_t i = 0; range != Range::any && i < check_at.size(); ++i) {
+      if (vector_at(vector, i).norm() > 0.0) continue;
+      reader.fail(key, "must not be the zero vector; it is" + where_on_trace(i));
+    }
+  }
+
+  Eigen::Vector3d vector_at(const std::array<Expression, 3>& v, std::size_t i) const {
+    return {check_values(v[0])[i], check_values(v[1])[i], check_values(v[2])[i]};
+  }
+
+  static std::string where_on_trace(std::size_t i) {
+    return i == 0 ? " where the trace begins" : " where the trace ends";
   }
 
   int point_index(const TableReader& reader, const std::string& key, const std::string& name) const {
@@ -85,7 +105,7 @@ class FieldReader {
     const std::string key(field.key);
     std::array<Expression, 3> components{0.0, 0.0, field.otherwise.value_or(0.0)};
     if (!field.otherwise || table_.has(key)) components = table_.vector(key);
-    for (const Expression& e : components) draft_.check_range(table_, key, e, field.range);
+    draft_.check_range(table_, key, components, field.range);
     vector = draft_.vector(components);
   }
 
@@ -197,7 +217,7 @@ std::optional<std::array<Expression, 3>> read_field(Draft& draft, const std::str
     throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
   TableReader table = draft.reader(*found[0], label);
   const std::array<Expression, 3> field = table.vector(key);
-  for (const Expression& e : field) draft.check_range(table, key, e, Range::any);
+  draft.check_range(table, key, field, Range::any);
   table.finish();
   const std::array<Quantity, 3> quantities = draft.vector(field);
   auto& list = std::get<std::vector<Placed<Element>>>(draft.data.elements.lists);
@@ -211,30 +231,14 @@ std::optional<std::array<Expression, 3>> read_field(Draft& draft, const std::str
 /// A frame that turns about another axis than gravity's direction would see gravity turn: no steady state.
 void check_gravity(const Draft& draft, const std::array<Expression, 3>& rotation,
                    const std::array<Expression, 3>& gravity) {
-  const auto values = [&](const std::array<Expression, 3>& v, std::size_t i) {
-    return Eigen::Vector3d(draft.check_values(v[0])[i], draft.check_values(v[1])[i],
-                           draft.check_values(v[2])[i]);
-  };
   for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
-    const Eigen::Vector3d w = values(rotation, i);
-    const Eigen::Vector3d g = values(gravity, i);
+    const Eigen::Vector3d w = draft.vector_at(rotation, i);
+    const Eigen::Vector3d g = draft.vector_at(gravity, i);
     if (w.cross(g).norm() <= 1e-12 * w.norm() * g.norm()) continue;
     throw scene_error(
-        draft.scene, tables(draft.scene, "gravity")[0]->where,
+        draft.scene, tables(draft.scene, "gravity")[0]->find("acceleration")->where,
         "[gravity] acceleration: must be parallel to [frame] angular_velocity, or it turns in the frame "
         "and there is no steady state");
-  }
-}
-
-void check_top_level(const Scene& scene) {
-  std::vector<std::string> known = {"title", "parameters", "trace", "matrix_family"};
-  Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
-    known.emplace_back(Element::name);
-  });
-  for (const auto& [key, value] : scene.root.entries) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw scene_error(scene, value.where, key + ": unknown key; " + suggestion(key, known));
-    }
   }
 }
 
@@ -278,7 +282,6 @@ class HelpCollector {
 }  // namespace
 
 std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at) {
-  check_top_level(scene);
   Draft draft{scene, check_at, {}, {}, {}, {}, {}};
   std::vector<Quantity> masses;
   read_points(draft, masses);

@@ -1,17 +1,28 @@
 #include "eigentrail/modes/matching.hpp"
 
+#include "eigentrail/modes/normalization.hpp"
+
 #include <limits>
 #include <stdexcept>
 
 namespace eigentrail {
 
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Matrix& M) {
-  const ComplexMatrix MV = M.cast<Complex>() * V;
   const ComplexMatrix MW = M.cast<Complex>() * W;
-  const Vector v = (V.conjugate().cwiseProduct(MV)).colwise().sum().real();
-  const Vector w = (W.conjugate().cwiseProduct(MW)).colwise().sum().real();
-  const Matrix overlap = (V.adjoint() * MW).cwiseAbs2();
-  return overlap.cwiseQuotient(v * w.transpose());
+  Matrix assurance = (V.adjoint() * MW).cwiseAbs2();
+  for (Eigen::Index i = 0; i < V.cols(); ++i) {
+    const double v = mass_norm_squared(V.col(i), M);
+    for (Eigen::Index j = 0; j < W.cols(); ++j) {
+      const double w = mass_norm_squared(W.col(j), M);
+      if (v > 0.0 && w > 0.0) {
+        assurance(i, j) /= v * w;
+      } else {
+        assurance(i, j) =
+            std::norm(V.col(i).dot(W.col(j))) / (V.col(i).squaredNorm() * W.col(j).squaredNorm());
+      }
+    }
+  }
+  return assurance;
 }
 
 std::vector<int> optimal_assignment(const Matrix& cost) {

@@ -4,10 +4,15 @@
 
 namespace eigentrail {
 
+double mass_norm_squared(const ComplexVector& v, const Matrix& M) {
+  const double square = v.dot(M.cast<Complex>() * v).real();
+  return square > 1e-12 * M.norm() * v.squaredNorm() ? square : 0.0;
+}
+
 ComplexVector normalize_shape(const ComplexVector& v, const Matrix& M, const ComplexVector& reference) {
   ComplexVector Mv = M.cast<Complex>() * v;
-  double square = v.dot(Mv).real();
-  if (!(square > 1e-12 * M.norm() * v.squaredNorm())) {
+  double square = mass_norm_squared(v, M);
+  if (square == 0.0) {
     Mv = v;
     square = v.squaredNorm();
   }

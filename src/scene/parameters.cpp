@@ -7,26 +7,49 @@ namespace {
 
 enum class Mark { unseen, open, done };
 
-/// Depth-first order of the derived parameters; a parameter met while still open closes a cycle.
-void visit(const std::vector<Parameter>& list, int i, std::vector<Mark>& marks, std::vector<int>& order) {
-  if (marks[i] == Mark::done) return;
-  if (marks[i] == Mark::open) {
-    throw std::invalid_argument("parameter '" + list[i].name + "' is defined through itself");
+/// Depth-first order of the derived parameters. A parameter met while it is still on the chain closes a
+/// cycle.
+class DefinitionOrder {
+ public:
+  explicit DefinitionOrder(const std::vector<Parameter>& list)
+      : list_(list), marks_(list.size(), Mark::unseen) {
+    for (std::size_t i = 0; i < list.size(); ++i) visit(static_cast<int>(i));
   }
-  marks[i] = Mark::open;
-  if (list[i].definition) {
-    for (const int used : list[i].definition->parameters()) visit(list, used, marks, order);
-    order.push_back(i);
+
+  std::vector<int> order;
+
+ private:
+  void visit(int i) {
+    if (marks_[i] == Mark::done) return;
+    if (marks_[i] == Mark::open) fail(i);
+    marks_[i] = Mark::open;
+    chain_.push_back(i);
+    if (list_[i].definition) {
+      for (const int used : list_[i].definition->parameters()) visit(used);
+      order.push_back(i);
+    }
+    chain_.pop_back();
+    marks_[i] = Mark::done;
   }
-  marks[i] = Mark::done;
-}
+
+  [[noreturn]] void fail(int i) const {
+    std::string cycle = list_[i].name;
+    for (auto at = std::find(chain_.begin(), chain_.end(), i) + 1; at != chain_.end(); ++at) {
+      cycle += " -> " + list_[*at].name;
+    }
+    throw ParameterCycle("is defined through itself: " + cycle + " -> " + list_[i].name, i);
+  }
+
+  const std::vector<Parameter>& list_;
+  std::vector<Mark> marks_;
+  std::vector<int> chain_;
+};
 
 }  // namespace
 
 Parameters::Parameters(std::vector<Parameter> list) : list_(std::move(list)) {
   for (const Parameter& parameter : list_) names_.push_back(parameter.name);
-  std::vector<Mark> marks(list_.size(), Mark::unseen);
-  for (std::size_t i = 0; i < list_.size(); ++i) visit(list_, static_cast<int>(i), marks, derived_order_);
+  derived_order_ = DefinitionOrder(list_).order;
 }
 
 std::optional<int> Parameters::index(std::string_view name) const {

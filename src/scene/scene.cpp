@@ -35,9 +35,10 @@ class ParameterReader {
     for (const auto& [name, value] : table_.entries) list.push_back(read_one(name, value));
     if (add) list.push_back(*implied);
     try {
-      return Parameters(std::move(list));
-    } catch (const std::invalid_argument& error) {
-      throw scene_error(scene_, table_.where, std::string("[parameters] ") + error.what());
+      return Parameters(list);
+    } catch (const ParameterCycle& cycle) {
+      const Parameter& parameter = list[static_cast<std::size_t>(cycle.parameter)];
+      throw scene_error(scene_, parameter.where, "[parameters] " + parameter.name + ": " + cycle.what());
     }
   }
 
@@ -75,6 +76,7 @@ class ParameterReader {
 
   void set_value(Parameter& parameter, const Value& value) {
     if (const auto* number = std::get_if<double>(&value.data)) {
+      if (!std::isfinite(*number)) fail(value, parameter.name, "expected a finite number");
       parameter.value = *number;
     } else if (const auto* text = std::get_if<std::string>(&value.data)) {
       try {
@@ -118,7 +120,13 @@ std::optional<Parameter> family_variable(const Table& root) {
 }  // namespace
 
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message) {
-  return InputError(scene.path + at(where) + message);
+  // Texts of the scene are quoted in messages; a line break or an escape sequence in them must not reach the
+  // terminal.
+  std::string line = message;
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return InputError(scene.path + at(where) + line);
 }
 
 Scene parse_scene(std::string text, const std::string& path) {
@@ -160,7 +168,7 @@ TableReader::TableReader(const Scene& scene, const Table& table, std::string lab
     : scene_(scene), table_(table), label_(std::move(label)), used_(used) {}
 
 const Value* TableReader::find(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return table_.find(key);
 }
 
@@ -170,8 +178,13 @@ bool TableReader::has(const std::string& key) {
 
 const Value& TableReader::require(const std::string& key, const std::string& expected) {
   const Value* value = find(key);
-  if (value == nullptr) fail(key, "is missing; expected " + expected);
-  return *value;
+  if (value != nullptr) return *value;
+  for (const auto& [found, misspelt] : table_.entries) {
+    const bool known = std::find(known_.begin(), known_.end(), found) != known_.end();
+    if (!known && !nearest_name(found, {key}).empty())
+      fail(found, "unknown key; did you mean '" + key + "'?");
+  }
+  fail(key, "is missing; expected " + expected);
 }
 
 void TableReader::fail(const std::string& key, const std::string& message) const {

@@ -78,7 +78,7 @@ std::optional<double> term_factor(std::string_view term) {
     const char* begin = term.data() + caret + 1;
     const char* end = term.data() + term.size();
     const auto parsed = std::from_chars(begin, end, power);
-    if (parsed.ec != std::errc() || parsed.ptr != end || std::abs(power) > 12) return std::nullopt;
+    if (parsed.ec != std::errc() || parsed.ptr != end || power < -12 || power > 12) return std::nullopt;
   }
   const auto base = symbol_factor(term.substr(0, caret));
   return base ? std::optional(std::pow(*base, power)) : std::nullopt;

@@ -28,7 +28,8 @@ Value convert(const toml::node& node, const std::string& path) {
   }
   if (const auto* text = node.as_string()) return {text->get(), where};
   if (const auto* flag = node.as_boolean()) return {flag->get(), where};
-  if (const auto number = node.value<double>()) return {*number, where};
+  if (const auto* number = node.as_floating_point()) return {number->get(), where};
+  if (const auto* number = node.as_integer()) return {static_cast<double>(number->get()), where};
   throw InputError(prefix(path, where) + "dates and times have no meaning in a scene");
 }
 
@@ -47,6 +48,23 @@ Table convert_table(const toml::table& source, const std::string& path) {
   };
   std::stable_sort(table.entries.begin(), table.entries.end(), in_file_order);
   return table;
+}
+
+/// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack.
+void reject_deep_keys(std::string_view text, const std::string& path) {
+  constexpr std::ptrdiff_t most_parts = 100;
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    ++number;
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    begin = end + 1;
+    const std::string_view key = line.substr(0, line.find_first_of("=#"));
+    if (std::count(key.begin(), key.end(), '.') > most_parts) {
+      throw InputError(prefix(path, {number, 1}) + "a key of more than " + std::to_string(most_parts) +
+                       " parts");
+    }
+  }
 }
 
 }  // namespace
@@ -72,6 +90,7 @@ std::string Value::kind() const {
 }
 
 Table parse_toml(std::string_view text, const std::string& path) {
+  reject_deep_keys(text, path);
   try {
     return convert_table(toml::parse(text, path), path);
   } catch (const toml::parse_error& error) {

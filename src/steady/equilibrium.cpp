@@ -185,7 +185,13 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   const Scales scales = find_scales(result.x, result.lambda, linearization, residual);
   const KinsolResult kinsol = run_kinsol(problem, scales, options, result.x, result.lambda);
   result.report.iterations = kinsol.iterations;
+  const Vector last_x = result.x;
+  const Vector last_lambda = result.lambda;
   const bool polished = polish(problem, scales, result);
+  if (!polished) {  // undamped corrections far from a solution lead astray: report where KINSOL stood
+    result.x = last_x;
+    result.lambda = last_lambda;
+  }
   if (const auto fault = problem.evaluate(result.x, result.lambda, residual))
     return not_finite(std::move(result), fault);
   report_residual(model, residual, scales, result.report);

@@ -9,22 +9,18 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 
 namespace eigentrail {
 namespace {
-
-std::string to_text(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
-}
 
 void read_attributes(const Hdf5File& file, LociFile& loci) {
   for (const std::string& name : file.attribute_names()) {
     if (name.starts_with("count_") || name == "schema_version") {
       loci.attributes[name] = std::to_string(file.integer_attribute(name));
     } else if (name == "tolerance" || name == "reference" || name == "seconds") {
-      loci.attributes[name] = to_text(file.real_attribute(name));
+      loci.attributes[name] = exact_text(file.real_attribute(name));
     } else {
       loci.attributes[name] = file.text_attribute(name);
     }
@@ -70,8 +66,8 @@ double LociFile::highest() const {
 ComplexVector LociFile::eigenvalues_at(double value) const {
   if (p.empty()) throw InputError(path + ": holds no points");
   if (!(value >= lowest() && value <= highest())) {
-    throw InputError(path + ": " + parameter + " = " + to_text(value) + " lies outside the traced range " +
-                     to_text(lowest()) + " ... " + to_text(highest()));
+    throw InputError(path + ": " + parameter + " = " + exact_text(value) + " lies outside the traced range " +
+                     exact_text(lowest()) + " ... " + exact_text(highest()));
   }
   const bool ascending = p.back() >= p.front();
   const auto after = [&](double node, double target) { return ascending ? node < target : node > target; };
@@ -83,7 +79,8 @@ ComplexVector LociFile::eigenvalues_at(double value) const {
 
 LociFile read_loci(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path + ": no such file");
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
   try {
     const Hdf5File file = Hdf5File::open(path);
     check_format(file, path);

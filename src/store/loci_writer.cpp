@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/version.hpp"
@@ -51,8 +53,26 @@ struct Buffer {
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
   if (std::find(reserved.begin(), reserved.end(), parameter) == reserved.end()) return;
-  throw InputError(scene.path + ": the traced parameter cannot be called '" + parameter +
-                   "', the loci file has a dataset of that name; rename it");
+  SourceLocation where;
+  for (const Table* trace : tables(scene, "trace")) {
+    if (const Value* key = trace->find("parameter")) where = key->where;
+  }
+  throw scene_error(scene, where,
+                    "[trace] parameter: the traced parameter cannot be called '" + parameter +
+                        "', the loci file has a dataset of that name; rename it");
+}
+
+bool may_be_replaced(const std::string& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::string begin(signature.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin != signature) return false;
+  try {
+    const Hdf5File file = Hdf5File::open(path);
+    return file.has_attribute("format") && file.text_attribute("format") == "eigentrail-loci";
+  } catch (const Hdf5Error&) {
+    return true;  // damaged: nothing is lost
+  }
 }
 
 struct LociWriter::Implementation {
@@ -179,7 +199,7 @@ void LociWriter::append(const PathNode& node) {
     buffer.eigenvalue_derivative.push_back(node.s(i, 1));
     for (Eigen::Index k = 0; k < node.s.cols(); ++k) buffer.eigenvalue_series.push_back(node.s(i, k));
     buffer.frequency.push_back(std::abs(s));
-    buffer.damping_ratio.push_back(-s.real() / std::abs(s));
+    buffer.damping_ratio.push_back(-s.real() / std::abs(s) + 0.0);
     buffer.residual.push_back(node.backward_error[i]);
     buffer.condition.push_back(node.condition[i]);
     ComplexVector& shape = self.last_shapes[static_cast<std::size_t>(i)];

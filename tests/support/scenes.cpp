@@ -23,15 +23,7 @@ int Setting::parameter(const std::string& name) const {
 }
 
 Setting make_setting(const std::string& text, const OptionTexts& overrides) {
-  Setting setting;
-  setting.scene = parse_scene(text, "test.toml");
-  setting.options = read_trace_options(setting.scene, overrides);
-  std::vector<Vector> ends(2, setting.scene.parameters.declared_values());
-  const int traced = setting.parameter(setting.options.parameter);
-  ends[0][traced] = setting.options.from;
-  ends[1][traced] = setting.options.to;
-  setting.model = build_model(setting.scene, ends);
-  return setting;
+  return {prepare_trace(parse_scene(text, "test.toml"), overrides)};
 }
 
 Setting scene_setting(const std::string& name, const OptionTexts& overrides,

@@ -10,11 +10,7 @@
 namespace eigentrail::test {
 
 /// A model with what is needed to compute points on its path.
-struct Setting {
-  Scene scene;
-  TraceOptions options;
-  std::unique_ptr<Model> model;
-
+struct Setting : TraceSetup {
   /// Problem of the trace, with the scene's parameters.
   PathProblem problem() const;
   int parameter(const std::string& name) const;

@@ -2,12 +2,13 @@
 // provenance.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "eigentrail/scene/scene.hpp"
+#include "eigentrail/model/build.hpp"
 
 namespace eigentrail {
 
@@ -48,6 +49,19 @@ using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 /// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
 /// Throws InputError listing what is wrong.
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides);
+
+/// A scene that is ready to be traced.
+struct TraceSetup {
+  Scene scene;
+  TraceOptions options;
+  std::unique_ptr<Model> model;
+
+  /// Index of the traced parameter.
+  int traced() const { return scene.parameters.index(options.parameter).value(); }
+};
+
+/// Reads the options and builds the model of a scene. Throws InputError for every fault of either.
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides);
 
 /// Every option as text, for provenance; options that were not given read "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);

@@ -179,7 +179,13 @@ Series<T, Q> cosh(const Series<T, Q>& x) {
 
 template <class T, int Q>
 Series<T, Q> tanh(const Series<T, Q>& x) {
-  return sinh(x) / cosh(x);
+  using std::tanh;
+  // From y' = (1 - y^2) x': the quotient of sinh and cosh would overflow where tanh is one.
+  return detail::integrate(T(tanh(x[0])), x, [](const Series<T, Q>& y, int k) {
+    T rate = k == 0 ? T(1.0) : T(0.0);
+    for (int i = 0; i <= k; ++i) rate -= y[i] * y[k - i];
+    return rate;
+  });
 }
 
 template <class T, int Q>

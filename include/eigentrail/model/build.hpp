@@ -16,6 +16,10 @@ namespace eigentrail {
 /// unknown keys and unused parameters included.
 std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at);
 
+/// Rejects top-level keys that no scene has, naming the nearest known one. Done before anything else is read,
+/// so that a misspelt table is not reported as a missing one.
+void check_top_level(const Scene& scene);
+
 /// Whether the scene gives matrices instead of elements.
 bool is_matrix_family(const Scene& scene);
 

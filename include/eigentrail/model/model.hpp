@@ -36,6 +36,7 @@ struct Effect {
 
 /// What is known about the pencil before a number is computed, for a given traced parameter.
 struct Structure {
+  bool symmetric_mass = true;
   bool damped = false;
   bool gyroscopic = false;
   bool circulatory = false;

@@ -22,13 +22,20 @@ struct Parameter {
   SourceLocation where;
 };
 
+/// Parameters that define each other; the message names the cycle.
+class ParameterCycle : public std::invalid_argument {
+ public:
+  ParameterCycle(const std::string& message, int parameter)
+      : std::invalid_argument(message), parameter(parameter) {}
+  int parameter;  ///< index of one of them
+};
+
 /// Immutable after construction; derived parameters are resolved in an order without forward references.
 class Parameters {
  public:
   Parameters() = default;
 
-  /// Orders the derived parameters. Throws std::invalid_argument naming the cycle when they define each
-  /// other.
+  /// Orders the derived parameters. Throws ParameterCycle when they define each other.
   explicit Parameters(std::vector<Parameter> list);
 
   std::size_t size() const { return list_.size(); }

@@ -47,7 +47,8 @@ struct Plane {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.place("point", self.point, "the point");
-    visit.vector({"normal", "", enters_constraint, "normal of the plane, of any length"}, self.normal);
+    visit.vector({"normal", "", enters_constraint, "normal of the plane, of any length", Range::positive},
+                 self.normal);
     visit.quantity({"offset", "m", enters_constraint, "normal . x on the plane", Range::any, 0.0},
                    self.offset);
   }

@@ -26,7 +26,8 @@ struct FollowerForce {
                    self.magnitude);
     visit.quantity({"angle", "rad", enters_force, "turns the direction about the axis", Range::any, 0.0},
                    self.angle);
-    visit.vector({"axis", "", enters_force, "axis of that turn, of any length", Range::any, 1.0}, self.axis);
+    visit.vector({"axis", "", enters_force, "axis of that turn, of any length", Range::positive, 1.0},
+                 self.axis);
   }
 
   template <class Scalar>

@@ -1,0 +1,223 @@
+"""The loci file of the rotating mass, opened by other people's software: h5py, and xarray without extra code."""
+
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from program import PROGRAM, SCENES, TIME_LIMIT
+
+SCENE = SCENES / "rotating_mass.toml"
+MASS, LENGTH, HINGE = 50.0, 5.0, np.array([1.0, 0.0, 0.0])
+ROUNDING = 1e-12
+
+# Dimensions and unit of every dataset with data; the traced parameter is omega.
+LAYOUT = {
+    "omega": (("node",), "rad/s"),
+    "eigenvalue": (("node", "mode"), "1/s"),
+    "eigenvalue_derivative": (("node", "mode"), "1/s/(rad/s)"),
+    "eigenvalue_series": (("node", "mode", "order"), "1/s/(rad/s)^order"),
+    "frequency": (("node", "mode"), "rad/s"),
+    "damping_ratio": (("node", "mode"), "1"),
+    "mode_shape": (("node", "mode", "coordinate"), "1"),
+    "residual": (("node", "mode"), "1"),
+    "condition": (("node", "mode"), "1"),
+    "equilibrium": (("node", "coordinate"), "m"),
+    "multiplier": (("node", "constraint"), "1"),
+}
+DIMENSIONS = {"node", "mode", "coordinate", "constraint", "order"}
+COMPLEX = {"eigenvalue", "eigenvalue_derivative", "eigenvalue_series", "mode_shape"}
+
+
+def setUpModule():
+    global folder, path
+    folder = tempfile.mkdtemp(prefix="eigentrail-")
+    path = pathlib.Path(folder) / "blade.h5"
+    subprocess.run([PROGRAM, "trace", SCENE, "-o", path, "--quiet"], check=True, timeout=TIME_LIMIT)
+
+
+def tearDownModule():
+    shutil.rmtree(folder)
+
+
+class InH5py(unittest.TestCase):
+    def setUp(self):
+        self.file = h5py.File(path)
+        self.addCleanup(self.file.close)
+
+    def test_datasets_are_those_of_the_schema(self):
+        # Events are stored once they have been looked for.
+        self.assertEqual(set(self.file) - {"events"}, set(LAYOUT) | DIMENSIONS)
+
+    def test_every_dimension_has_its_scale(self):
+        for name, (dimensions, _) in LAYOUT.items():
+            with self.subTest(name):
+                dataset = self.file[name]
+                self.assertEqual(dataset.shape, tuple(len(self.file[d]) for d in dimensions))
+                self.assertEqual([[scale.name for scale in dim.values()] for dim in dataset.dims],
+                                 [["/" + d] for d in dimensions])
+
+    def test_dimensions_are_labelled(self):
+        labels = {name: self.file[name].asstr()[:].tolist() for name in ("mode", "coordinate", "constraint")}
+        self.assertEqual(labels, {"mode": ["mode 1", "mode 2"], "coordinate": ["blade.x", "blade.y", "blade.z"],
+                                  "constraint": ["rod 1"]})
+        for name in ("node", "order"):
+            np.testing.assert_array_equal(self.file[name][:], np.arange(len(self.file[name])))
+
+    def test_everything_has_units_and_a_long_name(self):
+        for name, dataset in self.file.items():
+            with self.subTest(name):
+                self.assertEqual(dataset.attrs["units"], LAYOUT.get(name, ((), "1"))[1])
+                self.assertTrue(dataset.attrs["long_name"])
+
+    def test_complex_numbers_read_as_such(self):
+        for name in LAYOUT:
+            with self.subTest(name):
+                self.assertEqual(self.file[name].dtype, np.complex128 if name in COMPLEX else np.float64)
+
+    def test_root_says_how_the_file_was_made(self):
+        attributes = self.file.attrs
+        self.assertEqual(attributes["format"], "eigentrail-loci")
+        self.assertEqual(attributes["schema_version"], 1)
+        self.assertRegex(attributes["program_version"], r"^\d+\.\d+\.\d+$")
+        self.assertEqual(attributes["title"], "Rotating point mass: lag and flap")
+        self.assertEqual(attributes["scene"], SCENE.read_text(encoding="utf-8"))
+        self.assertEqual((attributes["parameter"], attributes["tolerance"]), ("omega", 1e-8))
+        self.assertEqual((attributes["status"], attributes["message"]), ("completed", ""))
+        options = {name[7:]: text for name, text in attributes.items() if name.startswith("option_")}
+        self.assertEqual(options, {
+            "parameter": "omega", "from": "100", "to": "5", "tolerance": "1e-08", "modes": "all", "order": "3",
+            "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000"})
+
+    def test_counts_fit_the_data(self):
+        counts = {name[6:]: int(n) for name, n in self.file.attrs.items() if name.startswith("count_")}
+        n_nodes, n_modes = self.file["eigenvalue"].shape
+        self.assertEqual((counts["nodes"], counts["modes_available"]), (n_nodes, n_modes))
+        points = n_nodes + counts["rejected_steps"]
+        self.assertGreaterEqual(counts["mode_factorizations"], n_nodes * n_modes)
+        self.assertGreaterEqual(counts["mode_iterations"], n_nodes * n_modes)
+        self.assertGreaterEqual(counts["mode_solves"], counts["mode_iterations"])
+        self.assertGreaterEqual(counts["equilibrium_factorizations"], n_nodes)
+        self.assertLessEqual(counts["mode_factorizations"], 2 * points * n_modes)
+
+    def test_points_run_down_the_range_to_its_very_ends(self):
+        self.assertEqual(self.file["omega"][0], 100.0)
+        self.assertEqual(self.file["omega"][-1], 5.0)
+        self.assertTrue(np.all(np.diff(self.file["omega"][:]) < 0.0))
+
+
+class Numbers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with h5py.File(path) as file:
+            cls.data = {name: file[name][:] for name in LAYOUT}
+
+    def test_frequency_and_damping_ratio_follow_from_the_eigenvalue(self):
+        s = self.data["eigenvalue"]
+        np.testing.assert_allclose(self.data["frequency"], np.abs(s), rtol=ROUNDING)
+        np.testing.assert_allclose(self.data["damping_ratio"], -s.real / np.abs(s), rtol=ROUNDING)
+
+    def test_series_begins_with_eigenvalue_and_derivative(self):
+        np.testing.assert_array_equal(self.data["eigenvalue_series"][..., 0], self.data["eigenvalue"])
+        np.testing.assert_array_equal(self.data["eigenvalue_series"][..., 1], self.data["eigenvalue_derivative"])
+
+    def test_series_leads_to_the_next_point(self):
+        """Its remainder is of fourth order: |s(p + h) - sum| shrinks with h^4, far below the linear term."""
+        series = self.data["eigenvalue_series"]
+        step = np.diff(self.data["omega"])[:, np.newaxis]
+        predicted = sum(series[:-1, :, k] * step**k for k in range(4))
+        miss = np.abs(predicted - self.data["eigenvalue"][1:])
+        self.assertLess(np.max(miss / np.abs(series[:-1, :, 1] * step)), 1e-2)
+
+    def test_a_pair_is_its_member_above_the_real_axis(self):
+        self.assertTrue(np.all(self.data["eigenvalue"].imag >= 0.0))
+
+    def test_modes_and_equilibria_are_accurate(self):
+        self.assertLess(np.max(self.data["residual"]), 1e-13)
+        self.assertTrue(np.all(self.data["condition"] >= 0.0))
+        self.assertTrue(np.all(np.isfinite(self.data["condition"])))
+
+    def test_shapes_have_unit_mass_norm(self):
+        norms = MASS * np.sum(np.abs(self.data["mode_shape"]) ** 2, axis=2)
+        np.testing.assert_allclose(norms, 1.0, rtol=ROUNDING)
+
+    def test_consecutive_shapes_are_in_phase(self):
+        shape = self.data["mode_shape"]
+        overlap = MASS * np.sum(np.conj(shape[:-1]) * shape[1:], axis=2)
+        self.assertTrue(np.all(overlap.real > 0.8))
+        np.testing.assert_allclose(overlap.imag, 0.0, atol=ROUNDING)
+
+    def test_shapes_satisfy_the_constraint(self):
+        """A = 2 (x - hinge)^T, so A v = 0 keeps the mass on its sphere."""
+        arm = (self.data["equilibrium"] - HINGE) / LENGTH
+        along = np.einsum("nc,nmc->nm", arm, self.data["mode_shape"]) * np.sqrt(MASS)
+        np.testing.assert_allclose(np.abs(along), 0.0, atol=ROUNDING)
+
+    def test_equilibrium_keeps_the_rods_length(self):
+        np.testing.assert_allclose(np.linalg.norm(self.data["equilibrium"] - HINGE, axis=1), LENGTH, rtol=ROUNDING)
+
+    def test_equilibrium_balances_centrifugal_transverse_and_rod_force(self):
+        """Centrifugal force m omega^2 (x, y, 0), the a_t, a_n force of the scene, rod force -A^T lambda."""
+        x, omega = self.data["equilibrium"], self.data["omega"][:, np.newaxis]
+        arm, (a_t, a_n) = x - HINGE, (-100.0, 1000.0)
+        centrifugal = MASS * omega**2 * x * [1.0, 1.0, 0.0]
+        transverse = np.column_stack([-a_t * arm[:, 1] - a_n * arm[:, 2], a_t * arm[:, 0], a_n * arm[:, 0]])
+        rod = -2.0 * arm * self.data["multiplier"]
+        sum_of_forces = np.linalg.norm(centrifugal + transverse + rod, axis=1)
+        self.assertLess(np.max(sum_of_forces / np.linalg.norm(rod, axis=1)), 1e-11)
+
+
+class InXarray(unittest.TestCase):
+    def setUp(self):
+        self.set = xarray.open_dataset(path, engine="h5netcdf")
+        self.addCleanup(self.set.close)
+
+    def test_variables_have_the_dimensions_of_the_schema(self):
+        for name, (dimensions, unit) in LAYOUT.items():
+            with self.subTest(name):
+                self.assertEqual(self.set[name].dims, dimensions)
+                self.assertEqual(self.set[name].attrs["units"], unit)
+                self.assertEqual(self.set[name].dtype, np.complex128 if name in COMPLEX else np.float64)
+
+    def test_traced_parameter_is_a_coordinate_of_everything_along_the_path(self):
+        for name, (dimensions, _) in LAYOUT.items():
+            if dimensions[0] == "node":
+                self.assertIn("omega", self.set[name].coords, name)
+
+    def test_labels_select(self):
+        lag = self.set.eigenvalue.sel(mode="mode 1")
+        self.assertEqual(lag.dims, ("node",))
+        sideways = self.set.mode_shape.sel(mode="mode 1", coordinate="blade.y")
+        np.testing.assert_array_equal(sideways.values, self.set.mode_shape.values[:, 0, 1])
+
+    def test_parameter_selects_after_swapping_dimensions(self):
+        at = self.set.frequency.swap_dims(node="omega").sortby("omega").sel(omega=100.0, mode="mode 1")
+        self.assertAlmostEqual(float(at), 100.0 / np.sqrt(5.0), places=2)
+
+    def test_what_a_plot_needs_is_there(self):
+        """The labels and arrays that set.frequency.plot(x="omega", hue="mode") would draw."""
+        frequency = self.set.frequency
+        self.assertEqual(frequency.transpose("node", "mode").shape, (frequency.sizes["node"], 2))
+        self.assertEqual([frequency.omega.attrs[key] for key in ("long_name", "units")],
+                         ["traced parameter omega", "rad/s"])
+        self.assertEqual([frequency.attrs[key] for key in ("long_name", "units")], ["abs(s)", "rad/s"])
+
+    def test_stability_boundary_is_one_expression(self):
+        """The lag mode becomes unstable near 12.44 rad/s."""
+        growth = self.set.eigenvalue.real.sel(mode="mode 1").swap_dims(node="omega").sortby("omega")
+        unstable = growth.omega[growth > 0.0].max()
+        stable = growth.omega[growth < 0.0].min()
+        self.assertTrue(float(unstable) < 12.44 < float(stable))
+
+    def test_root_attributes_arrive(self):
+        self.assertEqual(self.set.attrs["format"], "eigentrail-loci")
+        self.assertEqual(self.set.attrs["scene"], SCENE.read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,108 @@
+"""Runs eigentrail as a user does: as a process, in a folder of its own."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["EIGENTRAIL"]
+SCENES = pathlib.Path(os.environ["EIGENTRAIL_DATA"]) / "scenes"
+
+# No test asserts a time; this ends a run that hangs.
+TIME_LIMIT = 30.0
+
+EXIT_DONE = 0
+EXIT_NUMBERS_FAILED = 1
+EXIT_BAD_INPUT = 2
+
+BLADE = """\
+title = "Blade"
+
+[parameters]
+omega  = { value = 40.0, unit = "rad/s" }
+mass   = 50.0
+length = 5.0
+drag   = 2.0
+
+[trace]
+parameter = "omega"
+from = 100.0
+to = 5.0
+
+[frame]
+angular_velocity = [0, 0, "omega"]
+
+[[point]]
+name = "blade"
+mass = "mass"
+position = ["1 + length", 0, 0]
+
+[[rod]]
+from = [1, 0, 0]
+to = "blade"
+length = "length"
+
+[[drag]]
+point = "blade"
+coefficient = "drag"
+"""
+
+FAMILY = """\
+[trace]
+parameter = "p"
+from = 0
+to = 1
+
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+K = [[[1, 0], [0, 2]], [[0, 1], [1, 0]]]
+"""
+
+
+def edited(scene, old, new):
+    """The scene with its one occurrence of `old` replaced."""
+    assert scene.count(old) == 1, f"{old!r} occurs {scene.count(old)} times"
+    return scene.replace(old, new)
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test runs in an empty folder, so that names in messages are short and leftovers show."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="eigentrail-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_program(self, *arguments):
+        try:
+            return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+        except subprocess.TimeoutExpired:
+            self.fail(f"{' '.join(map(str, arguments))}: hangs")
+
+    def run_well(self, *arguments):
+        """Standard output of a run that must succeed without a word on stderr."""
+        run = self.run_program(*arguments)
+        self.assertEqual((run.returncode, run.stderr), (EXIT_DONE, ""), run.args)
+        return run.stdout
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def contents(self):
+        """Every path below the folder with its bytes (None for a folder)."""
+        return {path.relative_to(self.folder): path.read_bytes() if path.is_file() else None
+                for path in self.folder.rglob("*")}
+
+    def assert_refused(self, run, fragments, beginning="eigentrail: "):
+        """Bad input: exit code 2 and one line on stderr that says what is wrong."""
+        self.assertEqual(run.returncode, EXIT_BAD_INPUT, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertTrue(run.stderr.startswith(beginning), f"{run.stderr!r} does not begin {beginning!r}")
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertTrue(run.stderr.endswith("\n"), run.stderr)
+        for fragment in fragments:
+            self.assertIn(fragment, run.stderr)

@@ -1,0 +1,346 @@
+#include "core/hdf5_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+namespace eigentrail {
+namespace {
+
+class Hdf5FileTest : public testing::Test {
+ protected:
+  /// A file of this test alone, since tests run at the same time.
+  static std::string path_of(const std::string& ending) {
+    return testing::TempDir() + "eigentrail_" +
+           testing::UnitTest::GetInstance()->current_test_info()->name() + ending;
+  }
+  void TearDown() override { std::filesystem::remove(path); }
+
+  const std::string path = path_of(".h5");
+};
+
+DatasetSpec fixed(const std::string& name, ElementType type, const Shape& shape) {
+  return {name, type, shape, false, {}};
+}
+
+DatasetSpec growing(const std::string& name, ElementType type, const Shape& shape) {
+  return {name, type, shape, true, {}};
+}
+
+/// The message of the Hdf5Error that `action` throws.
+std::string hdf5_error(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Hdf5Error& error) {
+    return error.what();
+  }
+  return "no Hdf5Error was thrown";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Calls HDF5 on a file that is open for writing.
+void with_hdf5(const std::string& path, const std::function<void(hid_t)>& use) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  use(file);
+  ASSERT_GE(H5Fclose(file), 0);
+}
+
+TEST_F(Hdf5FileTest, RealNumbersSurviveARoundTripBitForBit) {
+  const std::vector<double> data = {1.0 / 3.0, -0.0, std::numbers::pi, 1e-308, -1e308, INFINITY};
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("x", ElementType::real, {2, 3}));
+    file.write_rows("x", 0, data);
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_EQ(file.shape("x"), (Shape{2, 3}));
+  EXPECT_EQ(file.read_real("x"), data);
+}
+
+TEST_F(Hdf5FileTest, ComplexNumbersAreACompoundOfRAndI) {
+  const std::vector<Complex> data = {{1.0, -2.0}, {0.0, 1e-3}, {-4.5, 0.0}};
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("s", ElementType::complex, {3}));
+    file.write_rows("s", 0, data);
+  }
+  EXPECT_EQ(Hdf5File::open(path).read_complex("s"), data);
+  with_hdf5(path, [](hid_t file) {
+    const hid_t set = H5Dopen2(file, "s", H5P_DEFAULT);
+    const hid_t type = H5Dget_type(set);
+    EXPECT_EQ(H5Tget_nmembers(type), 2);
+    EXPECT_EQ(H5Tget_member_index(type, "r"), 0);
+    EXPECT_EQ(H5Tget_member_index(type, "i"), 1);
+    EXPECT_EQ(H5Tget_size(type), 2 * sizeof(double));
+    H5Tclose(type);
+    H5Dclose(set);
+  });
+}
+
+TEST_F(Hdf5FileTest, IntegersAreStoredAsIntegersOf64Bits) {
+  const std::vector<std::int64_t> data = {0, -7, std::int64_t{1} << 40, INT64_MIN};
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("n", ElementType::integer, {4}));
+    file.write_rows("n", 0, data);
+  }
+  with_hdf5(path, [&data](hid_t file) {
+    std::vector<std::int64_t> stored(4);
+    ASSERT_GE(H5LTread_dataset(file, "n", H5T_NATIVE_INT64, stored.data()), 0);
+    EXPECT_EQ(stored, data);
+  });
+  EXPECT_EQ(Hdf5File::open(path).read_real("n")[2], 1099511627776.0);
+}
+
+TEST_F(Hdf5FileTest, TextsOfAnyLengthAndScriptSurviveARoundTrip) {
+  const std::vector<std::string> data = {"", "pendulum", "Träger µ·²", std::string(100000, 'x')};
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("names", ElementType::text, {4}));
+    file.write_rows("names", 0, data);
+  }
+  EXPECT_EQ(Hdf5File::open(path).read_texts("names"), data);
+}
+
+TEST_F(Hdf5FileTest, GrowingDatasetsTakeTheirRowsInPieces) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(growing("p", ElementType::real, {0}));
+  file.create_dataset(growing("s", ElementType::complex, {0, 2}));
+  file.create_dataset(growing("why", ElementType::text, {0}));
+  std::vector<double> p;
+  std::vector<Complex> s;
+  std::vector<std::string> why;
+  for (std::uint64_t row = 0; row < 50; ++row) {
+    const auto value = static_cast<double>(row);
+    p.push_back(value);
+    s.insert(s.end(), {{value, 1.0}, {-value, 2.0}});
+    why.push_back("step " + std::to_string(row));
+    file.write_rows("p", row, std::vector<double>{p.back()});
+    file.write_rows("s", row, std::vector<Complex>(s.end() - 2, s.end()));
+    file.write_rows("why", row, std::vector<std::string>{why.back()});
+  }
+  file.write_rows("p", 50, std::vector<double>());
+  EXPECT_EQ(file.shape("s"), (Shape{50, 2}));
+  EXPECT_EQ(file.read_real("p"), p);
+  EXPECT_EQ(file.read_complex("s"), s);
+  EXPECT_EQ(file.read_texts("why"), why);
+}
+
+TEST_F(Hdf5FileTest, RowsCanBeWrittenAgainWithoutGrowing) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(growing("p", ElementType::real, {0, 2}));
+  file.write_rows("p", 0, std::vector<double>{1, 2, 3, 4, 5, 6});
+  file.write_rows("p", 1, std::vector<double>{30, 40});
+  EXPECT_EQ(file.read_real("p"), (std::vector<double>{1, 2, 30, 40, 5, 6}));
+}
+
+TEST_F(Hdf5FileTest, FlushedRowsAreInTheFileWhileItIsStillOpen) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(growing("p", ElementType::real, {0}));
+  file.write_rows("p", 0, std::vector<double>{1, 2, 3});
+  file.flush();
+  const std::string copy = path_of("_copy.h5");
+  std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(Hdf5File::open(copy).read_real("p"), (std::vector<double>{1, 2, 3}));
+  std::filesystem::remove(copy);
+}
+
+TEST_F(Hdf5FileTest, AttributesKeepTheirTypeAndTheirLastValue) {
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.set_attribute("title", std::string("Träger"));
+    file.set_attribute("empty", std::string());
+    file.set_attribute("tolerance", 1e-8);
+    file.set_attribute("count", std::int64_t{1} << 40);
+    file.set_attribute("status", std::string("running"));
+    file.set_attribute("status", std::string("completed"));
+    file.create_dataset({"p", ElementType::real, {1}, false, {{"units", "rad/s"}}});
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_EQ(file.text_attribute("title"), "Träger");
+  EXPECT_EQ(file.text_attribute("empty"), "");
+  EXPECT_EQ(file.real_attribute("tolerance"), 1e-8);
+  EXPECT_EQ(file.integer_attribute("count"), std::int64_t{1} << 40);
+  EXPECT_EQ(file.text_attribute("status"), "completed");
+  EXPECT_EQ(file.text_attribute("p", "units"), "rad/s");
+  EXPECT_EQ(file.text_attribute("p", "unknown"), "");
+  EXPECT_TRUE(file.has_attribute("title"));
+  EXPECT_FALSE(file.has_attribute("units"));
+  EXPECT_EQ(file.attribute_names(),
+            (std::vector<std::string>{"count", "empty", "status", "title", "tolerance"}));
+}
+
+TEST_F(Hdf5FileTest, ScalesBelongToTheDimensionTheyWereAttachedTo) {
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("p", ElementType::real, {3}));
+    file.create_dataset(fixed("s", ElementType::complex, {3, 2}));
+    file.make_scale("p", "rotation speed");
+    file.attach_scale("s", "p", 0);
+  }
+  with_hdf5(path, [](hid_t file) {
+    const hid_t scale = H5Dopen2(file, "p", H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file, "s", H5P_DEFAULT);
+    std::array<char, 64> name{};
+    EXPECT_GT(H5DSis_scale(scale), 0);
+    EXPECT_GT(H5DSget_scale_name(scale, name.data(), name.size()), 0);
+    EXPECT_STREQ(name.data(), "rotation speed");
+    EXPECT_GT(H5DSis_attached(set, scale, 0), 0);
+    EXPECT_EQ(H5DSis_attached(set, scale, 1), 0);
+    H5Dclose(set);
+    H5Dclose(scale);
+  });
+}
+
+TEST_F(Hdf5FileTest, HasFollowsNestedPaths) {
+  Hdf5File::create(path);
+  with_hdf5(path, [](hid_t file) {
+    H5Gclose(H5Gcreate2(file, "M", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    const hsize_t size = 1;
+    const double value = 2.5;
+    ASSERT_GE(H5LTmake_dataset_double(file, "M/0", 1, &size, &value), 0);
+  });
+  const Hdf5File file = Hdf5File::open(path);
+  for (const std::string present : {"/M", "M", "/M/0", "M/0"}) EXPECT_TRUE(file.has(present)) << present;
+  for (const std::string absent : {"/M/1", "/K/0", "K", "/M/0/0", "/M/0/0/0", "m/0", ""}) {
+    EXPECT_FALSE(file.has(absent)) << absent;
+  }
+  EXPECT_EQ(file.read_real("/M/0"), std::vector<double>{2.5});
+}
+
+TEST_F(Hdf5FileTest, CreatingReplacesAnExistingFile) {
+  Hdf5File::create(path).create_dataset(fixed("old", ElementType::real, {1}));
+  Hdf5File::create(path).create_dataset(fixed("new", ElementType::real, {1}));
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_FALSE(file.has("old"));
+  EXPECT_TRUE(file.has("new"));
+}
+
+TEST_F(Hdf5FileTest, FilesThatCannotBeOpenedAreNamed) {
+  const std::string missing = path_of("_missing.h5");
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(missing); }), missing));
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(testing::TempDir()); }), testing::TempDir()));
+  std::ofstream(path) << "title = \"no HDF5\"\n";
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(path); }), path));
+  const std::string nowhere = testing::TempDir() + "no/such/folder/x.h5";
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::create(nowhere); }), nowhere));
+}
+
+TEST_F(Hdf5FileTest, TruncatedFilesAreRefused) {
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(fixed("x", ElementType::real, {1000}));
+    file.write_rows("x", 0, std::vector<double>(1000, 1.0));
+  }
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(path); }), path));
+}
+
+/// One dataset and one attribute of every type.
+Hdf5File file_of_all_types(const std::string& path) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(fixed("real", ElementType::real, {2, 3}));
+  file.create_dataset(fixed("complex", ElementType::complex, {2}));
+  file.create_dataset(fixed("text", ElementType::text, {2}));
+  file.write_rows("real", 0, std::vector<double>(6, 1.0));
+  file.write_rows("complex", 0, std::vector<Complex>(2));
+  file.write_rows("text", 0, std::vector<std::string>{"a", "b"});
+  file.set_attribute("real", 2.5);
+  file.set_attribute("text", std::string("2.5"));
+  return file;
+}
+
+TEST_F(Hdf5FileTest, ReadingAsAnotherTypeThrows) {
+  const Hdf5File file = file_of_all_types(path);
+  const std::vector<std::pair<std::string, std::function<void()>>> table = {
+      {"real as complex", [&] { file.read_complex("real"); }},
+      {"real as text", [&] { file.read_texts("real"); }},
+      {"complex as real", [&] { file.read_real("complex"); }},
+      {"complex as text", [&] { file.read_texts("complex"); }},
+      {"text as real", [&] { file.read_real("text"); }},
+      {"text as complex", [&] { file.read_complex("text"); }},
+      {"missing dataset", [&] { file.read_real("missing"); }},
+      {"shape of a missing dataset", [&] { file.shape("missing"); }},
+      {"text attribute as real", [&] { file.real_attribute("text"); }},
+      {"text attribute as integer", [&] { file.integer_attribute("text"); }},
+      {"fraction as integer", [&] { file.integer_attribute("real"); }},
+      {"real attribute as text", [&] { file.text_attribute("real"); }},
+      {"missing attribute", [&] { file.text_attribute("missing"); }}};
+  for (const auto& [what, action] : table) EXPECT_THROW(action(), Hdf5Error) << what;
+}
+
+TEST_F(Hdf5FileTest, AttributesThatAreArraysAreRefusedAsSingleValues) {
+  // Reading them into one number would write past it.
+  Hdf5File::create(path);
+  with_hdf5(path, [](hid_t file) {
+    const std::vector<double> values(64, 1.0);
+    const std::vector<long long> counts(64, 1);
+    ASSERT_GE(H5LTset_attribute_double(file, "/", "values", values.data(), values.size()), 0);
+    ASSERT_GE(H5LTset_attribute_long_long(file, "/", "counts", counts.data(), counts.size()), 0);
+  });
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_THROW(file.real_attribute("values"), Hdf5Error);
+  EXPECT_THROW(file.integer_attribute("counts"), Hdf5Error);
+}
+
+TEST_F(Hdf5FileTest, WritingWhatDoesNotFitThrows) {
+  Hdf5File file = file_of_all_types(path);
+  const std::vector<double> row(3, 2.0);
+  const std::vector<std::pair<std::string, std::function<void()>>> table = {
+      {"text into real", [&] { file.write_rows("real", 0, std::vector<std::string>(3)); }},
+      {"real into complex", [&] { file.write_rows("complex", 0, row); }},
+      {"real into text", [&] { file.write_rows("text", 0, std::vector<double>(1)); }},
+      {"half a row", [&] { file.write_rows("real", 0, std::vector<double>(4)); }},
+      {"beyond the end of a dataset that does not grow", [&] { file.write_rows("real", 2, row); }},
+      {"missing dataset", [&] { file.write_rows("missing", 0, row); }},
+      {"name taken", [&] { file.create_dataset(fixed("real", ElementType::real, {1})); }},
+      {"scale that is missing", [&] { file.attach_scale("real", "missing", 0); }}};
+  for (const auto& [what, action] : table) EXPECT_THROW(action(), Hdf5Error) << what;
+  EXPECT_EQ(file.read_real("real"), std::vector<double>(6, 1.0)) << "and leaves the data alone";
+}
+
+TEST_F(Hdf5FileTest, WritingDataIntoRowsWithoutColumnsThrows) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(growing("none", ElementType::real, {0, 0}));
+  EXPECT_THROW(file.write_rows("none", 0, std::vector<double>(3)), Hdf5Error);
+}
+
+TEST_F(Hdf5FileTest, OpenedFilesAreReadOnly) {
+  Hdf5File::create(path).create_dataset(fixed("x", ElementType::real, {1}));
+  Hdf5File file = Hdf5File::open(path);
+  EXPECT_THROW(file.write_rows("x", 0, std::vector<double>{1.0}), Hdf5Error);
+  EXPECT_THROW(file.set_attribute("title", std::string("new")), Hdf5Error);
+}
+
+TEST_F(Hdf5FileTest, DatasetsTooLargeForMemoryAreRefused) {
+  Hdf5File file = Hdf5File::create(path);
+  file.create_dataset(growing("huge", ElementType::real, {0, std::uint64_t{1} << 20}));
+  with_hdf5(path, [](hid_t handle) {
+    const hid_t set = H5Dopen2(handle, "huge", H5P_DEFAULT);
+    const std::array<hsize_t, 2> size = {std::uint64_t{1} << 44, std::uint64_t{1} << 20};
+    EXPECT_GE(H5Dset_extent(set, size.data()), 0);
+    H5Dclose(set);
+  });
+  EXPECT_TRUE(contains(hdf5_error([&] { file.read_real("huge"); }), "too large"));
+}
+
+TEST(ElementCount, IsTheProductOfTheDimensionsWithoutOverflow) {
+  EXPECT_EQ(element_count({}), 1U);
+  EXPECT_EQ(element_count({3, 4, 5}), 60U);
+  EXPECT_EQ(element_count({3, 0, 5}), 0U);
+  EXPECT_GT(element_count({std::uint64_t{1} << 33U, std::uint64_t{1} << 33U}), std::uint64_t{1} << 31U)
+      << "2^66 modulo 2^64 is 4";
+}
+
+}  // namespace
+}  // namespace eigentrail

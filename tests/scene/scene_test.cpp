@@ -1,0 +1,211 @@
+#include "eigentrail/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "scene/input_error.hpp"
+
+namespace eigentrail {
+namespace {
+
+using test::contains;
+using test::input_error;
+
+Scene parsed(const std::string& text) {
+  return parse_scene(text, "test.toml");
+}
+
+double declared(const Scene& scene, const std::string& name) {
+  return scene.parameters.declared_values()[scene.parameters.index(name).value()];
+}
+
+double si(const Scene& scene, const std::string& name) {
+  Vector values = scene.parameters.declared_values();
+  scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
+  return values[scene.parameters.index(name).value()];
+}
+
+TEST(ParseScene, KeepsTitleTextAndPath) {
+  const std::string text = "title = \"Pendulum\"\n";
+  const Scene scene = parsed(text);
+  EXPECT_EQ(scene.title, "Pendulum");
+  EXPECT_EQ(scene.text, text);
+  EXPECT_EQ(scene.path, "test.toml");
+  EXPECT_EQ(scene.parameters.size(), 0U);
+}
+
+TEST(ParseScene, ParametersAreNumbersExpressionsOrTablesWithAUnit) {
+  const Scene scene = parsed(
+      "[parameters]\n"
+      "mass = 2\n"
+      "speed = { value = 3000, unit = \"rpm\" }\n"
+      "radius = { unit = \"mm\", value = 250 }\n"
+      "inertia = \"mass * radius^2\"\n"
+      "tip = { value = \"speed * radius\", unit = \"km/h\" }\n");
+  EXPECT_EQ(scene.parameters.names(),
+            (std::vector<std::string>{"mass", "speed", "radius", "inertia", "tip"}));
+  EXPECT_DOUBLE_EQ(declared(scene, "speed"), 3000.0);
+  EXPECT_DOUBLE_EQ(si(scene, "speed"), 100.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(si(scene, "radius"), 0.25);
+  EXPECT_DOUBLE_EQ(si(scene, "inertia"), 0.125);
+  EXPECT_DOUBLE_EQ(declared(scene, "tip"), 25.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(si(scene, "tip"), 25.0 * std::numbers::pi / 3.6);
+  EXPECT_EQ(scene.parameters[1].unit, "rpm");
+  EXPECT_EQ(scene.parameters[3].where.line, 5);
+}
+
+TEST(ParseScene, DerivedParametersMayStandBeforeWhatTheyUse) {
+  const Scene scene = parsed("[parameters]\nc = \"a + b\"\nb = \"2 * a\"\na = 3\n");
+  EXPECT_EQ(declared(scene, "c"), 9.0);
+}
+
+struct Fault {
+  std::string text, message;
+};
+
+TEST(ParseScene, FaultsOfParametersNamePlaceAndParameter) {
+  const std::vector<Fault> table = {
+      {"[parameters]\nmass = 2\nk = \"masss * 2\"\n",
+       "test.toml:3:1: [parameters] k: in \"masss * 2\" at character 1: unknown parameter 'masss'; did you "
+       "mean "
+       "'mass'?"},
+      {"[parameters]\nk = \"2 *\"\n", "test.toml:2:1: [parameters] k: in \"2 *\" at character 4: "},
+      {"[parameters]\n  k = true\n",
+       "test.toml:2:3: [parameters] k: expected a number or an expression, found true or false"},
+      {"[parameters]\nk = [1, 2]\n", "test.toml:2:1: [parameters] k: expected a number or an expression"},
+      {"[parameters]\nk = { unit = \"m\" }\n", "test.toml:2:1: [parameters] k: expected value = ..."},
+      {"[parameters]\nk = { value = 1, units = \"m\" }\n",
+       "test.toml:2:18: [parameters] k: unknown key 'units'; did you mean 'unit'?"},
+      {"[parameters]\nk = { value = 1, unit = 2 }\n",
+       "test.toml:2:18: [parameters] k: unit: expected a text, found a number"},
+      {"[parameters]\nk = { value = 1, unit = \"furlong\" }\n",
+       "test.toml:2:18: [parameters] k: unit 'furlong' is not known"},
+      {"[parameters]\n\"spring-rate\" = 1\n", "test.toml:2:1: [parameters] spring-rate: a parameter's name"},
+      {"[parameters]\n2k = 1\n", "test.toml:2:1: [parameters] 2k: a parameter's name"},
+      {"[parameters]\na = \"b\"\nb = \"a\"\n",
+       "test.toml:2:1: [parameters] a: is defined through itself: a -> b -> a"},
+      {"parameters = 3\n", "test.toml:1:1: parameters: expected a table, found a number"},
+      {"[[parameters]]\nk = 1\n", "test.toml:1:3: parameters: expected a table, found an array"},
+      {"title = 3\n", "test.toml:1:1: title: expected a text, found a number"},
+      {"title = \n", "test.toml:1:"}};
+  for (const Fault& fault : table) {
+    const std::string message = input_error([&] { parsed(fault.text); });
+    EXPECT_TRUE(message.starts_with(fault.message)) << fault.text << " -> " << message;
+  }
+}
+
+TEST(ParseScene, ParametersThatAreNotFiniteAreRefusedAtTheirPlace) {
+  for (const std::string number : {"nan", "inf", "-inf"}) {
+    const std::string message = input_error([&] { parsed("[parameters]\nk = " + number + "\n"); });
+    EXPECT_TRUE(message.starts_with("test.toml:2:1: [parameters] k: ")) << number << " -> " << message;
+  }
+}
+
+const std::string family = "[matrix_family]\nM = [[[1]]]\nK = [[[1]]]\n";
+
+TEST(ParseScene, TracedParameterOfAMatrixFamilyIsImplied) {
+  const Scene scene =
+      parsed("[parameters]\nc = 2\n[trace]\nparameter = \"p\"\nfrom = 0.5\nto = 1\n" + family);
+  EXPECT_EQ(scene.parameters.names(), (std::vector<std::string>{"c", "p"}));
+  EXPECT_EQ(declared(scene, "p"), 0.5);
+}
+
+TEST(ParseScene, ParametersMayUseTheImpliedOne) {
+  const Scene scene =
+      parsed("[parameters]\nk = \"2 * p\"\n[trace]\nparameter = \"p\"\nfrom = 0.5\nto = 1\n" + family);
+  EXPECT_EQ(declared(scene, "k"), 1.0);
+}
+
+TEST(ParseScene, DeclarationBeatsTheImpliedParameter) {
+  const Scene scene = parsed(
+      "[parameters]\np = { value = 7, unit = \"mm\" }\n[trace]\nparameter = \"p\"\nfrom = 0.5\nto = 1\n" +
+      family);
+  EXPECT_EQ(scene.parameters.names(), (std::vector<std::string>{"p"}));
+  EXPECT_EQ(declared(scene, "p"), 7.0);
+}
+
+TEST(ParseScene, NothingIsImpliedWithoutAMatrixFamily) {
+  EXPECT_EQ(parsed("[trace]\nparameter = \"p\"\nfrom = 0.5\n").parameters.size(), 0U);
+  EXPECT_EQ(parsed(family).parameters.size(), 0U) << "without [trace]";
+  EXPECT_EQ(parsed("[trace]\nparameter = \"2 p\"\n" + family).parameters.size(), 0U) << "no name";
+  EXPECT_EQ(parsed("trace = 1\n" + family).parameters.size(), 0U) << "no table";
+}
+
+TEST(SceneError, LeavesOutAPlaceThatIsUnknown) {
+  const Scene scene = parsed("");
+  EXPECT_STREQ(scene_error(scene, {3, 7}, "wrong").what(), "test.toml:3:7: wrong");
+  EXPECT_STREQ(scene_error(scene, {}, "wrong").what(), "test.toml: wrong");
+}
+
+TEST(Tables, AreTheTablesOfAnArrayInOrder) {
+  const Scene scene =
+      parsed("[[rod]]\nlength = 1\n[[rod]]\nlength = 2\n[gravity]\ng = 9.81\n[[spring]]\nk = 1\n");
+  const auto rods = tables(scene, "rod");
+  ASSERT_EQ(rods.size(), 2U);
+  EXPECT_EQ(std::get<double>(rods[1]->find("length")->data), 2.0);
+  EXPECT_EQ(rods[1]->where.line, 3);
+  EXPECT_EQ(tables(scene, "gravity").size(), 1U) << "a single table counts as one";
+  EXPECT_TRUE(tables(scene, "damper").empty());
+  EXPECT_TRUE(tables(parsed("rod = []\n"), "rod").empty());
+}
+
+TEST(Tables, RefuseWhatIsNoTable) {
+  EXPECT_EQ(input_error([] { tables(parsed("a = 1\nrod = 3\n"), "rod"); }),
+            "test.toml:2:1: rod: expected a table [rod], found a number");
+  EXPECT_EQ(input_error([] { tables(parsed("rod = [{ length = 1 }, 3]\n"), "rod"); }),
+            "test.toml:1:24: rod: expected tables [[rod]], found a number");
+}
+
+TEST(RejectUnusedParameters, NamesTheOneThatNothingUses) {
+  const Scene scene = parsed("[parameters]\nmass = 1\nstiffnes = 2\nk = 3\n");
+  EXPECT_EQ(
+      input_error([&] {
+        reject_unused_parameters(scene, {0, 2});
+      }),
+      "test.toml:3:1: [parameters] stiffnes: nothing in the scene uses this parameter; remove it or use it");
+  EXPECT_NO_THROW(reject_unused_parameters(scene, {0, 1, 2}));
+}
+
+TEST(RejectUnusedParameters, CountsUseThroughOtherParameters) {
+  const Scene scene = parsed("[parameters]\na = 1\nb = \"a\"\nc = \"b\"\n");
+  EXPECT_NO_THROW(reject_unused_parameters(scene, {2}));
+  EXPECT_TRUE(
+      contains(input_error([&] { reject_unused_parameters(scene, {1}); }), "test.toml:4:1: [parameters] c"))
+      << "using others is not being used";
+}
+
+class ReadScene : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path); }
+  const std::string path = testing::TempDir() + "eigentrail_" +
+                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+};
+
+TEST_F(ReadScene, ReadsTheFileByteForByte) {
+  const std::string text = "title = \"Träger\"\r\n[parameters]\r\nk = 1\r\n";
+  std::ofstream(path, std::ios::binary) << text;
+  const Scene scene = read_scene(path);
+  EXPECT_EQ(scene.text, text);
+  EXPECT_EQ(scene.title, "Träger");
+  EXPECT_EQ(scene.path, path);
+}
+
+TEST_F(ReadScene, NamesTheFileInErrors) {
+  EXPECT_TRUE(input_error([&] { read_scene(path); }).starts_with(path + ": cannot be read"));
+  EXPECT_TRUE(input_error([&] { read_scene(testing::TempDir()); }).starts_with(testing::TempDir()));
+  std::ofstream(path) << "k = \n";
+  EXPECT_TRUE(input_error([&] { read_scene(path); }).starts_with(path + ":1:"));
+}
+
+TEST_F(ReadScene, RefusesFilesThatAreTooLarge) {
+  std::ofstream(path) << "k = 1\n";
+  std::filesystem::resize_file(path, max_scene_size + 1);
+  EXPECT_TRUE(contains(input_error([&] { read_scene(path); }), "put large matrices into HDF5"));
+}
+
+}  // namespace
+}  // namespace eigentrail

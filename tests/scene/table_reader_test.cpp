@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "eigentrail/scene/scene.hpp"
+#include "scene/input_error.hpp"
+
+namespace eigentrail {
+namespace {
+
+using test::contains;
+using test::input_error;
+
+constexpr const char* parameters =
+    "[parameters]\n"  // line 1
+    "mass = 2\n"
+    "length = 1.5\n"
+    "k = 10\n"
+    "[element]\n";  // line 5; the element's keys begin in line 6
+
+class TableReaderTest : public testing::Test {
+ protected:
+  /// A reader of the table [element] with these lines.
+  TableReader& read(const std::string& lines) {
+    scene_ = parse_scene(parameters + lines, "test.toml");
+    used.clear();
+    reader_.emplace(scene_, *tables(scene_, "element").at(0), "[element]", used);
+    return *reader_;
+  }
+
+  double value(const Expression& expression) const {
+    const Vector values = scene_.parameters.declared_values();
+    return expression.evaluate(
+        std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+  }
+
+  std::set<int> used;
+
+ private:
+  Scene scene_;
+  std::optional<TableReader> reader_;
+};
+
+TEST_F(TableReaderTest, ExpressionIsANumberOrATextOfParameters) {
+  EXPECT_EQ(value(read("x = 2.5\n").expression("x")), 2.5);
+  EXPECT_EQ(value(read("x = 3\n").expression("x")), 3.0);
+  EXPECT_EQ(value(read("x = \"mass * length^2\"\n").expression("x")), 4.5);
+  EXPECT_EQ(value(read("x = 1\n").expression("y", 7.0)), 7.0) << "the default of an absent key";
+  EXPECT_EQ(value(read("x = 1\n").expression("x", 7.0)), 1.0);
+}
+
+TEST_F(TableReaderTest, ParametersThatExpressionsNameAreUsed) {
+  TableReader& reader = read("x = \"mass * 2\"\ny = [0, \"-k\", 1]\nz = 3\n");
+  reader.expression("z");
+  EXPECT_TRUE(used.empty());
+  reader.expression("x");
+  EXPECT_EQ(used, std::set<int>{0});
+  reader.vector("y");
+  EXPECT_EQ(used, (std::set<int>{0, 2}));
+}
+
+TEST_F(TableReaderTest, VectorIsThreeExpressions) {
+  const auto v = read("v = [1, \"-mass\", \"length / 2\"]\n").vector("v");
+  EXPECT_EQ(value(v[0]), 1.0);
+  EXPECT_EQ(value(v[1]), -2.0);
+  EXPECT_EQ(value(v[2]), 0.75);
+}
+
+TEST_F(TableReaderTest, PlacesAreNamesOrPositions) {
+  TableReader& reader = read("a = \"hub\"\nb = [0, 0, \"length\"]\n");
+  EXPECT_EQ(std::get<std::string>(reader.name_or_position("a")), "hub");
+  const auto b = std::get<std::array<Expression, 3>>(reader.name_or_position("b"));
+  EXPECT_EQ(value(b[2]), 1.5);
+}
+
+TEST_F(TableReaderTest, NumbersAndTextsAreTakenAsTheyAre) {
+  TableReader& reader = read("n = -4.5\nt = \"mass\"\nlist = [\"a\", \"\"]\nnone = []\n");
+  EXPECT_EQ(reader.number("n"), -4.5);
+  EXPECT_EQ(reader.text("t"), "mass");
+  EXPECT_EQ(reader.texts("list"), (std::vector<std::string>{"a", ""}));
+  EXPECT_TRUE(reader.texts("none").empty());
+  EXPECT_TRUE(reader.has("n"));
+  EXPECT_FALSE(reader.has("m"));
+  EXPECT_EQ(reader.label(), "[element]");
+}
+
+TEST_F(TableReaderTest, MatricesAreListsOfRowsOfExpressions) {
+  const auto m = read("m = [[[1, 2], [3, \"k\"]], [[5]]]\n").matrices("m");
+  ASSERT_EQ(m.size(), 2U);
+  ASSERT_EQ(m[0].size(), 2U);
+  ASSERT_EQ(m[0][1].size(), 2U);
+  EXPECT_EQ(value(m[0][1][0]), 3.0);
+  EXPECT_EQ(value(m[0][1][1]), 10.0);
+  EXPECT_EQ(value(m[1][0][0]), 5.0);
+  EXPECT_EQ(used, std::set<int>{2});
+}
+
+struct Fault {
+  std::string lines;
+  std::function<void(TableReader&)> read;
+  std::string message;  ///< the beginning of it
+};
+
+TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
+  const auto expression = [](TableReader& r) { r.expression("x"); };
+  const auto vector = [](TableReader& r) { r.vector("x"); };
+  const auto place = [](TableReader& r) { r.name_or_position("x"); };
+  const auto number = [](TableReader& r) { r.number("x"); };
+  const auto text = [](TableReader& r) { r.text("x"); };
+  const auto texts = [](TableReader& r) { r.texts("x"); };
+  const auto matrices = [](TableReader& r) { r.matrices("x"); };
+  const std::string at_key = "test.toml:7:3: [element] x: ";
+  const std::string at_table = "test.toml:5:1: [element] x: ";
+  const std::vector<Fault> table = {
+      {"", expression, at_table + "is missing; expected a number or an expression"},
+      {"", vector, at_table + "is missing; expected three numbers"},
+      {"", place, at_table + "is missing; expected the name of a point, or a fixed place"},
+      {"", number, at_table + "is missing; expected a number"},
+      {"", text, at_table + "is missing; expected a text"},
+      {"", texts, at_table + "is missing; expected a list of texts"},
+      {"", matrices, at_table + "is missing; expected a list of matrices"},
+      {"\n  x = true\n", expression, at_key + "expected a number or an expression, found true or false"},
+      {"\n  x = [1]\n", expression, at_key + "expected a number or an expression, found an array"},
+      {"\n  x = nan\n", expression, at_key + "expected a finite number"},
+      {"\n  x = \"2 * masss\"\n", expression,
+       at_key + "in \"2 * masss\" at character 5: unknown parameter 'masss'; did you mean 'mass'?"},
+      {"\n  x = \"\"\n", expression, at_key + "in \"\" at character 1: expression ends"},
+      {"\n  x = \"(1\"\n", expression, at_key + "in \"(1\" at character 1: this '(' is never closed"},
+      {"\n  x = [1, 2]\n", vector,
+       at_key + "expected three numbers or expressions [x, y, z], found 2 of them"},
+      {"\n  x = [1, 2, 3, 4]\n", vector, at_key + "expected three numbers or expressions [x, y, z], found 4"},
+      {"\n  x = 3\n", vector, at_key + "expected three numbers or expressions [x, y, z], found a number"},
+      {"\n  x = [1, inf, 3]\n", vector, at_key + "expected a finite number"},
+      {"\n  x = [1, 2, \"z\"]\n", vector, at_key + "in \"z\" at character 1: unknown parameter 'z'"},
+      {"\n  x = 3\n", place, at_key + "expected three numbers or expressions"},
+      {"\n  x = \"3\"\n", number, at_key + "expected a number, found a text"},
+      {"\n  x = -inf\n", number, at_key + "expected a finite number"},
+      {"\n  x = 3\n", text, at_key + "expected a text, found a number"},
+      {"\n  x = \"a\"\n", texts, at_key + "expected a list of texts, found a text"},
+      {"\n  x = [\"a\", 1]\n", texts, at_key + "expected a list of texts, found a number in it"},
+      {"\n  x = 1\n", matrices, at_key + "expected a list of matrices"},
+      {"\n  x = [[1, 2], [3, 4]]\n", matrices, at_key + "expected a list of matrices"},
+      {"\n  x = [[[1, true]]]\n", matrices, at_key + "expected a number or an expression, found true"}};
+  for (const Fault& fault : table) {
+    TableReader& reader = read(fault.lines);
+    const std::string message = input_error([&] { fault.read(reader); });
+    EXPECT_TRUE(message.starts_with(fault.message)) << fault.lines << " -> " << message;
+  }
+}
+
+TEST_F(TableReaderTest, FinishRejectsKeysThatNobodyAskedForAndNamesTheNearest) {
+  TableReader& reader = read("mass = 1\n lenght = 2\n");
+  reader.expression("mass");
+  reader.expression("length", 1.0);
+  EXPECT_EQ(input_error([&] { reader.finish(); }),
+            "test.toml:7:2: [element] lenght: unknown key; did you mean 'length'?");
+}
+
+TEST_F(TableReaderTest, FinishListsTheKnownKeysWhenNoneIsNear) {
+  TableReader& reader = read("colour = \"red\"\n");
+  reader.has("mass");
+  reader.expression("length", 1.0);
+  EXPECT_EQ(input_error([&] { reader.finish(); }),
+            "test.toml:6:1: [element] colour: unknown key; known: mass, length");
+}
+
+TEST_F(TableReaderTest, FinishAcceptsATableWhoseKeysWereAllAskedFor) {
+  TableReader& reader =
+      read("a = 1\nb = [0, 0, 0]\nc = \"text\"\nd = [\"t\"]\ne = [[[1]]]\nf = \"hub\"\ng = 2\n");
+  reader.expression("a");
+  reader.vector("b");
+  reader.text("c");
+  reader.texts("d");
+  reader.matrices("e");
+  reader.name_or_position("f");
+  EXPECT_TRUE(contains(input_error([&] { reader.finish(); }), "[element] g: unknown key"));
+  reader.number("g");
+  EXPECT_NO_THROW(reader.finish());
+}
+
+TEST_F(TableReaderTest, FailPointsAtTheTableWhenTheKeyIsAbsent) {
+  TableReader& reader = read("a = 1\n");
+  EXPECT_EQ(input_error([&] { reader.fail("a", "too large"); }), "test.toml:6:1: [element] a: too large");
+  EXPECT_EQ(input_error([&] { reader.fail("b", "needed here"); }), "test.toml:5:1: [element] b: needed here");
+}
+
+}  // namespace
+}  // namespace eigentrail
