@@ -110,7 +110,7 @@ WRONG_TYPES = [
     blade("four components", '[0, 0, "omega"]', '[0, 0, "omega", 0]',
           "[frame] angular_velocity: expected three") + (("angular_velocity", "§angular_velocity"),),
     blade("number as title", 'title = "Blade"', "§title = 3", "title: expected a text, found a number"),
-    blade("number as element table", 'title = "Blade"', "§drags = 3\ntitle = 'x'", "drags: unknown key", "mass -> drag -> mass"),
+    blade("number as element table", 'title = "Blade"', "§drags = 3\ntitle = 'x'", "drags: unknown key", "'drag'"),
     blade("number as gravity", 'title = "Blade"', "§gravity = 9.81", "gravity: expected a table [gravity]"),
     blade("text as order", "to = 5.0", 'to = 5.0\n§order = "high"', "[trace] order", "unknown parameter 'high'"),
     blade("date", "mass   = 50.0", "mass   = §1979-05-27", "dates and times have no meaning in a scene"),
