@@ -12,5 +12,6 @@ void add_trace(CLI::App& program, int& exit_code);
 void add_eval(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program, int& exit_code);
+void add_verify(CLI::App& program, int& exit_code);
 
 }  // namespace eigentrail::app

@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   add_eval(program, exit_code);
   add_info(program, exit_code);
   add_explain(program, exit_code);
+  add_verify(program, exit_code);
   reject_unknown_command(program, argc, argv);
   try {
     program.parse(argc, argv);

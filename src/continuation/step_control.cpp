@@ -6,7 +6,7 @@
 namespace eigentrail {
 namespace {
 
-constexpr double aim = 0.3;  ///< error / tolerance that a step aims at
+constexpr double aim = 0.3;  ///< error / accepted error that a step aims at
 constexpr double largest_growth = 2.5;
 constexpr double smallest_growth = 0.2;
 constexpr double least_error = 1e-10;    ///< smaller errors are treated as this

@@ -18,6 +18,10 @@ constexpr double least_assurance = 0.8;
 constexpr double merged_distance = 1e-8;
 constexpr double merged_assurance = 0.999;
 
+/// The error estimate is right within a factor of about two: a step is accepted up to this share of the
+/// tolerance.
+constexpr double accepted_share = 0.5;
+
 constexpr double reference_share = 1e-3;  ///< s_ref / median |s| at the start
 
 std::string at_parameter(const TraceOptions& options, double p) {
@@ -198,13 +202,14 @@ class Tracer {
     return prediction;
   }
 
-  /// Estimated error / tolerance of the worst mode, given each mode's error.
+  /// Estimated error of the worst mode, given each mode's, as a fraction of what is accepted.
   double relative_error(const ComplexVector& s, const Vector& error) const {
     const auto scale = s.cwiseAbs().cwiseMin(node_.s.col(0).cwiseAbs()).cwiseMax(problem_.s_ref);
-    return error.cwiseQuotient(scale).maxCoeff() / options_.tolerance;
+    return error.cwiseQuotient(scale).maxCoeff() / (accepted_share * options_.tolerance);
   }
 
-  /// Miss / tolerance of the eigenvalues extrapolated from the last step (from the series, on the first).
+  /// Miss (as a fraction of what is accepted) of the eigenvalues extrapolated from the last step (from the
+  /// series, on the first).
   double largest_miss(const PathPoint& point) const {
     const ComplexVector s = point.eigenvalues();
     const ComplexVector expected =

@@ -54,6 +54,19 @@ void read_series(const Hdf5File& file, LociFile& loci) {
   }
 }
 
+/// A node x column array; an empty one when there are no columns.
+Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& loci, std::size_t columns) {
+  if (columns == 0) return Matrix(static_cast<Eigen::Index>(loci.n_nodes()), 0);
+  const Shape shape = file.shape(name);
+  if (shape.size() != 2 || shape[0] != loci.n_nodes() || shape[1] != columns) {
+    throw InputError(loci.path + ": " + name + " does not fit the other datasets");
+  }
+  const std::vector<double> data = file.read_real(name);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(shape[0]),
+                                    static_cast<Eigen::Index>(shape[1]));
+}
+
 }  // namespace
 
 double LociFile::lowest() const {
@@ -61,6 +74,11 @@ double LociFile::lowest() const {
 }
 double LociFile::highest() const {
   return std::max(p.front(), p.back());
+}
+
+std::size_t LociFile::nearest_node(double value) const {
+  const auto closer = [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
+  return static_cast<std::size_t>(std::min_element(p.begin(), p.end(), closer) - p.begin());
 }
 
 ComplexVector LociFile::eigenvalues_at(double value) const {
@@ -93,6 +111,8 @@ LociFile read_loci(const std::string& path) {
     loci.coordinates = file.read_texts("coordinate");
     if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
     read_series(file, loci);
+    loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
+    loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
     loci.residual = file.read_real("residual");
     loci.condition = file.read_real("condition");
     const std::size_t expected = loci.n_nodes() * loci.modes.size();

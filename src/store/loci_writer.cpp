@@ -163,6 +163,7 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
     file.set_attribute("program_version", version());
     file.set_attribute("title", scene.title);
     file.set_attribute("scene", scene.text);
+    file.set_attribute("scene_path", scene.path);
     file.set_attribute("parameter", options.parameter);
     file.set_attribute("tolerance", options.tolerance);
     file.set_attribute("reference", start.s_ref);

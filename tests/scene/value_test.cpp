@@ -131,11 +131,21 @@ TEST(ParseToml, RefusesNestingBeyondAnyUse) {
   struct Row {
     std::string name, text;
   };
-  for (const Row& row :
-       {Row{"arrays", "a = " + std::string(100000, '[')}, Row{"dotted keys", dotted + "a = 1\n"},
-        Row{"dotted header", "[" + dotted + "a]\n"}}) {
+  for (const Row& row : {Row{"arrays", "a = " + std::string(100000, '[')},
+                         Row{"dotted keys", dotted + "a = 1\n"}, Row{"dotted header", "[" + dotted + "a]\n"},
+                         Row{"dotted key of an inline table", "x = { " + dotted + "a = 1 }\n"},
+                         Row{"quoted parts of a dotted key", "\"=\"." + dotted + "a = 1\n"}}) {
     EXPECT_TRUE(input_error([&] { parsed(row.text); }).starts_with("test.toml:1:")) << row.name;
   }
+}
+
+TEST(ParseToml, RowsOfManyNumbersAreNotTakenForKeys) {
+  std::string row;
+  for (int i = 0; i < 500; ++i) row += "0.5, ";
+  const Table root = parsed("M = [[\n  [" + row + "1.0],\n  [" + row + "2.0]\n]]\n");
+  const Array& rows = std::get<Array>(get<Array>(root, "M")[0].data);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(std::get<double>(std::get<Array>(rows[1].data)[500].data), 2.0);
 }
 
 }  // namespace

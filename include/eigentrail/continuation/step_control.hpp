@@ -18,11 +18,11 @@ class StepControl {
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;
 
-  /// Error / tolerance inside a step of length h from the predictor's `miss` / tolerance at its end. The
-  /// first step has no previous interpolant and compares with the Taylor polynomial.
+  /// Error inside a step of length h from the predictor's `miss` at its end, both as fractions of the
+  /// accepted error. The first step has no previous interpolant and compares with the Taylor polynomial.
   double error_from_miss(double h, double miss) const;
 
-  /// After an accepted step with estimated error / tolerance = `error`.
+  /// After an accepted step with estimated error / accepted error = `error`.
   void accept(double h, double error);
 
   /// After a step that was too inaccurate (`error` > 1), or failed altogether (`error` infinite).
@@ -42,7 +42,7 @@ class StepControl {
   double max_step_;
   double min_step_;
   double last_step_ = 0.0;   ///< length of the last accepted step, 0 before the first
-  double last_error_ = 0.0;  ///< its error / tolerance
+  double last_error_ = 0.0;  ///< its error / accepted error
   bool rejected_ = false;    ///< the last attempt was rejected: do not grow at once
 };
 

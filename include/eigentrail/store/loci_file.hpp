@@ -19,11 +19,16 @@ struct LociFile {
   std::vector<double> p;                          ///< per node, monotonic
   std::vector<ComplexMatrix> series;              ///< per node: modes x (order + 1)
   std::vector<double> residual, condition;        ///< node x mode, row-major
+  Matrix equilibrium;                             ///< node x coordinate
+  Matrix multiplier;                              ///< node x constraint
   std::map<std::string, std::string> attributes;  ///< root attributes as text
 
   std::size_t n_nodes() const { return p.size(); }
   double lowest() const;
   double highest() const;
+
+  /// The stored point nearest to a parameter value; the file must hold points.
+  std::size_t nearest_node(double parameter_value) const;
 
   /// Eigenvalues of all modes at a parameter value within the traced range. Throws InputError outside it.
   ComplexVector eigenvalues_at(double parameter_value) const;

@@ -1,0 +1,53 @@
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "eigentrail/accuracy/verify.hpp"
+#include "eigentrail/core/text.hpp"
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct VerifyArguments {
+  std::string file;
+  VerifyOptions options;
+};
+
+int run_verify(const VerifyArguments& arguments) {
+  const LociFile loci = read_loci(arguments.file);
+  const VerifyReport report = verify_loci(loci, arguments.options);
+  std::printf("  %d random values of %s, each solved afresh by QZ", report.samples, loci.parameter.c_str());
+  if (report.unsolved > 0) std::printf("; %d could not be solved", report.unsolved);
+  std::printf("\n");
+  if (report.worst.mode >= 0) {
+    std::printf("  worst discrepancy %s, %s of the tolerance %s: %s at %s = %s\n",
+                rounded(report.worst.relative, 3).c_str(),
+                rounded(report.worst.relative / report.tolerance, 3).c_str(),
+                exact_text(report.tolerance).c_str(),
+                loci.modes[static_cast<std::size_t>(report.worst.mode)].c_str(), loci.parameter.c_str(),
+                exact_text(report.worst.parameter).c_str());
+  }
+  if (report.passed()) return done;
+  std::fprintf(stderr, "eigentrail: %s: the check failed\n", arguments.file.c_str());
+  return numbers_failed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command =
+      program.add_subcommand("verify", "independent check of a loci file at random parameters");
+  command->add_option("FILE", arguments->file, "loci file")->required();
+  command->add_option("--samples", arguments->options.samples, "number of random parameters")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "seed of their choice")->capture_default_str();
+  command->footer(
+      "Exits with 1 when an eigenvalue is off by more than the file's tolerance.\n\n"
+      "Example:\n  eigentrail verify blade.h5 --samples 1000");
+  command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
+}
+
+}  // namespace eigentrail::app

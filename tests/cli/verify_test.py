@@ -1,0 +1,75 @@
+"""verify: an honest file passes, and every kind of wrong file fails with exit code 1."""
+
+import unittest
+
+import h5py
+
+from program import BLADE, FAMILY, ProgramTest
+
+
+class Verify(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", BLADE)
+        self.assertEqual(self.run_program("trace", "scene.toml", "-o", "blade.h5").returncode, 0)
+
+    def verify(self, *options):
+        return self.run_program("verify", "blade.h5", *options)
+
+    def change(self, edit):
+        with h5py.File(self.folder / "blade.h5", "r+") as file:
+            edit(file)
+
+    def test_honest_file_passes(self):
+        run = self.verify("--samples", "300")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("worst discrepancy", run.stdout)
+
+    def test_the_same_seed_gives_the_same_report(self):
+        self.assertEqual(self.verify("--seed", "7").stdout, self.verify("--seed", "7").stdout)
+
+    def test_family_of_matrices_passes(self):
+        self.write("scene.toml", FAMILY)
+        self.assertEqual(self.run_program("trace", "scene.toml", "-o", "blade.h5", "--force").returncode, 0)
+        self.assertEqual(self.verify().returncode, 0)
+
+    def assert_fails(self):
+        run = self.verify()
+        self.assertEqual(run.returncode, 1, run.stdout)
+        self.assertIn("the check failed", run.stderr)
+
+    def test_eigenvalues_off_by_twice_the_tolerance_fail(self):
+        def edit(file):
+            series = file["eigenvalue_series"][...]
+            series[:, 0, 0] *= 1 + 2 * file.attrs["tolerance"]
+            file["eigenvalue_series"][...] = series
+        self.change(edit)
+        self.assert_fails()
+
+    def test_one_wrong_derivative_fails(self):
+        def edit(file):
+            series = file["eigenvalue_series"][...]
+            series[:, 1, 1] *= 1.01
+            file["eigenvalue_series"][...] = series
+        self.change(edit)
+        self.assert_fails()
+
+    def test_a_doubled_mode_fails(self):
+        def edit(file):
+            series = file["eigenvalue_series"][...]
+            series[:, 1] = series[:, 0]
+            file["eigenvalue_series"][...] = series
+        self.change(edit)
+        self.assert_fails()
+
+    def test_another_scene_fails(self):
+        def edit(file):
+            scene = file.attrs["scene"]
+            self.assertIn("length = 5.0", scene)
+            file.attrs["scene"] = scene.replace("length = 5.0", "length = 5.01")
+        self.change(edit)
+        self.assert_fails()
+
+
+if __name__ == "__main__":
+    unittest.main()
