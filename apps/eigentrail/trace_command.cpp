@@ -75,12 +75,14 @@ void print_work(const TraceResult& result) {
               rounded(per_mode_and_step, 3).c_str(),
               static_cast<unsigned long long>(counts.equilibrium_iterations),
               static_cast<unsigned long long>(counts.equilibrium_factorizations));
-  std::printf("  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, output %s\n",
-              rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
-              percent(counts.reduction_seconds, result.seconds).c_str(),
-              percent(counts.modes_seconds, result.seconds).c_str(),
-              percent(counts.differentiation_seconds, result.seconds).c_str(),
-              percent(counts.output_seconds, result.seconds).c_str());
+  std::printf(
+      "  time  %s s: equilibrium %s, reduction %s, modes %s, matching %s, differentiation %s, output %s\n",
+      rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
+      percent(counts.reduction_seconds, result.seconds).c_str(),
+      percent(counts.modes_seconds, result.seconds).c_str(),
+      percent(counts.matching_seconds, result.seconds).c_str(),
+      percent(counts.differentiation_seconds, result.seconds).c_str(),
+      percent(counts.output_seconds, result.seconds).c_str());
 }
 
 void print_effects(const Model& model, const EvaluationCounts& counts) {

@@ -225,7 +225,8 @@ class Tracer {
   }
 
   /// The first mode whose shape and place fit another track better than its own, or fit its own badly.
-  std::optional<int> suspicious_match(const PathPoint& point, const Prediction& prediction) const {
+  std::optional<int> suspicious_match(const PathPoint& point, const Prediction& prediction) {
+    const StageTimer timer(result_.counts.matching_seconds);
     const ComplexVector s = point.eigenvalues();
     const Matrix assurance =
         modal_assurance(prediction.shapes, point.shapes(), point.equilibrium.linearization.M[0]);

@@ -6,16 +6,24 @@
 #include <stdexcept>
 
 namespace eigentrail {
+namespace {
+
+Vector mass_norms_squared(const ComplexMatrix& shapes, const Matrix& M) {
+  Vector norms(shapes.cols());
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) norms[i] = mass_norm_squared(shapes.col(i), M);
+  return norms;
+}
+
+}  // namespace
 
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Matrix& M) {
-  const ComplexMatrix MW = M.cast<Complex>() * W;
-  Matrix assurance = (V.adjoint() * MW).cwiseAbs2();
+  const Vector v = mass_norms_squared(V, M);
+  const Vector w = mass_norms_squared(W, M);
+  Matrix assurance = (V.adjoint() * (M.cast<Complex>() * W)).cwiseAbs2();
   for (Eigen::Index i = 0; i < V.cols(); ++i) {
-    const double v = mass_norm_squared(V.col(i), M);
     for (Eigen::Index j = 0; j < W.cols(); ++j) {
-      const double w = mass_norm_squared(W.col(j), M);
-      if (v > 0.0 && w > 0.0) {
-        assurance(i, j) /= v * w;
+      if (v[i] > 0.0 && w[j] > 0.0) {
+        assurance(i, j) /= v[i] * w[j];
       } else {
         assurance(i, j) =
             std::norm(V.col(i).dot(W.col(j))) / (V.col(i).squaredNorm() * W.col(j).squaredNorm());

@@ -50,20 +50,25 @@ Table convert_table(const toml::table& source, const std::string& path) {
   return table;
 }
 
-/// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack.
+/// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack. Counts
+/// dots since the last character that ends a key or a number; two dots in a row belong to neither.
 void reject_deep_keys(std::string_view text, const std::string& path) {
-  constexpr std::ptrdiff_t most_parts = 100;
-  int number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    ++number;
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = text.substr(begin, end - begin);
-    begin = end + 1;
-    const std::string_view key = line.substr(0, line.find_first_of("=#"));
-    if (std::count(key.begin(), key.end(), '.') > most_parts) {
-      throw InputError(prefix(path, {number, 1}) + "a key of more than " + std::to_string(most_parts) +
+  constexpr int most_parts = 100;
+  int line = 1;
+  int parts = 0;
+  char last = ' ';
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '.') {
+      parts = last == '.' ? 0 : parts + 1;
+    } else if (std::string_view(",=\n{}[]#").find(c) != std::string_view::npos) {
+      parts = 0;
+    }
+    if (parts > most_parts) {
+      throw InputError(prefix(path, {line, 1}) + "a key of more than " + std::to_string(most_parts) +
                        " parts");
     }
+    last = c;
   }
 }
 

@@ -55,6 +55,9 @@ std::vector<Case> cases() {
   Matrix scaled = R;
   scaled.row(1) *= 1e9;
   list.push_back({"row_in_other_units", scaled, 3});
+  Matrix far_scaled = R;
+  far_scaled.row(2) *= 1e18;
+  list.push_back({"row_in_far_smaller_units", far_scaled, 3});
   Matrix scaled_twice = duplicated;
   scaled_twice.row(4) *= 1e-9;
   list.push_back({"row_written_twice_in_other_units", scaled_twice, 3});
@@ -180,6 +183,21 @@ TEST(ConstraintFactorization, NearlyParallelRowsStayTwoConstraints) {
     // Backward stability: the residual is a rounding of A x, and |x| grows like 1 / angle.
     EXPECT_LT((A * x - b).norm(), rounding * x.norm()) << angle;
     EXPECT_LT((A * factorization.null_basis()).norm(), rounding) << angle;
+  }
+}
+
+TEST(ConstraintFactorization, NearlyParallelRowsInDifferentUnitsStayTwoConstraints) {
+  constexpr double angle = 1e-8;
+  for (const double unit : {1e-9, 1.0, 1e9}) {
+    Matrix A = rows_at_angle(angle);
+    A.row(0) *= unit;
+    const ConstraintFactorization factorization(A);
+    EXPECT_EQ(factorization.rank(), 2) << unit;
+    // The rival, the same decomposition of the rows as they stand, sees one constraint.
+    Eigen::CompleteOrthogonalDecomposition<Matrix> unscaled;
+    unscaled.setThreshold(ConstraintFactorization::rank_tolerance);
+    unscaled.compute(A.transpose());
+    EXPECT_EQ(unscaled.rank(), unit == 1.0 ? 2 : 1) << unit;
   }
 }
 

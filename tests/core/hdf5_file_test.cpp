@@ -185,8 +185,11 @@ TEST_F(Hdf5FileTest, ScalesBelongToTheDimensionTheyWereAttachedTo) {
     Hdf5File file = Hdf5File::create(path);
     file.create_dataset(fixed("p", ElementType::real, {3}));
     file.create_dataset(fixed("s", ElementType::complex, {3, 2}));
+    file.create_dataset(fixed("order", ElementType::integer, {2}));
     file.make_scale("p", "rotation speed");
+    file.make_scale("order", "order");
     file.attach_scale("s", "p", 0);
+    file.attach_scale("s", "order", 1);
   }
   with_hdf5(path, [](hid_t file) {
     const hid_t scale = H5Dopen2(file, "p", H5P_DEFAULT);
@@ -197,6 +200,10 @@ TEST_F(Hdf5FileTest, ScalesBelongToTheDimensionTheyWereAttachedTo) {
     EXPECT_STREQ(name.data(), "rotation speed");
     EXPECT_GT(H5DSis_attached(set, scale, 0), 0);
     EXPECT_EQ(H5DSis_attached(set, scale, 1), 0);
+    const hid_t order = H5Dopen2(file, "order", H5P_DEFAULT);
+    EXPECT_EQ(H5DSis_attached(set, order, 0), 0);
+    EXPECT_GT(H5DSis_attached(set, order, 1), 0);
+    H5Dclose(order);
     H5Dclose(set);
     H5Dclose(scale);
   });

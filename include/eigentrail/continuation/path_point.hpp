@@ -33,6 +33,7 @@ struct RunCounts {
   double reduction_seconds = 0.0;
   double modes_seconds = 0.0;
   double differentiation_seconds = 0.0;
+  double matching_seconds = 0.0;  ///< comparison with the prediction
   double output_seconds = 0.0;
 };
 
