@@ -99,7 +99,7 @@ int run_explain(const ExplainArguments& arguments) {
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
 
-  if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   print_parameters(*model, traced);
   print_effects(*model);
   PathProblem problem{*model, traced};
@@ -108,7 +108,7 @@ int run_explain(const ExplainArguments& arguments) {
   RunCounts counts;
   counts.evaluations = model->new_counts();
   const Vector guess = model->initial_guess(parameters_at(problem, options.from));
-  const PathPoint point = reduce_at(problem, options.from, guess, Vector(), Matrix(), counts);
+  const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
   std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact_text(options.from).c_str());
   std::printf("    %lld coordinates, %lld constraints", static_cast<long long>(model->n_coordinates()),
               static_cast<long long>(model->n_constraints()));

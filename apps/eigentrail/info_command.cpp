@@ -30,7 +30,8 @@ std::string attribute(const LociFile& loci, const std::string& name) {
 }
 
 void print_for_people(const LociFile& loci) {
-  if (const std::string title = attribute(loci, "title"); !title.empty()) std::printf("%s\n", title.c_str());
+  if (const std::string title = attribute(loci, "title"); !title.empty())
+    std::printf("%s\n", printable(title).c_str());
   std::printf("  written by eigentrail %s, schema %s, run %s", attribute(loci, "program_version").c_str(),
               attribute(loci, "schema_version").c_str(), attribute(loci, "status").c_str());
   if (const std::string message = attribute(loci, "message"); message != "?" && !message.empty()) {
@@ -47,8 +48,8 @@ void print_for_people(const LociFile& loci) {
   std::vector<std::vector<std::string>> rows{
       {"mode", "s at the start", "s at the end", "worst residual", "worst condition"}};
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
-    const Complex first = loci.series.front()(static_cast<Eigen::Index>(i), 0);
-    const Complex last = loci.series.back()(static_cast<Eigen::Index>(i), 0);
+    const Complex first = loci.eigenvalues_at(loci.p.front())[static_cast<Eigen::Index>(i)];
+    const Complex last = loci.eigenvalues_at(loci.p.back())[static_cast<Eigen::Index>(i)];
     rows.push_back({loci.modes[i], complex_text(first.real(), first.imag(), 8),
                     complex_text(last.real(), last.imag(), 8),
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 
 namespace eigentrail::app {
@@ -54,7 +55,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) try {
   return eigentrail::app::run(argc, argv);
 } catch (const eigentrail::InputError& error) {
-  std::fprintf(stderr, "eigentrail: %s\n", error.what());
+  std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());
   return eigentrail::app::bad_input;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "eigentrail: %s\n", error.what());

@@ -38,7 +38,7 @@ void check_output(const TraceArguments& arguments) {
       throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
     }
     if (!may_be_replaced(arguments.output)) {
-      throw InputError(arguments.output + ": is no loci file; --force replaces loci files only");
+      throw InputError(arguments.output + ": is no readable loci file; --force replaces nothing else");
     }
   }
   const auto folder = std::filesystem::path(arguments.output).parent_path();
@@ -99,7 +99,7 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
                    const TraceResult& result, const Ends& ends) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
-  if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   std::printf("  %s  %s -> %s%s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
               options.parameter.c_str(), exact_text(options.from).c_str(), exact_text(result.reached).c_str(),
               (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),

@@ -32,10 +32,10 @@ TraceSetup rebuild(const LociFile& loci) {
 /// The whole spectrum at p, from the stored equilibrium nearest to it.
 std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci, double p) {
   RunCounts counts;
-  counts.evaluations = problem.model.new_counts();
   const auto node = static_cast<Eigen::Index>(loci.nearest_node(p));
-  const PathPoint point = reduce_at(problem, p, loci.equilibrium.row(node).transpose(),
-                                    loci.multiplier.row(node).transpose(), Matrix(), counts);
+  const EquilibriumGuess guess{loci.equilibrium.row(node).transpose(), loci.multiplier.row(node).transpose(),
+                               true};
+  const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
   if (point.status != PointStatus::computed) return std::nullopt;
   Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   if (spectrum.status != SpectrumStatus::complete) return std::nullopt;

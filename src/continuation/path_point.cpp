@@ -1,24 +1,28 @@
 #include "eigentrail/continuation/path_point.hpp"
 
 #include <cmath>
+#include <functional>
+#include <stdexcept>
 
 namespace eigentrail {
 namespace {
 
-Equilibrium equilibrium_at(const PathProblem& problem, double p, const Vector& x, const Vector& lambda,
+void size_counters(const PathProblem& problem, RunCounts& counts) {
+  if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
+}
+
+Equilibrium equilibrium_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
                            RunCounts& counts) {
   const StageTimer timer(counts.equilibrium_seconds);
   const Vector parameters = parameters_at(problem, p);
-  // A fixed equilibrium is solved once, at the start, where the multipliers are not known yet.
-  const bool known = problem.structure.known_equilibrium ||
-                     (problem.structure.fixed_equilibrium && lambda.size() == problem.model.n_constraints());
-  if (known) {
-    const Vector multipliers =
-        lambda.size() > 0 ? lambda : Vector(Vector::Zero(problem.model.n_constraints()));
-    return keep_equilibrium(problem.model, parameters, x, multipliers, counts.evaluations);
+  // A fixed equilibrium is solved once, at the start, and kept.
+  if (problem.structure.known_equilibrium || (problem.structure.fixed_equilibrium && guess.solved)) {
+    const Eigen::Index m = problem.model.n_constraints();
+    const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
+    return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
   Equilibrium result =
-      solve_equilibrium(problem.model, parameters, x, lambda, problem.steady, counts.evaluations);
+      solve_equilibrium(problem.model, parameters, guess.x, guess.lambda, problem.steady, counts.evaluations);
   counts.equilibrium_iterations += static_cast<std::uint64_t>(result.report.iterations);
   counts.equilibrium_factorizations += static_cast<std::uint64_t>(result.report.factorizations);
   return result;
@@ -70,11 +74,12 @@ Vector parameters_at(const PathProblem& problem, double p) {
   return parameters;
 }
 
-PathPoint reduce_at(const PathProblem& problem, double p, const Vector& x, const Vector& lambda,
+PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
                     const Matrix& previous_basis, RunCounts& counts) {
+  size_counters(problem, counts);
   PathPoint point;
   point.p = p;
-  point.equilibrium = equilibrium_at(problem, p, x, lambda, counts);
+  point.equilibrium = equilibrium_at(problem, p, guess, counts);
   if (point.equilibrium.status != SteadyStatus::converged) {
     point.status = PointStatus::no_equilibrium;
     point.message = point.equilibrium.report.message;
@@ -89,7 +94,7 @@ PathPoint reduce_at(const PathProblem& problem, double p, const Vector& x, const
 
 PathPoint compute_point(const PathProblem& problem, double p, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts) {
-  PathPoint point = reduce_at(problem, p, prediction.x, prediction.lambda, previous_basis, counts);
+  PathPoint point = reduce_at(problem, p, prediction.equilibrium, previous_basis, counts);
   if (point.status != PointStatus::computed) return point;
   if (point.pencil.size() != previous_basis.cols()) {
     point.status = PointStatus::no_equilibrium;
@@ -121,6 +126,13 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
                                             RunCounts& counts) {
+  const auto& parameters = problem.model.description().parameters;
+  if (parameters[static_cast<std::size_t>(parameter)].definition) {
+    throw std::invalid_argument("differentiate_point: '" +
+                                parameters.names()[static_cast<std::size_t>(parameter)] +
+                                "' is defined by other parameters; differentiate along one of those");
+  }
+  size_counters(problem, counts);
   const StageTimer timer(counts.differentiation_seconds);
   PathNode node;
   node.p = point.p;

@@ -9,20 +9,19 @@ namespace {
 constexpr double aim = 0.3;  ///< error / accepted error that a step aims at
 constexpr double largest_growth = 2.5;
 constexpr double smallest_growth = 0.2;
-constexpr double least_error = 1e-10;    ///< smaller errors are treated as this
-constexpr double smallest_step = 1e-11;  ///< of the range
+constexpr double least_error = 1e-10;  ///< smaller errors are treated as this
 
 }  // namespace
 
-StepControl::StepControl(double range, int order, double first_step, double max_step)
+StepControl::StepControl(int order, double first_step, double max_step, double min_step)
     : order_(order),
-      step_(std::min(first_step, max_step)),
+      step_(std::clamp(first_step, min_step, max_step)),
       max_step_(max_step),
-      min_step_(smallest_step * range) {}
+      min_step_(min_step) {}
 
 double StepControl::propose(double remaining) const {
   const double step = std::min(step_, max_step_);
-  if (remaining <= 1.02 * step) return remaining;
+  if (remaining <= std::min(1.02 * step, max_step_)) return remaining;
   return remaining < 2.0 * step ? 0.5 * remaining : step;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "eigentrail/continuation/dense_output.hpp"
@@ -18,9 +19,13 @@ constexpr double least_assurance = 0.8;
 constexpr double merged_distance = 1e-8;
 constexpr double merged_assurance = 0.999;
 
-/// The error estimate is right within a factor of about two: a step is accepted up to this share of the
-/// tolerance.
-constexpr double accepted_share = 0.5;
+/// A step is accepted up to this share of the tolerance. The estimate from the decay of the terms is right
+/// within a factor of about two; with few terms to see (orders 1 and 2) less so.
+double accepted_share(int order) {
+  return order <= 2 ? 0.25 : 0.5;
+}
+
+constexpr double smallest_step = 1e-11;  ///< of the range
 
 constexpr double reference_share = 1e-3;  ///< s_ref / median |s| at the start
 
@@ -57,7 +62,7 @@ class Tracer {
   bool start() {
     RunCounts& counts = result_.counts;
     const Vector guess = problem_.model.initial_guess(parameters_at(problem_, options_.from));
-    PathPoint point = reduce_at(problem_, options_.from, guess, Vector(), Matrix(), counts);
+    PathPoint point = reduce_at(problem_, options_.from, {guess, Vector()}, Matrix(), counts);
     if (point.status != PointStatus::computed) return stop(TraceStatus::no_equilibrium, point.message);
     result_.n_independent = point.pencil.size();
     const auto modes = starting_modes(point.pencil);
@@ -83,7 +88,11 @@ class Tracer {
                "without mass, damping and stiffness causes this; remove or constrain it");
       return std::nullopt;
     }
-    if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) {
+    if (spectrum.status != SpectrumStatus::complete) {
+      stop(TraceStatus::no_modes, "LAPACK's QZ did not converge" + where);
+      return std::nullopt;
+    }
+    if (spectrum.modes.empty()) {
       stop(TraceStatus::no_modes,
            "there are no modes to follow" + where +
                (result_.n_independent == 0 ? ": the constraints leave no freedom" : ""));
@@ -95,7 +104,8 @@ class Tracer {
     }
     result_.n_modes = static_cast<int>(modes.size());
     const double median = std::abs(modes[modes.size() / 2].s);
-    problem_.s_ref = options_.reference.value_or(reference_share * (median > 0.0 ? median : spectrum.scale));
+    // A median of rounding (rigid-body modes) measures nothing; the pencil's own scale does.
+    problem_.s_ref = options_.reference.value_or(reference_share * std::max(median, 1e-6 * spectrum.scale));
     result_.s_ref = problem_.s_ref;
     return std::move(modes);
   }
@@ -112,13 +122,13 @@ class Tracer {
       std::ostringstream message;
       message << "the mode at s = " << mode.s.real() << " + " << mode.s.imag()
               << "j is not a simple eigenvalue at " << at_parameter(options_, options_.from)
-              << "; begin the trace elsewhere";
+              << "; begin the trace elsewhere, or follow fewer modes";
       return stop(TraceStatus::multiple_mode, message.str());
     }
     if (merged(point)) {
-      return stop(
-          TraceStatus::multiple_mode,
-          "two modes coincide at " + at_parameter(options_, options_.from) + "; begin the trace elsewhere");
+      return stop(TraceStatus::multiple_mode, "two modes coincide at " +
+                                                  at_parameter(options_, options_.from) +
+                                                  "; begin the trace elsewhere, or follow fewer modes");
     }
     return true;
   }
@@ -126,8 +136,12 @@ class Tracer {
   /// The loop: propose, compute, judge, keep or try a shorter step.
   void follow() {
     const double range = std::abs(options_.to - options_.from);
-    const double max_step = options_.max_step.value_or(0.25 * range);
-    StepControl control(range, options_.order, options_.first_step.value_or(first_step(range)), max_step);
+    // A step must move p by more than its rounding.
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
+                            std::max(std::abs(options_.from), std::abs(options_.to));
+    const double min_step = std::max(smallest_step * range, rounding);
+    const double max_step = std::max(options_.max_step.value_or(0.25 * range), min_step);
+    StepControl control(options_.order, options_.first_step.value_or(first_step(range)), max_step, min_step);
     while (node_.p != options_.to) {
       if (result_.nodes >= options_.max_nodes) {
         stop(TraceStatus::too_many_nodes, "stopped after " + std::to_string(result_.nodes) + " points at " +
@@ -192,10 +206,9 @@ class Tracer {
   Prediction predict(double p) const {
     const double h = p - node_.p;
     Prediction prediction;
-    prediction.x = evaluate_series(node_.path.x, h);
-    prediction.lambda = evaluate_series(node_.path.lambda, h);
+    prediction.equilibrium = {evaluate_series(node_.path.x, h), evaluate_series(node_.path.lambda, h), true};
     prediction.s = evaluate_series(node_.s, h);
-    prediction.shapes.resize(prediction.x.size(), node_.s.rows());
+    prediction.shapes.resize(node_.path.x.rows(), node_.s.rows());
     for (Eigen::Index i = 0; i < node_.s.rows(); ++i) {
       prediction.shapes.col(i) = evaluate_series(node_.shapes[static_cast<std::size_t>(i)], h);
     }
@@ -205,7 +218,7 @@ class Tracer {
   /// Estimated error of the worst mode, given each mode's, as a fraction of what is accepted.
   double relative_error(const ComplexVector& s, const Vector& error) const {
     const auto scale = s.cwiseAbs().cwiseMin(node_.s.col(0).cwiseAbs()).cwiseMax(problem_.s_ref);
-    return error.cwiseQuotient(scale).maxCoeff() / (accepted_share * options_.tolerance);
+    return error.cwiseQuotient(scale).maxCoeff() / (accepted_share(options_.order) * options_.tolerance);
   }
 
   /// Miss (as a fraction of what is accepted) of the eigenvalues extrapolated from the last step (from the
@@ -306,6 +319,9 @@ bool has_started(TraceStatus status) {
 
 TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                   BasisChoice basis) {
+  const std::vector<OptionFault> faults = find_faults(options, model.description().parameters);
+  if (!faults.empty())
+    throw std::invalid_argument("trace: " + faults.front().key + ": " + faults.front().message);
   return Tracer(model, options, observer, basis).run();
 }
 

@@ -10,6 +10,9 @@
 namespace eigentrail {
 namespace {
 
+/// Points of the range at which masses, lengths and the direction of gravity are checked.
+constexpr std::size_t checked_points = 33;
+
 /// Reads options from a table of texts and numbers: the [trace] table, or the command line turned into one.
 class OptionReader {
  public:
@@ -60,7 +63,7 @@ class OptionReader {
     const double value =
         expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
     const bool in_parameter_unit =
-        std::string_view(key) != "tolerance" && std::string_view(key) != "reference";
+        std::set<std::string_view>{"from", "to", "first_step", "max_step"}.contains(key);
     const auto traced =
         table_.has("parameter") ? scene_.parameters.index(table_.text("parameter")) : std::nullopt;
     return in_parameter_unit && traced ? value / scene_.parameters[static_cast<std::size_t>(*traced)].factor
@@ -99,18 +102,29 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   return merged;
 }
 
-void check(const TraceOptions& options, const Scene& scene, const TableReader& table) {
-  const auto require = [&table](bool holds, const char* key, const std::string& message) {
-    if (!holds) table.fail(key, message);
+}  // namespace
+
+std::vector<OptionFault> find_faults(const TraceOptions& options, const Parameters& parameters) {
+  std::vector<OptionFault> faults;
+  const auto require = [&faults](bool holds, const char* key, const std::string& message) {
+    if (!holds) faults.push_back({key, message});
   };
-  const std::vector<std::string>& names = scene.parameters.names();
-  require(!options.parameter.empty(), "parameter",
-          "is missing; name the parameter to trace, or give --parameter");
-  const auto index = scene.parameters.index(options.parameter);
-  require(index.has_value(), "parameter",
-          "no parameter is called '" + options.parameter + "'; " + suggestion(options.parameter, names));
-  require(!scene.parameters.at(options.parameter).definition, "parameter",
-          "'" + options.parameter + "' is defined by an expression; trace one of the parameters in it");
+  const auto positive = [](const std::optional<double>& value) {
+    return !value || (*value > 0.0 && std::isfinite(*value));
+  };
+  const std::string& name = options.parameter;
+  const auto index = parameters.index(name);
+  if (name.empty()) {
+    require(false, "parameter", "is missing; name the parameter to trace, or give --parameter");
+  } else if (!index) {
+    require(false, "parameter",
+            "no parameter is called '" + name + "'; " + suggestion(name, parameters.names()));
+  } else {
+    require(!parameters.at(name).definition, "parameter",
+            "'" + name + "' is defined by an expression; trace one of the parameters in it");
+  }
+  require(std::isfinite(options.from), "from", "is not a finite number");
+  require(std::isfinite(options.to), "to", "is not a finite number");
   require(options.from != options.to, "to",
           "equals from (" + exact_text(options.from) + "): the range is empty");
   require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
@@ -118,17 +132,15 @@ void check(const TraceOptions& options, const Scene& scene, const TableReader& t
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
   require(options.order >= 1 && options.order <= max_order, "order",
           "must lie between 1 and " + std::to_string(max_order));
-  require(!options.reference || *options.reference > 0.0, "reference", "must be positive");
-  require(!options.first_step || *options.first_step > 0.0, "first_step", "must be positive");
-  require(!options.max_step || *options.max_step > 0.0, "max_step", "must be positive");
+  require(positive(options.reference), "reference", "must be positive");
+  require(positive(options.first_step), "first_step", "must be positive");
+  require(positive(options.max_step), "max_step", "must be positive");
   require(options.max_nodes >= 2, "max_nodes", "must be at least 2");
+  return faults;
 }
 
-}  // namespace
-
-TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides) {
+TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used) {
   const Table merged = merged_table(scene, overrides);
-  std::set<int> used;  // parameters that only the range uses do not count as used by the scene
   TableReader table(scene, merged, "[trace]", used);
   TraceOptions options;
   OptionReader reader(scene, table);
@@ -137,18 +149,28 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
     if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
   }
   table.finish();
-  check(options, scene, table);
-  return options;
+  const std::vector<OptionFault> faults = find_faults(options, scene.parameters);
+  if (faults.empty()) return options;
+  std::string message = faults.front().message;
+  for (std::size_t i = 1; i < faults.size(); ++i) message += "; " + faults[i].key + ": " + faults[i].message;
+  table.fail(faults.front().key, message);
 }
 
 TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
   check_top_level(scene);
   TraceSetup setup{std::move(scene), {}, nullptr};
-  setup.options = read_trace_options(setup.scene, overrides);
-  std::vector<Vector> ends(2, setup.scene.parameters.declared_values());
-  ends[0][setup.traced()] = setup.options.from;
-  ends[1][setup.traced()] = setup.options.to;
-  setup.model = build_model(setup.scene, ends);
+  std::set<int> used;
+  setup.options = read_trace_options(setup.scene, overrides, used);
+  used.erase(setup.traced());  // that must enter the model
+  const TraceOptions& options = setup.options;
+  std::vector<Vector> points(checked_points, setup.scene.parameters.declared_values());
+  points[0][setup.traced()] = options.from;
+  points[1][setup.traced()] = options.to;
+  for (std::size_t i = 2; i < checked_points; ++i) {
+    const double share = static_cast<double>(i - 1) / (checked_points - 1);
+    points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
+  }
+  setup.model = build_model(setup.scene, points, used);
   return setup;
 }
 

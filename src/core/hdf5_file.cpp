@@ -198,7 +198,7 @@ Hdf5File::~Hdf5File() = default;
 
 Hdf5File Hdf5File::create(const std::string& path) {
   silence_error_stack();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
   return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
@@ -223,8 +223,10 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
   }
   const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose,
                      action);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, action);
+  check(H5Pset_create_intermediate_group(links, 1), action);
   const Handle set(
-      H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+      H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, links, properties, H5P_DEFAULT),
       H5Dclose, action);
   for (const auto& [name, value] : spec.attributes) write_text_attribute(set, name, value);
 }
@@ -283,6 +285,18 @@ bool Hdf5File::has(const std::string& dataset) const {
     if (H5Lexists(implementation_->file, dataset.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;
   }
+}
+
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  const Handle handle(H5Gopen2(implementation_->file, group.c_str(), H5P_DEFAULT), H5Gclose,
+                      "open group " + group);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list group " + group);
+  return names;
 }
 
 Shape Hdf5File::shape(const std::string& dataset) const {

@@ -35,7 +35,8 @@ struct DatasetSpec {
 /// An open HDF5 file. Not thread-safe.
 class Hdf5File {
  public:
-  /// Creates `path`; an existing file is replaced. Throws Hdf5Error.
+  /// Creates `path`; throws Hdf5Error when it exists already or cannot be created. Switches off, for the
+  /// whole process, HDF5's own printing of errors: they are reported by exceptions.
   static Hdf5File create(const std::string& path);
   /// Opens `path` for reading. Throws Hdf5Error when it is missing or no HDF5 file.
   static Hdf5File open(const std::string& path);
@@ -65,6 +66,8 @@ class Hdf5File {
   void flush();
 
   bool has(const std::string& dataset) const;
+  /// Names of what a group holds, in alphabetical order; "/" is the root.
+  std::vector<std::string> members(const std::string& group) const;
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;

@@ -23,9 +23,11 @@ bool is_matrix_family(const Scene& scene) {
   return scene.root.find("matrix_family") != nullptr;
 }
 
-std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at) {
+std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at,
+                                   const std::set<int>& used_elsewhere) {
   check_top_level(scene);
-  return is_matrix_family(scene) ? read_matrix_family(scene) : read_multibody(scene, check_at);
+  return is_matrix_family(scene) ? read_matrix_family(scene, used_elsewhere)
+                                 : read_multibody(scene, check_at, used_elsewhere);
 }
 
 }  // namespace eigentrail

@@ -8,7 +8,7 @@ namespace {
 
 using Scalar = Series<double, max_order>;
 
-/// Values of parameters along the path: as declared for the variable, in SI for expressions.
+/// SI values of the parameters along the path, the variable among them.
 struct ParameterSeries {
   Scalar variable;
   std::vector<Scalar> si;
@@ -22,8 +22,8 @@ ParameterSeries parameter_series(const Parameters& parameters, int variable, con
       result.si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
     }
   }
-  result.variable = result.si[static_cast<std::size_t>(variable)];
   parameters.to_si(std::span<Scalar>(result.si));
+  result.variable = result.si[static_cast<std::size_t>(variable)];
   return result;
 }
 

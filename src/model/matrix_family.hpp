@@ -44,6 +44,6 @@ class MatrixFamily final : public Model {
 };
 
 /// Reads [matrix_family] of a scene.
-std::unique_ptr<Model> read_matrix_family(const Scene& scene);
+std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere);
 
 }  // namespace eigentrail

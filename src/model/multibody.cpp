@@ -14,6 +14,7 @@ class TracedRoles {
   void place(std::string_view, const Place& place, std::string_view) {
     for (const Quantity& q : place.fixed) add(q, place_role);
   }
+  void point(std::string_view, const Place&, std::string_view) {}
   void quantity(const QuantityField& field, const Quantity& q) { add(q, field.enters); }
   void vector(const QuantityField& field, const std::array<Quantity, 3>& v) {
     for (const Quantity& q : v) add(q, field.enters);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 #include "core/hdf5_file.hpp"
@@ -55,23 +56,53 @@ struct FamilyReader {
     }
   }
 
-  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file.
+  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file; powers that are not there are zero.
   MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) const {
     MatrixPolynomial polynomial;
-    for (int power = 0; power <= max_power; ++power) {
-      const std::string name = "/" + key + "/" + std::to_string(power);
-      if (!file.has(name)) break;
-      const Shape shape = file.shape(name);
-      if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
-        fail("file",
-             "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
-      }
-      const std::vector<double> data = file.read_real(name);
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      polynomial.coefficients.emplace_back(Eigen::Map<const RowMajor>(
-          data.data(), static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1])));
+    if (!file.has("/" + key)) return polynomial;
+    for (const std::string& name : file.members("/" + key)) {
+      const std::size_t power = power_of(name, key);
+      if (power >= polynomial.coefficients.size()) polynomial.coefficients.resize(power + 1);
+      polynomial.coefficients[power] = matrix(file, "/" + key + "/" + name);
+    }
+    for (Matrix& c : polynomial.coefficients) {
+      if (c.size() == 0)
+        c = Matrix::Zero(polynomial.coefficients.back().rows(), polynomial.coefficients.back().cols());
     }
     return polynomial;
+  }
+
+  std::size_t power_of(const std::string& name, const std::string& key) const {
+    int power = -1;
+    const auto parsed = std::from_chars(name.data(), name.data() + name.size(), power);
+    if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size() || power < 0 ||
+        power > max_power) {
+      fail("file",
+           "dataset /" + key + "/" + name + ": expected a power from 0 to " + std::to_string(max_power));
+    }
+    return static_cast<std::size_t>(power);
+  }
+
+  Matrix matrix(const Hdf5File& file, const std::string& name) const {
+    const Shape shape = file.shape(name);
+    if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
+      fail("file",
+           "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+    }
+    const std::vector<double> data = file.read_real(name);
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(shape[0]),
+                                      static_cast<Eigen::Index>(shape[1]));
+  }
+
+  /// A misspelt group would otherwise be a matrix that is silently zero.
+  void reject_unknown_groups(const Hdf5File& file) const {
+    const std::vector<std::string> known = {"M", "C", "K", "A"};
+    for (const std::string& name : file.members("/")) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        fail("file", "unknown '" + name + "' in it; " + suggestion(name, known));
+      }
+    }
   }
 
   void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n) const {
@@ -98,23 +129,27 @@ std::string beside_scene(const FamilyReader& reader, const std::string& name) {
   return (std::filesystem::path(reader.scene.path).parent_path() / path).string();
 }
 
-/// The parameter whose powers multiply the coefficients: the one the scene itself traces.
-std::string variable_name(const Scene& scene) {
-  if (const auto trace = tables(scene, "trace"); !trace.empty()) {
-    if (const Value* name = trace[0]->find("parameter")) {
-      if (const auto* text = std::get_if<std::string>(&name->data)) return *text;
-    }
+/// The parameter whose powers multiply the coefficients: the one that the scene itself traces.
+int variable_index(const Scene& scene) {
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* name = trace->find("parameter");
+    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
+    if (text == nullptr) break;
+    if (const auto index = scene.parameters.index(*text)) return *index;
   }
-  return scene.parameters.size() > 0 ? scene.parameters[scene.parameters.size() - 1].name : "";
+  throw InputError(scene.path +
+                   ": [trace] parameter: a scene with [matrix_family] names here the parameter whose powers "
+                   "multiply the matrices, also when another one is traced");
 }
 
 }  // namespace
 
-std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
+std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere) {
   const auto found = tables(scene, "matrix_family");
-  if (found.size() != 1)
+  if (found.empty()) throw InputError(scene.path + ": [matrix_family]: is an empty list");
+  if (found.size() > 1)
     throw scene_error(scene, found[1]->where, "[matrix_family]: a scene has one of these");
-  std::set<int> used;
+  std::set<int> used = used_elsewhere;
   FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}};
   MatrixPolynomial M, C, K, A;
   if (reader.table.has("file")) {
@@ -124,6 +159,7 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
     const std::string path = beside_scene(reader, reader.table.text("file"));
     try {
       const Hdf5File file = Hdf5File::open(path);
+      reader.reject_unknown_groups(file);
       M = reader.from_file(file, "M");
       C = reader.from_file(file, "C");
       K = reader.from_file(file, "K");
@@ -142,17 +178,14 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
   reader.table.finish();
 
   const Eigen::Index n = M.coefficients[0].rows();
-  if (n == 0 || n > max_size) reader.fail("M", "has no rows");
-  const std::string variable = variable_name(scene);
-  const auto index = scene.parameters.index(variable);
-  if (!index) {
-    throw InputError(scene.path +
-                     ": [trace] parameter: name the parameter whose powers multiply the matrices");
+  if (n == 0 || n > max_size) {
+    reader.fail("M", "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
   }
+  const int variable = variable_index(scene);
   for (const auto& [polynomial, key] :
        {std::pair(&M, "M"), std::pair(&C, "C"), std::pair(&K, "K"), std::pair(&A, "A")}) {
     reader.check_shape(*polynomial, key, n);
-    if (polynomial->coefficients.size() > 1) used.insert(*index);
+    if (polynomial->coefficients.size() > 1) used.insert(variable);
   }
   reject_unused_parameters(scene, used);
 
@@ -165,7 +198,7 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene) {
     description.constraint_names.push_back("A row " + std::to_string(i + 1));
   }
   description.parameters = scene.parameters;
-  return std::make_unique<MatrixFamily>(std::move(description), *index, std::move(M), std::move(C),
+  return std::make_unique<MatrixFamily>(std::move(description), variable, std::move(M), std::move(C),
                                         std::move(K), std::move(A));
 }
 

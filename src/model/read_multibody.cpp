@@ -29,7 +29,7 @@ struct Draft {
     return {quantity(e[0]), quantity(e[1]), quantity(e[2])};
   }
 
-  /// Values of an expression at the ends of the trace.
+  /// Values of an expression at the checked points of the trace, its ends first.
   std::vector<double> check_values(const Expression& expression) const {
     std::vector<double> values;
     for (const Vector& declared : check_at) {
@@ -67,7 +67,8 @@ struct Draft {
   }
 
   static std::string where_on_trace(std::size_t i) {
-    return i == 0 ? " where the trace begins" : " where the trace ends";
+    if (i == 0) return " where the trace begins";
+    return i == 1 ? " where the trace ends" : " within the range of the trace";
   }
 
   int point_index(const TableReader& reader, const std::string& key, const std::string& name) const {
@@ -91,6 +92,11 @@ class FieldReader {
     } else {
       place.fixed = draft_.vector(std::get<1>(value));
     }
+  }
+
+  void point(std::string_view key_view, Place& place, std::string_view) {
+    const std::string key(key_view);
+    place.point = draft_.point_index(table_, key, table_.text(key));
   }
 
   void quantity(const QuantityField& field, Quantity& quantity) {
@@ -132,6 +138,7 @@ class PointCollector {
     const bool known = std::find(points_.begin(), points_.end(), place.point) != points_.end();
     if (place.point >= 0 && !known) points_.push_back(place.point);
   }
+  void point(std::string_view key, const Place& point, std::string_view help) { place(key, point, help); }
   void quantity(const QuantityField&, const Quantity&) {}
   void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
   void axis(std::string_view, const Axis&, std::string_view) {}
@@ -170,7 +177,7 @@ void read_elements(Draft& draft, std::vector<Placed<Element>>& list) {
     Element element;
     FieldReader fields(draft, table);
     Element::fields(element, fields);
-    const std::string label = table.has("name") ? table.text("name") : number;
+    const std::string label = table.has("name") ? printable(table.text("name")) : number;
     table.finish();
     add_element(draft, list, std::move(element), label);
     if (list.back().points.empty()) {
@@ -266,6 +273,9 @@ class HelpCollector {
   void place(std::string_view key, const Place&, std::string_view help) {
     fields_.push_back({std::string(key), "name or [x, y, z]", std::string(help)});
   }
+  void point(std::string_view key, const Place&, std::string_view help) {
+    fields_.push_back({std::string(key), "name", std::string(help)});
+  }
   void quantity(const QuantityField& field, const Quantity&) { add(field, ""); }
   void vector(const QuantityField& field, const std::array<Quantity, 3>&) { add(field, "[x, y, z] "); }
   void axis(std::string_view key, const Axis&, std::string_view help) {
@@ -281,8 +291,9 @@ class HelpCollector {
 
 }  // namespace
 
-std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at) {
-  Draft draft{scene, check_at, {}, {}, {}, {}, {}};
+std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at,
+                                      const std::set<int>& used_elsewhere) {
+  Draft draft{scene, check_at, used_elsewhere, {}, {}, {}, {}};
   std::vector<Quantity> masses;
   read_points(draft, masses);
   const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity", masses);

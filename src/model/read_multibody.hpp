@@ -7,6 +7,7 @@
 
 namespace eigentrail {
 
-std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at);
+std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at,
+                                      const std::set<int>& used_elsewhere);
 
 }  // namespace eigentrail

@@ -72,15 +72,26 @@ Vector Parameters::declared_values() const {
   return values;
 }
 
+std::set<int> Parameters::with_definitions(const std::set<int>& parameters) const {
+  std::set<int> reached;
+  std::vector<int> open(parameters.begin(), parameters.end());
+  while (!open.empty()) {
+    const int i = open.back();
+    open.pop_back();
+    if (!reached.insert(i).second || !list_[i].definition) continue;
+    const auto& used = list_[i].definition->parameters();
+    open.insert(open.end(), used.begin(), used.end());
+  }
+  return reached;
+}
+
 bool Parameters::depends_on(int parameter, int traced) const {
-  if (parameter == traced) return true;
-  const auto& definition = list_[parameter].definition;
-  return definition && depends_on(*definition, traced);
+  return with_definitions({parameter}).contains(traced);
 }
 
 bool Parameters::depends_on(const Expression& expression, int traced) const {
   const auto& used = expression.parameters();
-  return std::any_of(used.begin(), used.end(), [&](int i) { return depends_on(i, traced); });
+  return !used.empty() && with_definitions({used.begin(), used.end()}).contains(traced);
 }
 
 }  // namespace eigentrail

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
@@ -111,22 +112,31 @@ std::optional<Parameter> family_variable(const Table& root) {
   Parameter parameter;
   parameter.name = *name;
   parameter.where = value->where;
-  if (const Value* from = fields->find("from")) {
-    if (const auto* number = std::get_if<double>(&from->data)) parameter.value = *number;
-  }
   return parameter;
+}
+
+/// Gives a parameter that is not declared the value where the trace begins, for traces of another parameter.
+void set_start_of_trace(Scene& scene, const std::string& name) {
+  const Table& trace = *tables(scene, "trace").front();
+  if (trace.find("from") == nullptr) return;
+  std::set<int> used;
+  const Expression from = TableReader(scene, trace, "[trace]", used).expression("from");
+  Vector values = scene.parameters.declared_values();
+  scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
+  std::vector<Parameter> list;
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i) {
+    list.push_back(scene.parameters[i]);
+    if (list.back().name == name) {
+      list.back().value = from.evaluate(std::span<const double>(values.data(), scene.parameters.size()));
+    }
+  }
+  scene.parameters = Parameters(std::move(list));
 }
 
 }  // namespace
 
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message) {
-  // Texts of the scene are quoted in messages; a line break or an escape sequence in them must not reach the
-  // terminal.
-  std::string line = message;
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return InputError(scene.path + at(where) + line);
+  return InputError(scene.path + at(where) + printable(message));
 }
 
 Scene parse_scene(std::string text, const std::string& path) {
@@ -146,7 +156,9 @@ Scene parse_scene(std::string text, const std::string& path) {
   if (table == nullptr) {
     throw scene_error(scene, parameters->where, "parameters: expected a table, found " + parameters->kind());
   }
-  scene.parameters = ParameterReader(scene, *table).read(family_variable(scene.root));
+  const std::optional<Parameter> implied = family_variable(scene.root);
+  scene.parameters = ParameterReader(scene, *table).read(implied);
+  if (implied && table->find(implied->name) == nullptr) set_start_of_trace(scene, implied->name);
   return scene;
 }
 
@@ -237,32 +249,11 @@ NameOrPosition TableReader::name_or_position(const std::string& key) {
   return to_vector(value, key);
 }
 
-double TableReader::number(const std::string& key) {
-  const Value& value = require(key, "a number");
-  const auto* number = std::get_if<double>(&value.data);
-  if (number == nullptr) fail(key, "expected a number, found " + value.kind());
-  if (!std::isfinite(*number)) fail(key, "expected a finite number");
-  return *number;
-}
-
 std::string TableReader::text(const std::string& key) {
   const Value& value = require(key, "a text");
   const auto* text = std::get_if<std::string>(&value.data);
   if (text == nullptr) fail(key, "expected a text, found " + value.kind());
   return *text;
-}
-
-std::vector<std::string> TableReader::texts(const std::string& key) {
-  const Value& value = require(key, "a list of texts");
-  const auto* items = std::get_if<Array>(&value.data);
-  if (items == nullptr) fail(key, "expected a list of texts, found " + value.kind());
-  std::vector<std::string> result;
-  for (const Value& item : *items) {
-    const auto* text = std::get_if<std::string>(&item.data);
-    if (text == nullptr) fail(key, "expected a list of texts, found " + item.kind() + " in it");
-    result.push_back(*text);
-  }
-  return result;
 }
 
 std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const std::string& key) {

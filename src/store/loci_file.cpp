@@ -15,14 +15,19 @@
 namespace eigentrail {
 namespace {
 
+/// Root attributes as text; those that somebody added in a type of their own are left out.
 void read_attributes(const Hdf5File& file, LociFile& loci) {
   for (const std::string& name : file.attribute_names()) {
-    if (name.starts_with("count_") || name == "schema_version") {
-      loci.attributes[name] = std::to_string(file.integer_attribute(name));
-    } else if (name == "tolerance" || name == "reference" || name == "seconds") {
-      loci.attributes[name] = exact_text(file.real_attribute(name));
-    } else {
-      loci.attributes[name] = file.text_attribute(name);
+    try {
+      if (name.starts_with("count_") || name == "schema_version") {
+        loci.attributes[name] = std::to_string(file.integer_attribute(name));
+      } else if (name == "tolerance" || name == "reference" || name == "seconds") {
+        loci.attributes[name] = exact_text(file.real_attribute(name));
+      } else {
+        loci.attributes[name] = file.text_attribute(name);
+      }
+    } catch (const Hdf5Error&) {
+      loci.attributes.erase(name);
     }
   }
 }
@@ -91,8 +96,13 @@ ComplexVector LociFile::eigenvalues_at(double value) const {
   const auto after = [&](double node, double target) { return ascending ? node < target : node > target; };
   const auto found = std::lower_bound(p.begin(), p.end(), value, after);
   const auto right = static_cast<std::size_t>(found - p.begin());
-  if (p[right] == value) return series[right].col(0);
-  return HermiteInterpolant(p[right - 1], series[right - 1], p[right], series[right])(value);
+  ComplexVector s = p[right] == value
+                        ? ComplexVector(series[right].col(0))
+                        : HermiteInterpolant(p[right - 1], series[right - 1], p[right], series[right])(value);
+  for (Complex& member : s) {
+    if (member.imag() < 0.0) member = std::conj(member);
+  }
+  return s;
 }
 
 LociFile read_loci(const std::string& path) {

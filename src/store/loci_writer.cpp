@@ -1,13 +1,13 @@
 #include "eigentrail/store/loci_writer.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/version.hpp"
@@ -63,15 +63,11 @@ void check_parameter_name(const Scene& scene, const std::string& parameter) {
 }
 
 bool may_be_replaced(const std::string& path) {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::string begin(signature.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (begin != signature) return false;
   try {
     const Hdf5File file = Hdf5File::open(path);
     return file.has_attribute("format") && file.text_attribute("format") == "eigentrail-loci";
   } catch (const Hdf5Error&) {
-    return true;  // damaged: nothing is lost
+    return false;
   }
 }
 
@@ -153,7 +149,8 @@ struct LociWriter::Implementation {
 
 LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model& model,
                        const TraceOptions& options, const TraceStart& start, int n_modes) {
-  const std::string partial = path + ".partial";
+  // A name of this process alone: nothing that stands there is touched.
+  const std::string partial = path + ".partial." + std::to_string(getpid());
   implementation_ =
       std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
   try {
@@ -195,9 +192,13 @@ void LociWriter::append(const PathNode& node) {
   self.last_shapes.resize(static_cast<std::size_t>(n_modes));
   buffer.parameter.push_back(node.p);
   for (Eigen::Index i = 0; i < n_modes; ++i) {
-    const Complex s = node.s(i, 0);
+    // A pair is followed smoothly by one member, also where that one crosses the real axis; it is reported by
+    // the member with Im s >= 0.
+    const bool lower = node.s(i, 0).imag() < 0.0;
+    const auto member = [lower](Complex z) { return lower ? std::conj(z) : z; };
+    const Complex s = member(node.s(i, 0));
     buffer.eigenvalue.push_back(s);
-    buffer.eigenvalue_derivative.push_back(node.s(i, 1));
+    buffer.eigenvalue_derivative.push_back(member(node.s(i, 1)));
     for (Eigen::Index k = 0; k < node.s.cols(); ++k) buffer.eigenvalue_series.push_back(node.s(i, k));
     buffer.frequency.push_back(std::abs(s));
     buffer.damping_ratio.push_back(-s.real() / std::abs(s) + 0.0);
@@ -205,7 +206,7 @@ void LociWriter::append(const PathNode& node) {
     buffer.condition.push_back(node.condition[i]);
     ComplexVector& shape = self.last_shapes[static_cast<std::size_t>(i)];
     shape = normalize_shape(node.shapes[static_cast<std::size_t>(i)].col(0), node.mass, shape);
-    buffer.mode_shape.insert(buffer.mode_shape.end(), shape.begin(), shape.end());
+    for (const Complex component : shape) buffer.mode_shape.push_back(member(component));
   }
   const auto x = node.path.x.col(0);
   const auto lambda = node.path.lambda.col(0);

@@ -202,7 +202,7 @@ MODELS = [
            "[matrix_family] M: power 0: row 2 has 1 entries, row 1 has 2") + (("M =", "§M ="),),
     family("matrices of different size", "[[0, 1], [1, 0]]", "[[1]]",
            "[matrix_family] K: is 1 x 1, M is 2 x 2") + (("K =", "§K ="),),
-    family("matrix without rows", "M = [[[1, 0], [0, 1]]]", "§M = [[]]", "[matrix_family] M: has no rows"),
+    family("matrix without rows", "M = [[[1, 0], [0, 1]]]", "§M = [[]]", "[matrix_family] M: has 0 rows"),
     family("list of rows where a list of matrices belongs", "M = [[[1, 0], [0, 1]]]", "§M = [[1, 0], [0, 1]]",
            "[matrix_family] M: expected a list of matrices"),
     family("pencil of zeros", "M = [[[1, 0], [0, 1]]]\nK = [[[1, 0], [0, 2]], [[0, 1], [1, 0]]]",

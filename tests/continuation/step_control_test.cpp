@@ -8,21 +8,31 @@ namespace eigentrail {
 namespace {
 
 TEST(StepControl, FirstStepIsTheGivenOne) {
-  EXPECT_EQ(StepControl(10.0, 3, 0.2, 2.5).propose(10.0), 0.2);
-  EXPECT_EQ(StepControl(10.0, 3, 7.0, 2.5).propose(10.0), 2.5);
+  EXPECT_EQ(StepControl(3, 0.2, 2.5, 1e-10).propose(10.0), 0.2);
+  EXPECT_EQ(StepControl(3, 7.0, 2.5, 1e-10).propose(10.0), 2.5);
 }
 
 TEST(StepControl, LandsOnTheEndWithoutASliver) {
-  const StepControl control(10.0, 3, 1.0, 2.5);
+  const StepControl control(3, 1.0, 2.5, 1e-11 * 10.0);
   EXPECT_EQ(control.propose(1.01), 1.01);
   EXPECT_EQ(control.propose(0.3), 0.3);
   EXPECT_EQ(control.propose(1.8), 0.9);
   EXPECT_EQ(control.propose(2.5), 1.0);
 }
 
+TEST(StepControl, NeverExceedsTheLongestStep) {
+  const StepControl control(3, 0.5, 0.5, 1e-10);
+  EXPECT_LE(control.propose(0.505), 0.5);
+  EXPECT_LE(control.propose(0.75), 0.5);
+}
+
+TEST(StepControl, NeverFallsBelowTheShortest) {
+  EXPECT_EQ(StepControl(3, 1e-20, 2.5, 1e-10).propose(10.0), 1e-10);
+}
+
 TEST(StepControl, SettlesWhereTheErrorIsAThirdOfTheTolerance) {
   // A function whose error is (h / 0.7)^8 of the tolerance everywhere.
-  StepControl control(100.0, 3, 0.05, 50.0);
+  StepControl control(3, 0.05, 50.0, 1e-11 * 100.0);
   double h = 0.0;
   for (int i = 0; i < 30; ++i) {
     h = control.propose(100.0);
@@ -34,7 +44,7 @@ TEST(StepControl, SettlesWhereTheErrorIsAThirdOfTheTolerance) {
 
 TEST(StepControl, FollowsASingularityWithoutRejections) {
   // Distance to a singularity at 10: error (h / (10 - p))^8 scaled so that h is a third of the distance.
-  StepControl control(10.0, 3, 0.5, 10.0);
+  StepControl control(3, 0.5, 10.0, 1e-11 * 10.0);
   double p = 0.0;
   int rejected = 0;
   int accepted = 0;
@@ -55,7 +65,7 @@ TEST(StepControl, FollowsASingularityWithoutRejections) {
 }
 
 TEST(StepControl, FailedStepsShrinkUntilExhausted) {
-  StepControl control(1.0, 2, 0.1, 0.25);
+  StepControl control(2, 0.1, 0.25, 1e-11 * 1.0);
   int tries = 0;
   while (!control.exhausted() && tries < 1000) {
     control.reject(control.propose(1.0), INFINITY);
@@ -66,7 +76,7 @@ TEST(StepControl, FailedStepsShrinkUntilExhausted) {
 
 TEST(StepControl, ConvertsTheMissIntoTheErrorInside) {
   // Equal steps: ((1/4) h^2 / (h (h + h)))^(q+1) = (1/8)^(q+1).
-  StepControl control(1.0, 1, 0.1, 0.5);
+  StepControl control(1, 0.1, 0.5, 1e-11 * 1.0);
   control.accept(0.1, 0.3);
   const double miss = 0.3 * 64.0;
   EXPECT_NEAR(control.error_from_miss(0.1, miss), 0.3, 1e-12);

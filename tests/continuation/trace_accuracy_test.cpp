@@ -75,7 +75,7 @@ TEST_P(TraceAccuracy, HoldsAtRandomSpeedsWithFewPoints) {
     for (const Complex s : found) {
       const double error = relative_distance(s, exact);
       worst = std::max(worst, error);
-      EXPECT_LT(error, 4.0 * c.tolerance) << "at " << omega;
+      EXPECT_LT(error, c.tolerance) << "at " << omega;
     }
   }
   RecordProperty("worst_error_over_tolerance", std::to_string(worst / c.tolerance));

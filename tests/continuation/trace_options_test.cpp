@@ -10,7 +10,8 @@ namespace {
 const std::string family = "[matrix_family]\nM = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n";
 
 TraceOptions read(const std::string& trace, const OptionTexts& overrides = {}) {
-  return read_trace_options(parse_scene("[trace]\n" + trace + family, "scene.toml"), overrides);
+  std::set<int> used;
+  return read_trace_options(parse_scene("[trace]\n" + trace + family, "scene.toml"), overrides, used);
 }
 
 TEST(TraceOptions, DefaultsAreDocumented) {
@@ -33,7 +34,8 @@ TEST(TraceOptions, NumbersAreInTheParametersUnitAndExpressionsInSi) {
       "[parameters]\nspeed = { value = 10, unit = \"rpm\" }\nlimit = { value = 600, unit = \"rpm\" }\n"
       "[trace]\nparameter = \"speed\"\nfrom = 100\nto = \"limit\"\n",
       "scene.toml");
-  const TraceOptions options = read_trace_options(scene, {});
+  std::set<int> used;
+  const TraceOptions options = read_trace_options(scene, {}, used);
   EXPECT_EQ(options.from, 100.0);
   EXPECT_NEAR(options.to, 600.0, 1e-10);
 }

@@ -16,7 +16,8 @@ TEST(Trace, RandomBasisAtEveryPointChangesNoEigenvalue) {
   RunCounts counts;
   counts.evaluations = setting.model->new_counts();
   for (const PathNode& node : recorded.nodes) {
-    Prediction prediction{node.path.x.col(0), node.path.lambda.col(0), node.s.col(0), ComplexMatrix(3, 2)};
+    Prediction prediction{
+        {node.path.x.col(0), node.path.lambda.col(0), true}, node.s.col(0), ComplexMatrix(3, 2)};
     for (int i = 0; i < 2; ++i) prediction.shapes.col(i) = node.shapes[static_cast<std::size_t>(i)].col(0);
     const PathPoint aligned = compute_point(problem, node.p, prediction, node.basis, counts);
     for (int i = 0; i < 2; ++i) {
@@ -121,6 +122,30 @@ TEST(Trace, EveryOutcomeAtTheStartIsAStatusWithAReason) {
       record_trace(family("[ [[1, 0], [0, 1]] ]", "[ [[1, 0.5], [-0.5, 2]], [[1, 0], [0, 0]] ]"));
   EXPECT_EQ(defective.result.status, TraceStatus::multiple_mode) << defective.result.message;
   EXPECT_FALSE(defective.result.message.empty());
+}
+
+TEST(Trace, FaultyOptionsOfALibraryUserThrow) {
+  Setting setting = scene_setting("rotating_mass");
+  const auto rejects = [&](auto change) {
+    TraceOptions options = setting.options;
+    change(options);
+    EXPECT_THROW((void)trace(*setting.model, options, {}), std::invalid_argument);
+  };
+  rejects([](TraceOptions& o) { o.parameter = "omga"; });
+  rejects([](TraceOptions& o) { o.order = 0; });
+  rejects([](TraceOptions& o) { o.from = NAN; });
+  rejects([](TraceOptions& o) { o.tolerance = 0.0; });
+  rejects([](TraceOptions& o) { o.max_step = -1.0; });
+}
+
+TEST(Trace, RigidBodyModeAloneCanBeFollowed) {
+  // s^2 + s = 0 has a simple root at zero, whose magnitude is rounding.
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 1\n[matrix_family]\nM = [ [[1]], [[1]] ]\nC = [ "
+      "[[1]] ]\n"
+      "K = [ [[0]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
 }
 
 TEST(Trace, StopsWhenTheObserverSaysSo) {

@@ -225,12 +225,17 @@ TEST_F(Hdf5FileTest, HasFollowsNestedPaths) {
   EXPECT_EQ(file.read_real("/M/0"), std::vector<double>{2.5});
 }
 
-TEST_F(Hdf5FileTest, CreatingReplacesAnExistingFile) {
+TEST_F(Hdf5FileTest, CreatingRefusesAnExistingFile) {
   Hdf5File::create(path).create_dataset(fixed("old", ElementType::real, {1}));
-  Hdf5File::create(path).create_dataset(fixed("new", ElementType::real, {1}));
-  const Hdf5File file = Hdf5File::open(path);
-  EXPECT_FALSE(file.has("old"));
-  EXPECT_TRUE(file.has("new"));
+  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::create(path); }), path));
+  EXPECT_TRUE(Hdf5File::open(path).has("old"));
+}
+
+TEST_F(Hdf5FileTest, MembersAreListedByName) {
+  Hdf5File file = Hdf5File::create(path);
+  for (const char* name : {"b", "a", "c"}) file.create_dataset(fixed(name, ElementType::real, {1}));
+  EXPECT_EQ(file.members("/"), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_TRUE(contains(hdf5_error([&] { (void)file.members("/none"); }), "none"));
 }
 
 TEST_F(Hdf5FileTest, FilesThatCannotBeOpenedAreNamed) {

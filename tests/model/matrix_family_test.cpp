@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "core/hdf5_file.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -60,6 +62,84 @@ TEST(MatrixFamily, EntriesMayBeExpressionsOfTheTracedParameter) {
                              std::cos(p) / 24};
   for (int k = 0; k <= 4; ++k)
     EXPECT_NEAR(lin.C[static_cast<std::size_t>(k)](0, 0), expected[k], tolerance * 4) << k;
+}
+
+/// A family in an HDF5 file beside the scene.
+class FamilyFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    file = std::string("eigentrail_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5";
+    std::filesystem::remove(folder + file);
+  }
+  void TearDown() override { std::filesystem::remove(folder + file); }
+
+  void add(Hdf5File& target, const std::string& dataset, double value) {
+    DatasetSpec spec;
+    spec.name = dataset;
+    spec.shape = {1, 1};
+    target.create_dataset(spec);
+    target.write_rows(dataset, 0, std::vector<double>{value});
+  }
+  Setting setting() const {
+    return {prepare_trace(
+        parse_scene(
+            "[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n[matrix_family]\nfile = \"" + file + "\"\n",
+            folder + "scene.toml"),
+        {})};
+  }
+
+  std::string folder = testing::TempDir();
+  std::string file;
+};
+
+TEST_F(FamilyFile, PowersThatAreMissingAreZero) {
+  {
+    Hdf5File target = Hdf5File::create(folder + file);
+    add(target, "M/0", 1.0);
+    add(target, "K/0", 4.0);
+    add(target, "K/2", 3.0);
+    add(target, "C/1", 0.5);
+  }
+  const Linearization lin = linearize(setting(), 2.0, 2);
+  EXPECT_EQ(lin.K[0](0, 0), 16.0);
+  EXPECT_EQ(lin.K[1](0, 0), 12.0);
+  EXPECT_EQ(lin.C[0](0, 0), 1.0);
+}
+
+TEST_F(FamilyFile, UnknownGroupsAndPowersAreRefused) {
+  for (const char* wrong : {"D/0", "c/0", "K/one", "K/17"}) {
+    std::filesystem::remove(folder + file);
+    {
+      Hdf5File target = Hdf5File::create(folder + file);
+      add(target, "M/0", 1.0);
+      add(target, "K/0", 4.0);
+      add(target, "K/1", 4.0);
+      add(target, wrong, 1.0);
+    }
+    EXPECT_THROW((void)setting(), InputError) << wrong;
+  }
+}
+
+TEST(MatrixFamily, VariableMayBeDerivedAndHasItsSiValueEverywhere) {
+  const std::string matrices = "[matrix_family]\nM = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n";
+  const Setting derived = make_setting(
+      "[parameters]\nb = 0.1\np = \"2 * b\"\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 0.4\n" + matrices,
+      {{"parameter", "b"}});
+  const RecordedTrace recorded = record_trace(derived);
+  EXPECT_NEAR(recorded.nodes.back().s(0, 0).imag(), std::sqrt(1.8), 1e-12);
+  const Setting rpm = make_setting(
+      "[parameters]\np = { value = 0, unit = \"rpm\" }\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 60\n" +
+      matrices);
+  EXPECT_NEAR(record_trace(rpm).nodes.back().s(0, 0).imag(), std::sqrt(1.0 + 2.0 * M_PI), 1e-12);
+}
+
+TEST(MatrixFamily, AnotherTracedParameterLeavesTheVariableWhereItsTraceBegins) {
+  const Setting setting = make_setting(
+      "[parameters]\nb = 0.5\n[trace]\nparameter = \"p\"\nfrom = \"b + 1\"\nto = 4\n[matrix_family]\nM = [ "
+      "[[1]] ]\n"
+      "C = [ [[\"b\"]] ]\nK = [ [[0]], [[1]] ]\n",
+      {{"parameter", "b"}, {"from", "0"}, {"to", "0.5"}});
+  EXPECT_NEAR(record_trace(setting).nodes.front().s(0, 0).imag(), std::sqrt(1.5), 1e-12);
 }
 
 TEST(MatrixFamily, EquilibriumIsKnownAndNeverSolved) {

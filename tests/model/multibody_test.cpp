@@ -1,6 +1,8 @@
 // The multibody model as a whole: structure flags, counters, names, guesses.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -75,6 +77,49 @@ TEST(Multibody, TracingAParameterThatMovesNothingKeepsTheEquilibrium) {
   const RecordedTrace shorter =
       record_trace(scene_setting("rotating_mass", {{"parameter", "drag"}, {"from", "1"}, {"to", "1.5"}}));
   EXPECT_EQ(recorded.result.counts.equilibrium_iterations, shorter.result.counts.equilibrium_iterations);
+}
+
+/// No constraints, so there are no multipliers whose absence could stand for "not solved yet".
+TEST(Multibody, FixedEquilibriumWithoutConstraintsIsSolvedAtTheStart) {
+  const Setting setting = make_setting(
+      "[parameters]\nc = 1\n[trace]\nparameter = \"c\"\nfrom = 0.1\nto = 1\n"
+      "[gravity]\nacceleration = [0, 0, -9.81]\n[[point]]\nname = \"bob\"\nmass = 2\nposition = [0.3, 0.1, "
+      "-0.8]\n"
+      "[[spring]]\nfrom = [0, 0, 0]\nto = \"bob\"\nstiffness = 30\nfree_length = 1\n"
+      "[[drag]]\npoint = \"bob\"\ncoefficient = \"c\"\n"
+      "[[guided_spring]]\npoint = \"bob\"\ndirection = [0, 1, 0]\nstiffness = 5\n");
+  ASSERT_TRUE(setting.model->structure(0).fixed_equilibrium);
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const double length = 1.0 + 2.0 * 9.81 / 30.0;  // hangs straight down
+  for (const PathNode& node : recorded.nodes) {
+    EXPECT_NEAR(node.path.x(2, 0), -length, 1e-12);
+    const double damping = node.p / 4.0;
+    EXPECT_NEAR(node.s(0, 0).imag(), std::sqrt(9.81 / length - damping * damping), 1e-9);
+  }
+  EXPECT_GT(recorded.result.counts.equilibrium_iterations, 0U);
+}
+
+TEST(Multibody, ForceOnAFixedPlaceIsRefused) {
+  EXPECT_THROW(scene_setting("rotating_mass", {}, {{"point = \"blade\"\nhinge", "point = [6, 0, 0]\nhinge"}}),
+               InputError);
+}
+
+TEST(Multibody, SensitivityToADerivedParameterIsRefused) {
+  const Setting setting = scene_setting("rotating_mass", {},
+                                        {{"[trace]", "half = \"drag / 2\"\n[trace]"},
+                                         {"coefficient = \"drag\"", "coefficient = \"2 * half\""}});
+  RunCounts counts;
+  const PathPoint point = point_from_guess(setting.problem(), 100.0, counts);
+  EXPECT_THROW((void)differentiate_point(setting.problem(), point, setting.parameter("half"), counts),
+               std::invalid_argument);
+}
+
+TEST(Multibody, ValuesThatFailInsideTheRangeAreRefused) {
+  // Positive at both ends, negative between 40 and 60 rad/s.
+  EXPECT_THROW(
+      scene_setting("rotating_mass", {}, {{"mass = \"mass\"", "mass = \"(omega - 40) * (omega - 60)\""}}),
+      InputError);
 }
 
 TEST(Multibody, OrderBeyondTheHighestIsRefused) {

@@ -79,7 +79,8 @@ TEST(RotatingMass, LiteralPartialDerivativeOfConstraintsIsWrong) {
     const PathNode node = record_trace(setting).nodes.back();
     RunCounts counts;
     counts.evaluations = setting.model->new_counts();
-    Prediction prediction{node.path.x.col(0), node.path.lambda.col(0), node.s.col(0), ComplexMatrix(3, 2)};
+    Prediction prediction{
+        {node.path.x.col(0), node.path.lambda.col(0), true}, node.s.col(0), ComplexMatrix(3, 2)};
     for (int i = 0; i < 2; ++i) prediction.shapes.col(i) = node.shapes[static_cast<std::size_t>(i)].col(0);
     const PathPoint point = compute_point(problem, omega, prediction, node.basis, counts);
     ASSERT_EQ(point.status, PointStatus::computed);

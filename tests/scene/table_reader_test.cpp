@@ -73,12 +73,9 @@ TEST_F(TableReaderTest, PlacesAreNamesOrPositions) {
   EXPECT_EQ(value(b[2]), 1.5);
 }
 
-TEST_F(TableReaderTest, NumbersAndTextsAreTakenAsTheyAre) {
-  TableReader& reader = read("n = -4.5\nt = \"mass\"\nlist = [\"a\", \"\"]\nnone = []\n");
-  EXPECT_EQ(reader.number("n"), -4.5);
+TEST_F(TableReaderTest, TextsAreTakenAsTheyAre) {
+  TableReader& reader = read("n = -4.5\nt = \"mass\"\n");
   EXPECT_EQ(reader.text("t"), "mass");
-  EXPECT_EQ(reader.texts("list"), (std::vector<std::string>{"a", ""}));
-  EXPECT_TRUE(reader.texts("none").empty());
   EXPECT_TRUE(reader.has("n"));
   EXPECT_FALSE(reader.has("m"));
   EXPECT_EQ(reader.label(), "[element]");
@@ -105,9 +102,7 @@ TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
   const auto expression = [](TableReader& r) { r.expression("x"); };
   const auto vector = [](TableReader& r) { r.vector("x"); };
   const auto place = [](TableReader& r) { r.name_or_position("x"); };
-  const auto number = [](TableReader& r) { r.number("x"); };
   const auto text = [](TableReader& r) { r.text("x"); };
-  const auto texts = [](TableReader& r) { r.texts("x"); };
   const auto matrices = [](TableReader& r) { r.matrices("x"); };
   const std::string at_key = "test.toml:7:3: [element] x: ";
   const std::string at_table = "test.toml:5:1: [element] x: ";
@@ -115,9 +110,7 @@ TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
       {"", expression, at_table + "is missing; expected a number or an expression"},
       {"", vector, at_table + "is missing; expected three numbers"},
       {"", place, at_table + "is missing; expected the name of a point, or a fixed place"},
-      {"", number, at_table + "is missing; expected a number"},
       {"", text, at_table + "is missing; expected a text"},
-      {"", texts, at_table + "is missing; expected a list of texts"},
       {"", matrices, at_table + "is missing; expected a list of matrices"},
       {"\n  x = true\n", expression, at_key + "expected a number or an expression, found true or false"},
       {"\n  x = [1]\n", expression, at_key + "expected a number or an expression, found an array"},
@@ -133,11 +126,7 @@ TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
       {"\n  x = [1, inf, 3]\n", vector, at_key + "expected a finite number"},
       {"\n  x = [1, 2, \"z\"]\n", vector, at_key + "in \"z\" at character 1: unknown parameter 'z'"},
       {"\n  x = 3\n", place, at_key + "expected three numbers or expressions"},
-      {"\n  x = \"3\"\n", number, at_key + "expected a number, found a text"},
-      {"\n  x = -inf\n", number, at_key + "expected a finite number"},
       {"\n  x = 3\n", text, at_key + "expected a text, found a number"},
-      {"\n  x = \"a\"\n", texts, at_key + "expected a list of texts, found a text"},
-      {"\n  x = [\"a\", 1]\n", texts, at_key + "expected a list of texts, found a number in it"},
       {"\n  x = 1\n", matrices, at_key + "expected a list of matrices"},
       {"\n  x = [[1, 2], [3, 4]]\n", matrices, at_key + "expected a list of matrices"},
       {"\n  x = [[[1, true]]]\n", matrices, at_key + "expected a number or an expression, found true"}};
@@ -165,16 +154,14 @@ TEST_F(TableReaderTest, FinishListsTheKnownKeysWhenNoneIsNear) {
 }
 
 TEST_F(TableReaderTest, FinishAcceptsATableWhoseKeysWereAllAskedFor) {
-  TableReader& reader =
-      read("a = 1\nb = [0, 0, 0]\nc = \"text\"\nd = [\"t\"]\ne = [[[1]]]\nf = \"hub\"\ng = 2\n");
+  TableReader& reader = read("a = 1\nb = [0, 0, 0]\nc = \"text\"\ne = [[[1]]]\nf = \"hub\"\ng = 2\n");
   reader.expression("a");
   reader.vector("b");
   reader.text("c");
-  reader.texts("d");
   reader.matrices("e");
   reader.name_or_position("f");
   EXPECT_TRUE(contains(input_error([&] { reader.finish(); }), "[element] g: unknown key"));
-  reader.number("g");
+  reader.expression("g");
   EXPECT_NO_THROW(reader.finish());
 }
 

@@ -42,7 +42,7 @@ Setting scene_setting(const std::string& name, const OptionTexts& overrides,
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts) {
   counts.evaluations = problem.model.new_counts();
   const Vector guess = problem.model.initial_guess(parameters_at(problem, p));
-  PathPoint point = reduce_at(problem, p, guess, Vector(), Matrix(), counts);
+  PathPoint point = reduce_at(problem, p, {guess, Vector()}, Matrix(), counts);
   if (point.status != PointStatus::computed) throw std::runtime_error(point.message);
   const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   const PencilAtPoint pencil(point.pencil);

@@ -23,7 +23,7 @@ struct PathNode {
   Matrix basis;                             ///< n x (n - rank)
 };
 
-/// Work and wall time of a run, stage by stage.
+/// Work and wall time of a run, stage by stage. Evaluation counters take their size at the first use.
 struct RunCounts {
   EvaluationCounts evaluations;
   ModeCounts modes;
@@ -65,9 +65,16 @@ struct PathProblem {
   CorrectorOptions corrector = {};
 };
 
+/// Where an equilibrium is looked for.
+struct EquilibriumGuess {
+  Vector x;
+  Vector lambda;        ///< empty: the least-squares multipliers at x
+  bool solved = false;  ///< an equilibrium of a neighbouring point, or its series; not the scene's own guess
+};
+
 /// Where the next point is expected.
 struct Prediction {
-  Vector x, lambda;
+  EquilibriumGuess equilibrium;
   ComplexVector s;       ///< per mode
   ComplexMatrix shapes;  ///< n x modes, physical vectors
 };
@@ -93,7 +100,7 @@ struct PathPoint {
 Vector parameters_at(const PathProblem& problem, double p);
 
 /// Equilibrium, linearization and reduction at p; no modes yet.
-PathPoint reduce_at(const PathProblem& problem, double p, const Vector& x, const Vector& lambda,
+PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
                     const Matrix& previous_basis, RunCounts& counts);
 
 /// The whole point, from a prediction.

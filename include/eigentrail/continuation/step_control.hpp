@@ -12,8 +12,8 @@ namespace eigentrail {
 
 class StepControl {
  public:
-  /// `range`: length of the trace, > 0; steps are positive lengths along it.
-  StepControl(double range, int order, double first_step, double max_step);
+  /// Steps are positive lengths along the trace; below `min_step` they mean nothing any more.
+  StepControl(int order, double first_step, double max_step, double min_step);
 
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;

@@ -62,7 +62,8 @@ struct TraceObserver {
 };
 
 /// Follows the modes of `model` as `options` say. Numerical failures end in the result's status; the points
-/// before them have been handed to the observer.
+/// before them have been handed to the observer. Throws std::invalid_argument for options with faults
+/// (find_faults).
 TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                   BasisChoice basis = BasisChoice::aligned);
 

@@ -45,10 +45,19 @@ struct TraceOptions {
 /// Values given on the command line: key and text, in order.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
+/// An option that cannot be used: its key and what is wrong.
+struct OptionFault {
+  std::string key;
+  std::string message;
+};
+
+/// Every violated inequality above. Empty when the options can be used.
+std::vector<OptionFault> find_faults(const TraceOptions& options, const Parameters& parameters);
+
 /// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers
 /// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
-/// Throws InputError listing what is wrong.
-TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides);
+/// Throws InputError listing what is wrong. `used` collects the parameters that the options name.
+TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used);
 
 /// A scene that is ready to be traced.
 struct TraceSetup {

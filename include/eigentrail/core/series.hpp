@@ -224,6 +224,16 @@ Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
   return exp(y * log(x));
 }
 
+/// The same along the path; where y is a constant whole number it holds for every x, as std::pow does.
+template <int Q>
+Series<double, Q> pow(const Series<double, Q>& x, const Series<double, Q>& y) {
+  bool constant = true;
+  for (int k = 1; k <= Q; ++k) constant = constant && y[k] == 0.0;
+  if (constant && y[0] == std::floor(y[0]) && std::abs(y[0]) <= 64.0)
+    return integer_power(x, static_cast<int>(y[0]));
+  return exp(y * log(x));
+}
+
 }  // namespace eigentrail
 
 // Series as an Eigen scalar, so that elements are written with Eigen's small vectors.

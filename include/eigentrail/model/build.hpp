@@ -12,9 +12,11 @@ namespace eigentrail {
 
 /// Builds the model that a scene describes: a multibody system, or a family of matrices when the scene has
 /// [matrix_family]. `check_at` lists parameter values (declared units) at which masses, lengths and the
-/// direction of gravity are checked: the ends of the trace. Throws InputError for every fault of the scene,
-/// unknown keys and unused parameters included.
-std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at);
+/// direction of gravity are checked: points of the trace, its beginning and its end first. `used_elsewhere`
+/// are parameters that need no use in the model. Throws InputError for every fault of the scene, unknown keys
+/// and unused parameters included.
+std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at,
+                                   const std::set<int>& used_elsewhere = {});
 
 /// Rejects top-level keys that no scene has, naming the nearest known one. Done before anything else is read,
 /// so that a misspelt table is not reported as a missing one.

@@ -38,6 +38,7 @@ struct PencilAtPoint {
   double norm_M, norm_C, norm_K;  ///< Frobenius
 
   explicit PencilAtPoint(const ReducedPencil& pencil);
+  explicit PencilAtPoint(ReducedPencil&&) = delete;  ///< the matrices are referred to, not copied
 
   ComplexMatrix matrix(Complex s) const;                         ///< P(s)
   ComplexVector times(Complex s, const ComplexVector& z) const;  ///< P(s) z

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +61,9 @@ class Parameters {
 
   /// Whether `parameter` is `traced` or is derived from it, directly or through others.
   bool depends_on(int parameter, int traced) const;
+
+  /// The given parameters and all that their definitions use, directly or through others.
+  std::set<int> with_definitions(const std::set<int>& parameters) const;
 
   /// The same for an expression.
   bool depends_on(const Expression& expression, int traced) const;

@@ -53,9 +53,7 @@ class TableReader {
 
   NameOrPosition name_or_position(const std::string& key);
 
-  double number(const std::string& key);
   std::string text(const std::string& key);
-  std::vector<std::string> texts(const std::string& key);
 
   /// List of matrices, each a list of rows of expressions: [matrix][row][column].
   std::vector<std::vector<std::vector<Expression>>> matrices(const std::string& key);

@@ -24,13 +24,14 @@ struct LociFile {
   std::map<std::string, std::string> attributes;  ///< root attributes as text
 
   std::size_t n_nodes() const { return p.size(); }
-  double lowest() const;
-  double highest() const;
+  double lowest() const;   ///< of the traced range; not a number when the file holds no points
+  double highest() const;  ///< likewise
 
   /// The stored point nearest to a parameter value; the file must hold points.
   std::size_t nearest_node(double parameter_value) const;
 
-  /// Eigenvalues of all modes at a parameter value within the traced range. Throws InputError outside it.
+  /// Eigenvalues of all modes at a parameter value within the traced range. A complex
+  /// pair is reported by its member with Im s >= 0. Throws InputError outside the range.
   ComplexVector eigenvalues_at(double parameter_value) const;
 };
 

@@ -13,8 +13,8 @@ inline constexpr int loci_schema_version = 1;
 /// Refuses names of the traced parameter that the loci file uses for something else. Throws InputError.
 void check_parameter_name(const Scene& scene, const std::string& parameter);
 
-/// Whether an existing file may be replaced by a loci file: it is one itself, or the remains of one. A scene,
-/// a file of matrices or anything else that somebody wrote may not.
+/// Whether an existing file may be replaced by a loci file: it is one itself. A scene, a file of matrices, a
+/// damaged file or anything else that somebody wrote may not.
 bool may_be_replaced(const std::string& path);
 
 class LociWriter {

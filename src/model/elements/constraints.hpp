@@ -46,7 +46,7 @@ struct Plane {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point");
+    visit.point("point", self.point, "the point");
     visit.vector({"normal", "", enters_constraint, "normal of the plane, of any length", Range::positive},
                  self.normal);
     visit.quantity({"offset", "m", enters_constraint, "normal . x on the plane", Range::any, 0.0},
@@ -73,7 +73,7 @@ struct FixedCoordinate {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point");
+    visit.point("point", self.point, "the point");
     visit.axis("coordinate", self.coordinate, "which coordinate: \"x\", \"y\" or \"z\"");
     visit.quantity({"value", "m", enters_constraint, "what it is held at", Range::any, 0.0}, self.value);
   }

@@ -16,7 +16,7 @@ struct Drag {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point it acts on");
+    visit.point("point", self.point, "the point it acts on");
     visit.quantity({"coefficient", "N s/m", enters_damping, "drag per velocity"}, self.coefficient);
   }
 

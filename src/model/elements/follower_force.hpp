@@ -19,7 +19,7 @@ struct FollowerForce {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point it acts on");
+    visit.point("point", self.point, "the point it acts on");
     visit.place("from", self.from, "where the line begins");
     visit.place("to", self.to, "where the line ends");
     visit.quantity({"magnitude", "N", enters_force, "the force, along from -> to where positive"},

@@ -16,7 +16,7 @@ struct DeadForce {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point it acts on");
+    visit.point("point", self.point, "the point it acts on");
     visit.vector({"components", "N", enters_force, "the force [x, y, z]"}, self.components);
   }
 

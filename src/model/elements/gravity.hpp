@@ -17,7 +17,7 @@ struct Gravity {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "every point with mass");
+    visit.point("point", self.point, "every point with mass");
     visit.quantity({"mass", "kg", enters_force, "mass of the point", Range::non_negative}, self.mass);
     visit.vector({"acceleration", "m/s^2", enters_force, "acceleration of gravity"}, self.acceleration);
   }

@@ -16,7 +16,7 @@ struct PointMass {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("name", self.point, "the point's name");
+    visit.point("name", self.point, "the point's name");
     visit.quantity({"mass", "kg", enters_mass, "mass of the point", Range::non_negative}, self.mass);
   }
 

@@ -19,7 +19,7 @@ struct RotatingFrame {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "every point with mass");
+    visit.point("point", self.point, "every point with mass");
     visit.quantity({"mass", "kg", enters_damping_and_force, "mass of the point", Range::non_negative},
                    self.mass);
     visit.vector({"angular_velocity", "rad/s", enters_damping_and_force,

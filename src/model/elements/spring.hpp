@@ -50,7 +50,7 @@ struct GuidedSpring {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point it acts on");
+    visit.point("point", self.point, "the point it acts on");
     visit.vector({"direction", "", enters_force, "direction of the spring, of any length", Range::positive},
                  self.direction);
     visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);

@@ -19,7 +19,7 @@ struct TransverseForce {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "the point it acts on");
+    visit.point("point", self.point, "the point it acts on");
     visit.place("hinge", self.hinge, "where the line begins; the reaction is not applied to it");
     visit.quantity({"tangential", "N/m", enters_force, "a_t: force along y per distance along x"},
                    self.tangential);
