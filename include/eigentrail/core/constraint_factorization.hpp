@@ -3,7 +3,7 @@
 //
 // The rows of A are scaled to unit length first, so that the rank does not depend on the units of the
 // constraints. The complete orthogonal decomposition serves redundant rows: A+ b is then the minimum-norm
-// least-squares solution.
+// least-squares solution; multipliers are measured by the scaled rows.
 #pragma once
 
 #include <Eigen/QR>
