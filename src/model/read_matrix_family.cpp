@@ -142,64 +142,79 @@ int variable_index(const Scene& scene) {
                    "multiply the matrices, also when another one is traced");
 }
 
+struct Polynomials {
+  MatrixPolynomial M, C, K, A;
+};
+
+Polynomials read_file(FamilyReader& reader) {
+  for (const char* key : {"M", "C", "K", "A"}) {
+    if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
+  }
+  const std::string path = beside_scene(reader, reader.table.text("file"));
+  Polynomials p;
+  try {
+    const Hdf5File file = Hdf5File::open(path);
+    reader.reject_unknown_groups(file);
+    p = {reader.from_file(file, "M"), reader.from_file(file, "C"), reader.from_file(file, "K"),
+         reader.from_file(file, "A")};
+  } catch (const Hdf5Error& error) {
+    const std::string expected = "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...";
+    reader.fail("file", error.what() + expected);
+  }
+  if (p.M.empty() || p.K.empty()) reader.fail("file", path + " has no dataset /M/0 or no /K/0");
+  return p;
+}
+
+Polynomials read_table(FamilyReader& reader) {
+  Polynomials p;
+  p.M = reader.from_scene("M");
+  p.K = reader.from_scene("K");
+  if (reader.table.has("C")) p.C = reader.from_scene("C");
+  if (reader.table.has("A")) p.A = reader.from_scene("A");
+  return p;
+}
+
+ModelDescription describe(Eigen::Index n_coordinates, Eigen::Index n_constraints,
+                          const Parameters& parameters) {
+  ModelDescription description;
+  for (Eigen::Index i = 0; i < n_coordinates; ++i) {
+    description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_units.emplace_back("1");
+  }
+  for (Eigen::Index i = 0; i < n_constraints; ++i) {
+    description.constraint_names.push_back("A row " + std::to_string(i + 1));
+  }
+  description.parameters = parameters;
+  return description;
+}
+
 }  // namespace
 
 std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere) {
   const auto found = tables(scene, "matrix_family");
   if (found.empty()) throw InputError(scene.path + ": [matrix_family]: is an empty list");
-  if (found.size() > 1)
+  if (found.size() > 1) {
     throw scene_error(scene, found[1]->where, "[matrix_family]: a scene has one of these");
+  }
   std::set<int> used = used_elsewhere;
   FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}};
-  MatrixPolynomial M, C, K, A;
-  if (reader.table.has("file")) {
-    for (const char* key : {"M", "C", "K", "A"}) {
-      if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
-    }
-    const std::string path = beside_scene(reader, reader.table.text("file"));
-    try {
-      const Hdf5File file = Hdf5File::open(path);
-      reader.reject_unknown_groups(file);
-      M = reader.from_file(file, "M");
-      C = reader.from_file(file, "C");
-      K = reader.from_file(file, "K");
-      A = reader.from_file(file, "A");
-    } catch (const Hdf5Error& error) {
-      reader.fail("file",
-                  std::string(error.what()) + "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...");
-    }
-    if (M.empty() || K.empty()) reader.fail("file", path + " has no dataset /M/0 or no /K/0");
-  } else {
-    M = reader.from_scene("M");
-    K = reader.from_scene("K");
-    if (reader.table.has("C")) C = reader.from_scene("C");
-    if (reader.table.has("A")) A = reader.from_scene("A");
-  }
+  Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
   reader.table.finish();
 
-  const Eigen::Index n = M.coefficients[0].rows();
+  const Eigen::Index n = p.M.coefficients[0].rows();
   if (n == 0 || n > max_size) {
     reader.fail("M", "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
   }
   const int variable = variable_index(scene);
   for (const auto& [polynomial, key] :
-       {std::pair(&M, "M"), std::pair(&C, "C"), std::pair(&K, "K"), std::pair(&A, "A")}) {
+       {std::pair(&p.M, "M"), std::pair(&p.C, "C"), std::pair(&p.K, "K"), std::pair(&p.A, "A")}) {
     reader.check_shape(*polynomial, key, n);
     if (polynomial->coefficients.size() > 1) used.insert(variable);
   }
   reject_unused_parameters(scene, used);
-
-  ModelDescription description;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.emplace_back("1");
-  }
-  for (Eigen::Index i = 0; !A.empty() && i < A.coefficients[0].rows(); ++i) {
-    description.constraint_names.push_back("A row " + std::to_string(i + 1));
-  }
-  description.parameters = scene.parameters;
-  return std::make_unique<MatrixFamily>(std::move(description), variable, std::move(M), std::move(C),
-                                        std::move(K), std::move(A));
+  const Eigen::Index m = p.A.empty() ? 0 : p.A.coefficients[0].rows();
+  return std::make_unique<MatrixFamily>(describe(n, m, scene.parameters), variable, std::move(p.M),
+                                        std::move(p.C), std::move(p.K), std::move(p.A));
 }
 
 }  // namespace eigentrail

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "steady/kinsol_solver.hpp"
 
@@ -58,6 +60,12 @@ class SteadyProblem {
     path_.x = x;
     path_.lambda = lambda;
     return model_.linearize(path_, 0, linearization, counts_);
+  }
+
+  /// Residual and linearization at the point that `at` holds.
+  EvaluationFault evaluate(Equilibrium& at, SteadyResidual& residual) {
+    const EvaluationFault fault = evaluate(at.x, at.lambda, residual);
+    return fault ? fault : linearize(at.x, at.lambda, at.linearization);
   }
 
   KktFactorization factor(const Linearization& linearization) {
@@ -151,6 +159,14 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
   return last < rounding_floor;
 }
 
+std::string failure_message(const KinsolResult& kinsol, const SteadyReport& report) {
+  std::ostringstream message;
+  message << "no equilibrium found: KINSOL stopped after " << kinsol.iterations << " iterations ("
+          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message)
+          << "); largest residual " << report.residual << " of its scale, in the " << report.worst_equation;
+  return message.str();
+}
+
 Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   result.status = SteadyStatus::not_finite;
   result.report.message = "a number that is not finite came out of " + fault.source;
@@ -166,47 +182,29 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   result.lambda = lambda;
   SteadyProblem problem(model, parameters, counts, result.report);
   SteadyResidual residual;
-  Linearization& linearization = result.linearization;
   if (lambda.size() != model.n_constraints()) {
     result.lambda = Vector::Zero(model.n_constraints());
-    if (const auto fault = problem.evaluate(x, result.lambda, residual))
-      return not_finite(std::move(result), fault);
-    if (const auto fault = problem.linearize(x, result.lambda, linearization)) {
-      return not_finite(std::move(result), fault);
-    }
-    const ConstraintFactorization constraints(linearization.A[0]);
+    if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
+    const ConstraintFactorization constraints(result.linearization.A[0]);
     result.lambda = constraints.transposed_pseudo_inverse_times(-residual.force.col(0));
   }
-  if (const auto fault = problem.evaluate(result.x, result.lambda, residual))
-    return not_finite(std::move(result), fault);
-  if (const auto fault = problem.linearize(result.x, result.lambda, linearization)) {
-    return not_finite(std::move(result), fault);
-  }
-  const Scales scales = find_scales(result.x, result.lambda, linearization, residual);
+  if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
+  const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual);
   const KinsolResult kinsol = run_kinsol(problem, scales, options, result.x, result.lambda);
   result.report.iterations = kinsol.iterations;
-  const Vector last_x = result.x;
-  const Vector last_lambda = result.lambda;
+  const auto last = std::pair(result.x, result.lambda);
   const bool polished = polish(problem, scales, result);
-  if (!polished) {  // undamped corrections far from a solution lead astray: report where KINSOL stood
-    result.x = last_x;
-    result.lambda = last_lambda;
-  }
-  if (const auto fault = problem.evaluate(result.x, result.lambda, residual))
+  // Undamped corrections far from a solution lead astray: a failure is reported where KINSOL stood.
+  if (!polished) std::tie(result.x, result.lambda) = last;
+  if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) {
     return not_finite(std::move(result), fault);
+  }
   report_residual(model, residual, scales, result.report);
   // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last
   // correction.
-  if (polished && result.report.residual < rounding_floor) {
-    result.status = SteadyStatus::converged;
-    return result;
-  }
-  std::ostringstream message;
-  message << "no equilibrium found: KINSOL stopped after " << kinsol.iterations << " iterations ("
-          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message)
-          << "); largest residual " << result.report.residual << " of its scale, in the "
-          << result.report.worst_equation;
-  result.report.message = message.str();
+  const bool converged = polished && result.report.residual < rounding_floor;
+  result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
+  if (!converged) result.report.message = failure_message(kinsol, result.report);
   return result;
 }
 
