@@ -64,6 +64,8 @@ std::vector<int> optimal_assignment(const Matrix& cost) {
           next = j;
         }
       }
+      if (next == 0)
+        throw std::invalid_argument("optimal_assignment: costs too far apart for their differences");
       for (int j = 0; j <= n; ++j) {
         if (visited[j]) {
           row_price[row_of[j]] += step;

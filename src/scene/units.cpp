@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-constexpr std::array<std::pair<std::string_view, double>, 49> symbols = {{
+constexpr std::array<std::pair<std::string_view, double>, 51> symbols = {{
     {"1", 1.0},
     {"-", 1.0},
     {"m", 1.0},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<std::string_view, double>, 49> symbols = {{
     {"mm", 1e-3},
     {"um", 1e-6},
     {"µm", 1e-6},
+    {"μm", 1e-6},
     {"nm", 1e-9},
     {"in", 0.0254},
     {"ft", 0.3048},
@@ -33,6 +34,7 @@ constexpr std::array<std::pair<std::string_view, double>, 49> symbols = {{
     {"ms", 1e-3},
     {"us", 1e-6},
     {"µs", 1e-6},
+    {"μs", 1e-6},
     {"ns", 1e-9},
     {"min", 60.0},
     {"h", 3600.0},

@@ -53,7 +53,7 @@ Table convert_table(const toml::table& source, const std::string& path) {
 /// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack. Counts
 /// dots since the last character that ends a key or a number; two dots in a row belong to neither.
 void reject_deep_keys(std::string_view text, const std::string& path) {
-  constexpr int most_parts = 100;
+  constexpr int most_parts = 32;
   int line = 1;
   int parts = 0;
   char last = ' ';

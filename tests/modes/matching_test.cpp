@@ -197,5 +197,10 @@ TEST(OptimalAssignment, RefusesCostsThatAreNotSquareOrNotFinite) {
   }
 }
 
+TEST(OptimalAssignment, CostsWhoseDifferencesOverflowAreRefused) {
+  EXPECT_THROW((void)optimal_assignment(Matrix{{1.7e308, -1.7e308}, {1.7e308, -1.7e308}}),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace eigentrail

@@ -166,5 +166,18 @@ TEST(Parameters, MayBeEmpty) {
   EXPECT_EQ(Parameters(std::vector<Parameter>()).size(), 0U);
 }
 
+TEST(Parameters, DiamondsOfDefinitionsAreSearchedOnce) {
+  std::vector<Declaration> declarations = {{"p0", 1.0, 1.0, ""}, {"p1", 1.0, 1.0, ""}};
+  for (int i = 2; i < 200; ++i) {
+    const auto name = [](int k) { return "p" + std::to_string(k); };
+    declarations.push_back({name(i), 0.0, 1.0, name(i - 1) + " / 2 + " + name(i - 2)});
+  }
+  const Parameters parameters = declare(declarations);
+  EXPECT_TRUE(parameters.depends_on(199, 0));
+  EXPECT_EQ(parameters.with_definitions({199}).size(), 200U);
+  EXPECT_EQ(parameters.at("p7").name, "p7");
+  EXPECT_THROW((void)parameters.at("q"), std::out_of_range);
+}
+
 }  // namespace
 }  // namespace eigentrail

@@ -128,12 +128,17 @@ TEST(ParseToml, IntegersBeyondTheMantissaAreRoundedLikeOtherNumbers) {
 TEST(ParseToml, RefusesNestingBeyondAnyUse) {
   std::string dotted;
   for (int i = 0; i < 100000; ++i) dotted += "a.";
+  // Tables in tables: as many as toml++ lets pass, each inside a key of a hundred parts.
+  std::string nested = "x = ";
+  for (int i = 0; i < 255; ++i) nested += "{" + dotted.substr(0, 200) + "a = ";
+  nested += "1" + std::string(255, '}') + "\n";
   struct Row {
     std::string name, text;
   };
   for (const Row& row : {Row{"arrays", "a = " + std::string(100000, '[')},
                          Row{"dotted keys", dotted + "a = 1\n"}, Row{"dotted header", "[" + dotted + "a]\n"},
                          Row{"dotted key of an inline table", "x = { " + dotted + "a = 1 }\n"},
+                         Row{"dotted keys in nested tables", nested},
                          Row{"quoted parts of a dotted key", "\"=\"." + dotted + "a = 1\n"}}) {
     EXPECT_TRUE(input_error([&] { parsed(row.text); }).starts_with("test.toml:1:")) << row.name;
   }

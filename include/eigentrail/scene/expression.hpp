@@ -23,8 +23,7 @@ namespace eigentrail {
 /// A text that is no expression: what is wrong and at which character (from 0) of the text.
 class ExpressionError : public std::runtime_error {
  public:
-  ExpressionError(const std::string& message, std::size_t offset)
-      : std::runtime_error(message), offset(offset) {}
+  ExpressionError(const std::string& message, std::size_t at) : std::runtime_error(message), offset(at) {}
   std::size_t offset;
 };
 

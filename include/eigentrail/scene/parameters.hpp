@@ -26,8 +26,7 @@ struct Parameter {
 /// Parameters that define each other; the message names the cycle.
 class ParameterCycle : public std::invalid_argument {
  public:
-  ParameterCycle(const std::string& message, int parameter)
-      : std::invalid_argument(message), parameter(parameter) {}
+  ParameterCycle(const std::string& message, int index) : std::invalid_argument(message), parameter(index) {}
   int parameter;  ///< index of one of them
 };
 
