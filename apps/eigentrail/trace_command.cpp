@@ -124,7 +124,9 @@ int run_trace(const TraceArguments& arguments) {
   if (arguments.output.empty()) throw InputError("--output: expected the name of a file");
   const TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
-  const auto& [scene, options, model] = setup;
+  const Scene& scene = setup.scene;
+  const TraceOptions& options = setup.options;
+  const Model& model = *setup.model;
   check_parameter_name(scene, options.parameter);
   check_output(arguments);
 
@@ -145,13 +147,13 @@ int run_trace(const TraceArguments& arguments) {
     progress.update((node.p - options.from) / (options.to - options.from), ++points);
     return true;
   };
-  const TraceResult result = trace(*model, options, observer);
+  const TraceResult result = trace(model, options, observer);
   if (!has_started(result.status)) throw InputError(scene.path + ": " + result.message);
   writer->finish(result);
   progress.finish();
 
   if (!arguments.quiet) {
-    print_summary(scene, *model, options, result, ends);
+    print_summary(scene, model, options, result, ends);
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   if (result.status == TraceStatus::completed) return done;
