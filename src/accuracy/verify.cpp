@@ -33,8 +33,9 @@ TraceSetup rebuild(const LociFile& loci) {
 std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci, double p) {
   RunCounts counts;
   const auto node = static_cast<Eigen::Index>(loci.nearest_node(p));
+  // The stored equilibrium is a guess, not a fact: it is part of what is checked.
   const EquilibriumGuess guess{loci.equilibrium.row(node).transpose(), loci.multiplier.row(node).transpose(),
-                               true};
+                               false};
   const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
   if (point.status != PointStatus::computed) return std::nullopt;
   Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);

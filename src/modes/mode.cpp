@@ -6,7 +6,8 @@
 namespace eigentrail {
 namespace {
 
-constexpr int max_refinements = 8;
+constexpr int max_refinements = 40;
+constexpr double stagnation = 1e-11;
 constexpr double rounding = 1e-15;
 
 /// Real matrix times complex vector as one real product with two columns.
@@ -27,7 +28,10 @@ void refine(Correct&& correct) {
   double last = INFINITY;
   for (int i = 0; i < max_refinements; ++i) {
     const double size = correct();
-    if (!(size > rounding) || size > 0.5 * last) return;
+    // The first solution is a correction of relative size one, and with factors from a distant prediction the
+    // next may not be much smaller: corrections that do not halve end the refinement only at the level of
+    // rounding.
+    if (!(size > rounding) || (size > 0.5 * last && size < stagnation)) return;
     last = size;
   }
 }
