@@ -90,6 +90,23 @@ TEST(Trace, ModesThatVeerKeepTheirOrder) {
   }
 }
 
+TEST(Trace, DerivativesAreRefinedBesideAVeering) {
+  // Long steps at a loose tolerance predict poorly beside a veering of half-width 0.02, and the factors
+  // belong to the prediction.
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = -0.73\nto = 1\ntolerance = 1e-3\norder = 4\n"
+      "[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nK = [ [[4, 0.02], [0.02, 4]], [[1, 0], [0, -1]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  for (const PathNode& node : recorded.nodes) {
+    const double root = std::hypot(node.p, 0.02);
+    for (const auto& [mode, sign] : {std::pair(0, -1.0), std::pair(1, 1.0)}) {
+      const double expected = sign * node.p / root / (2.0 * std::sqrt(4.0 + sign * root));
+      EXPECT_NEAR(node.s(mode, 1).imag(), expected, 1e-10) << "at " << node.p;
+    }
+  }
+}
+
 TEST(Trace, OverdampedRootsOfOneFreedomAreTwoModes) {
   // The two real roots share their shape: identity is decided by the eigenvalue.
   const Setting setting = make_setting(
