@@ -75,10 +75,10 @@ Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& 
 }  // namespace
 
 double LociFile::lowest() const {
-  return std::min(p.front(), p.back());
+  return p.empty() ? NAN : std::min(p.front(), p.back());
 }
 double LociFile::highest() const {
-  return std::max(p.front(), p.back());
+  return p.empty() ? NAN : std::max(p.front(), p.back());
 }
 
 std::size_t LociFile::nearest_node(double value) const {
