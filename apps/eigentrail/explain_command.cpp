@@ -102,11 +102,8 @@ int run_explain(const ExplainArguments& arguments) {
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   print_parameters(*model, traced);
   print_effects(*model);
-  PathProblem problem{*model, traced};
-  problem.parameters = scene.parameters.declared_values();
-  problem.structure = structure;
+  const PathProblem problem = problem_along(*model, options.parameter);
   RunCounts counts;
-  counts.evaluations = model->new_counts();
   const Vector guess = model->initial_guess(parameters_at(problem, options.from));
   const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
   std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact_text(options.from).c_str());

@@ -73,9 +73,7 @@ Vector distances(const ComplexVector& traced, const Spectrum& spectrum, double r
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   if (loci.n_nodes() == 0) throw InputError(loci.path + ": holds no points");
   const TraceSetup setup = rebuild(loci);
-  PathProblem problem{*setup.model, setup.traced()};
-  problem.parameters = setup.scene.parameters.declared_values();
-  problem.structure = setup.model->structure(problem.traced);
+  const PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   const double reference = std::stod(attribute(loci, "reference"));
   VerifyReport report;
   report.tolerance = setup.options.tolerance;

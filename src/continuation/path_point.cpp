@@ -68,6 +68,13 @@ ComplexMatrix PathPoint::shapes() const {
   return basis.is_identity ? z : ComplexMatrix(basis.T[0].cast<Complex>() * z);
 }
 
+PathProblem problem_along(const Model& model, const std::string& parameter) {
+  PathProblem problem{model, model.description().parameters.index(parameter).value()};
+  problem.parameters = model.description().parameters.declared_values();
+  problem.structure = model.structure(problem.traced);
+  return problem;
+}
+
 Vector parameters_at(const PathProblem& problem, double p) {
   Vector parameters = problem.parameters;
   parameters[problem.traced] = p;

@@ -40,10 +40,7 @@ std::string at_parameter(const TraceOptions& options, double p) {
 class Tracer {
  public:
   Tracer(const Model& model, const TraceOptions& options, const TraceObserver& observer, BasisChoice basis)
-      : options_(options), observer_(observer), problem_{model} {
-    problem_.traced = model.description().parameters.index(options.parameter).value();
-    problem_.parameters = model.description().parameters.declared_values();
-    problem_.structure = model.structure(problem_.traced);
+      : options_(options), observer_(observer), problem_(problem_along(model, options.parameter)) {
     problem_.order = options.order;
     problem_.basis = basis;
     result_.counts.evaluations = model.new_counts();

@@ -11,9 +11,7 @@
 namespace eigentrail::test {
 
 PathProblem Setting::problem() const {
-  PathProblem problem{*model, parameter(options.parameter)};
-  problem.parameters = scene.parameters.declared_values();
-  problem.structure = model->structure(problem.traced);
+  PathProblem problem = problem_along(*model, options.parameter);
   problem.order = options.order;
   return problem;
 }
@@ -40,7 +38,6 @@ Setting scene_setting(const std::string& name, const OptionTexts& overrides,
 }
 
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts) {
-  counts.evaluations = problem.model.new_counts();
   const Vector guess = problem.model.initial_guess(parameters_at(problem, p));
   PathPoint point = reduce_at(problem, p, {guess, Vector()}, Matrix(), counts);
   if (point.status != PointStatus::computed) throw std::runtime_error(point.message);

@@ -65,6 +65,10 @@ struct PathProblem {
   CorrectorOptions corrector = {};
 };
 
+/// The problem of following `model` along the parameter of that name, all others at their declared values.
+/// Throws std::bad_optional_access when the model has no such parameter.
+PathProblem problem_along(const Model& model, const std::string& parameter);
+
 /// Where an equilibrium is looked for.
 struct EquilibriumGuess {
   Vector x;
