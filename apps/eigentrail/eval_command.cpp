@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,41 +18,40 @@ struct EvalArguments {
   bool json = false;
 };
 
-void print_csv(const LociFile& loci, const std::vector<double>& at) {
-  std::printf("parameter,mode,real,imag\n");
+/// Calls visit(p, mode, s) for every mode that exists where the path passes one of the values.
+template <class Visit>
+void for_each_value(const LociFile& loci, const std::vector<double>& at, Visit&& visit) {
   for (const double p : at) {
-    const ComplexVector s = loci.eigenvalues_at(p);
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      std::printf("%s,%s,%s,%s\n", exact_text(p).c_str(), loci.modes[static_cast<std::size_t>(i)].c_str(),
-                  exact_text(s[i].real()).c_str(), exact_text(s[i].imag()).c_str());
+    for (const ComplexVector& s : loci.eigenvalues_at(p)) {
+      for (Eigen::Index i = 0; i < s.size(); ++i) {
+        if (!std::isnan(s[i].real())) visit(p, loci.modes[static_cast<std::size_t>(i)], s[i]);
+      }
     }
   }
 }
 
+void print_csv(const LociFile& loci, const std::vector<double>& at) {
+  std::printf("parameter,mode,real,imag\n");
+  for_each_value(loci, at, [](double p, const std::string& mode, Complex s) {
+    std::printf("%s,%s,%s,%s\n", exact_text(p).c_str(), mode.c_str(), exact_text(s.real()).c_str(),
+                exact_text(s.imag()).c_str());
+  });
+}
+
 void print_json(const LociFile& loci, const std::vector<double>& at) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const double p : at) {
-    const ComplexVector s = loci.eigenvalues_at(p);
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      rows.push_back({{"parameter", p},
-                      {"mode", loci.modes[static_cast<std::size_t>(i)]},
-                      {"real", s[i].real()},
-                      {"imag", s[i].imag()}});
-    }
-  }
+  for_each_value(loci, at, [&rows](double p, const std::string& mode, Complex s) {
+    rows.push_back({{"parameter", p}, {"mode", mode}, {"real", s.real()}, {"imag", s.imag()}});
+  });
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
 void print_for_people(const LociFile& loci, const std::vector<double>& at) {
   std::vector<std::vector<std::string>> rows{{loci.parameter, "mode", "s", "frequency", "damping ratio"}};
-  for (const double p : at) {
-    const ComplexVector s = loci.eigenvalues_at(p);
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      rows.push_back({exact_text(p), loci.modes[static_cast<std::size_t>(i)],
-                      complex_text(s[i].real(), s[i].imag(), 10), rounded(std::abs(s[i]), 8),
-                      rounded(-s[i].real() / std::abs(s[i]) + 0.0, 6)});
-    }
-  }
+  for_each_value(loci, at, [&rows](double p, const std::string& mode, Complex s) {
+    rows.push_back({exact_text(p), mode, complex_text(s.real(), s.imag(), 10), rounded(std::abs(s), 8),
+                    std::isfinite(std::abs(s)) ? rounded(-s.real() / std::abs(s) + 0.0, 6) : "-"});
+  });
   print_table(rows);
 }
 

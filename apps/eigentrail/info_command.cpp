@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,32 @@ std::string attribute(const LociFile& loci, const std::string& name) {
   return found == loci.attributes.end() ? "?" : found->second;
 }
 
+/// Stretches of the parameter on which the identity of a mode is not certified.
+void print_uncertified(const LociFile& loci) {
+  constexpr std::size_t most_lines = 20;
+  std::size_t lines = 0;
+  for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
+    for (std::size_t i = 0; i < loci.steps.size(); ++i) {
+      const auto doubtful = [&](std::size_t step) {
+        if (step >= loci.steps.size()) return false;
+        for (const DenseBlock& block : loci.steps[step].blocks) {
+          const bool has =
+              std::find(block.modes.begin(), block.modes.end(), static_cast<int>(mode)) != block.modes.end();
+          if (has) return !block.certified;
+        }
+        return false;
+      };
+      if (!doubtful(i)) continue;
+      const std::size_t first = i;
+      while (doubtful(i + 1)) ++i;
+      if (++lines > most_lines) continue;
+      std::printf("  identity of %s not certified from %s to %s\n", loci.modes[mode].c_str(),
+                  rounded(loci.p[first], 8).c_str(), rounded(loci.p[i + 1], 8).c_str());
+    }
+  }
+  if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
+}
+
 void print_for_people(const LociFile& loci) {
   if (const std::string title = attribute(loci, "title"); !title.empty())
     std::printf("%s\n", printable(title).c_str());
@@ -46,16 +73,25 @@ void print_for_people(const LociFile& loci) {
               attribute(loci, "tolerance").c_str(),
               rounded(std::stod(attribute(loci, "reference")), 4).c_str());
   std::vector<std::vector<std::string>> rows{
-      {"mode", "s at the start", "s at the end", "worst residual", "worst condition"}};
+      {"mode", "s at the start", "s at the end", "certified", "worst residual", "worst condition"}};
+  const auto end_value = [&loci](Eigen::Index node, std::size_t mode) {
+    const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
+    return std::isnan(s.real()) ? std::string("-") : complex_text(s.real(), s.imag(), 8);
+  };
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
-    const Complex first = loci.eigenvalues_at(loci.p.front())[static_cast<Eigen::Index>(i)];
-    const Complex last = loci.eigenvalues_at(loci.p.back())[static_cast<Eigen::Index>(i)];
-    rows.push_back({loci.modes[i], complex_text(first.real(), first.imag(), 8),
-                    complex_text(last.real(), last.imag(), 8),
+    const double share = loci.certified_share(i);
+    rows.push_back({loci.modes[i], end_value(0, i),
+                    end_value(static_cast<Eigen::Index>(loci.n_nodes()) - 1, i),
+                    std::isnan(share) ? "-" : rounded(100.0 * share, 4) + " %",
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
                     rounded(column_maximum(loci.condition, i, loci.modes.size()), 3)});
   }
   print_table(rows);
+  print_uncertified(loci);
+  if (!loci.events.empty())
+    std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());
+  if (const std::string notes = attribute(loci, "notes"); notes != "?" && !notes.empty())
+    std::printf("  notes  %s\n", printable(notes).c_str());
   std::string counts;
   for (const auto& [name, value] : loci.attributes) {
     if (name.starts_with("count_")) counts += (counts.empty() ? "" : ", ") + name.substr(6) + " " + value;
@@ -76,6 +112,13 @@ void print_json(const LociFile& loci) {
   info["modes"] = loci.modes;
   info["coordinates"] = loci.coordinates;
   info["constraints"] = loci.constraints;
+  nlohmann::ordered_json certified;
+  for (std::size_t i = 0; i < loci.modes.size(); ++i) {
+    const double share = loci.certified_share(i);
+    if (std::isfinite(share)) certified[loci.modes[i]] = share;
+  }
+  info["certified_share"] = certified;
+  info["events"] = loci.events.size();
   info["attributes"] = loci.attributes;
   std::printf("%s\n", info.dump(2).c_str());
 }

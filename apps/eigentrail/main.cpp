@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   int exit_code = done;
   add_trace(program, exit_code);
   add_eval(program, exit_code);
+  add_events(program, exit_code);
   add_info(program, exit_code);
   add_explain(program, exit_code);
   add_verify(program, exit_code);

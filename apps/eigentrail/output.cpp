@@ -17,6 +17,16 @@ std::string complex_text(double real, double imag, int digits) {
   return rounded(real, digits) + (std::signbit(imag) ? " - " : " + ") + rounded(std::abs(imag), digits) + "j";
 }
 
+std::vector<std::string> event_row(const Event& event, const std::string& parameter) {
+  std::string modes;
+  for (const int mode : event.modes) modes += (modes.empty() ? "" : ", ") + std::to_string(mode + 1);
+  std::string remark;
+  if (event.kind == EventKind::veering) remark = "half-width " + rounded(event.half_width, 6);
+  return {"  " + event_name(event.kind), parameter + " = " + rounded(event.p, 12),
+          "s = " + complex_text(event.s.real(), event.s.imag(), 8), modes.empty() ? "" : "modes " + modes,
+          remark};
+}
+
 void print_table(const std::vector<std::vector<std::string>>& rows) {
   // Width in characters: continuation bytes of UTF-8 take no column.
   const auto width = [](const std::string& text) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/event.hpp"
+
 namespace eigentrail::app {
 
 /// Text with `digits` significant digits.
@@ -11,6 +13,9 @@ std::string rounded(double value, int digits = 6);
 
 /// "-0.01994 + 17.88j"
 std::string complex_text(double real, double imag, int digits = 6);
+
+/// Cells that describe a special point to people.
+std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 
 /// Prints rows with aligned columns, two spaces apart, indented by two.
 void print_table(const std::vector<std::vector<std::string>>& rows);

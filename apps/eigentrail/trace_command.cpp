@@ -23,9 +23,9 @@ struct TraceArguments {
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
 
-/// Ends of the followed loci, for the summary.
+/// Ends of the followed loci, for the summary: by mode, from 0.
 struct Ends {
-  ComplexVector first, last;
+  std::map<int, Complex> first, last;
 };
 
 void check_output(const TraceArguments& arguments) {
@@ -49,9 +49,9 @@ void check_output(const TraceArguments& arguments) {
 
 /// A file that cannot be created is a matter of the command line; one that cannot be written to later is not.
 void create_output(std::optional<LociWriter>& writer, const std::string& path, const TraceSetup& setup,
-                   const TraceStart& start, int n_modes) {
+                   const TraceStart& start) {
   try {
-    writer.emplace(path, setup.scene, *setup.model, setup.options, start, n_modes);
+    writer.emplace(path, setup.scene, *setup.model, setup.options, start);
   } catch (const std::exception& error) {
     throw InputError(path + ": cannot be created: " + error.what());
   }
@@ -63,26 +63,60 @@ std::string percent(double part, double whole) {
 
 void print_work(const TraceResult& result) {
   const RunCounts& counts = result.counts;
-  const double per_mode_and_step = static_cast<double>(counts.modes.factorizations) /
-                                   (static_cast<double>(result.n_modes) * std::max(result.nodes, 1));
+  const double per_mode_and_step =
+      static_cast<double>(counts.modes.factorizations) / static_cast<double>(std::max(result.mode_steps, 1L));
   const Rejections& r = result.rejections;
   std::printf("  work  %d points, %d steps tried again", result.nodes, r.total());
   if (r.total() > 0) {
-    std::printf(" (%d inaccurate, %d no equilibrium, %d mode lost, %d mismatch, %d merged)", r.inaccurate,
-                r.no_equilibrium, r.mode_lost, r.mismatch, r.merged);
+    std::printf(" (%d inaccurate, %d uncertified, %d no equilibrium, %d mode lost, %d mismatch, %d merged)",
+                r.inaccurate, r.uncertified, r.no_equilibrium, r.mode_lost, r.mismatch, r.merged);
   }
-  std::printf("\n        %s LU per mode and point, %llu KINSOL iterations, %llu KKT factorizations\n",
-              rounded(per_mode_and_step, 3).c_str(),
-              static_cast<unsigned long long>(counts.equilibrium_iterations),
-              static_cast<unsigned long long>(counts.equilibrium_factorizations));
+  const Regroupings& g = result.regroupings;
+  if (g.joined + g.charts + g.planes + g.repaired > 0) {
+    std::printf(
+        "\n        %d blocks of close modes formed, %d taken apart; %d changes between s and 1/s; %d changes "
+        "of "
+        "the path's coordinate; %d missing modes added",
+        g.joined, g.parted, g.charts, g.planes, g.repaired);
+  }
   std::printf(
-      "  time  %s s: equilibrium %s, reduction %s, modes %s, matching %s, differentiation %s, output %s\n",
+      "\n        %s LU per mode and step, %llu for the certificate, %llu for special points, %llu KINSOL "
+      "iterations, %llu KKT "
+      "factorizations\n",
+      rounded(per_mode_and_step, 3).c_str(),
+      static_cast<unsigned long long>(counts.certificate_factorizations),
+      static_cast<unsigned long long>(counts.event_factorizations),
+      static_cast<unsigned long long>(counts.equilibrium_iterations),
+      static_cast<unsigned long long>(counts.equilibrium_factorizations));
+  std::printf(
+      "  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, certificate %s, matching "
+      "%s, events "
+      "%s, output %s\n",
       rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
       percent(counts.reduction_seconds, result.seconds).c_str(),
       percent(counts.modes_seconds, result.seconds).c_str(),
-      percent(counts.matching_seconds, result.seconds).c_str(),
       percent(counts.differentiation_seconds, result.seconds).c_str(),
+      percent(counts.certificate_seconds, result.seconds).c_str(),
+      percent(counts.matching_seconds, result.seconds).c_str(),
+      percent(counts.events_seconds, result.seconds).c_str(),
       percent(counts.output_seconds, result.seconds).c_str());
+}
+
+/// How much of the loci is certified, special points, and what else the user should know.
+void print_findings(const TraceOptions& options, const TraceResult& result) {
+  if (!options.certify) {
+    std::printf("  identity  not certified (--no-certify)\n");
+  } else if (result.certified_steps == result.mode_steps) {
+    std::printf("  identity  certified on every step\n");
+  } else {
+    std::printf("  identity  NOT certified on %ld of %ld mode steps; info and the file say where\n",
+                result.mode_steps - result.certified_steps, result.mode_steps);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Event& event : result.events) rows.push_back(event_row(event, options.parameter));
+  if (!rows.empty()) std::printf("  special points\n");
+  print_table(rows);
+  for (const std::string& note : result.notes) std::printf("  note  %s\n", note.c_str());
 }
 
 void print_effects(const Model& model, const EvaluationCounts& counts) {
@@ -111,11 +145,16 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   }
   std::vector<std::vector<std::string>> rows{
       {"mode", "s at " + exact_text(options.from), "s at " + exact_text(result.reached)}};
-  for (Eigen::Index i = 0; i < ends.first.size(); ++i) {
-    rows.push_back({std::to_string(i + 1), complex_text(ends.first[i].real(), ends.first[i].imag(), 8),
-                    complex_text(ends.last[i].real(), ends.last[i].imag(), 8)});
+  const auto text = [](const std::map<int, Complex>& ends_of, int mode) {
+    const auto found = ends_of.find(mode);
+    return found == ends_of.end() ? std::string("-")
+                                  : complex_text(found->second.real(), found->second.imag(), 8);
+  };
+  for (int mode = 0; mode < result.n_columns; ++mode) {
+    rows.push_back({std::to_string(mode + 1), text(ends.first, mode), text(ends.last, mode)});
   }
   print_table(rows);
+  print_findings(options, result);
   print_work(result);
   print_effects(model, result.counts.evaluations);
 }
@@ -137,14 +176,19 @@ int run_trace(const TraceArguments& arguments) {
   int points = 0;
   TraceObserver observer;
   observer.started = [&](const TraceStart& start) { started = start; };
-  observer.node = [&](const PathNode& node) {
+  observer.point = [&](const TracePoint& point) {
+    const auto values = [&point] {
+      std::map<int, Complex> all;
+      for (const ModeState& state : point.modes) all[state.mode] = state.s;
+      return all;
+    };
     if (!writer) {
-      create_output(writer, arguments.output, setup, *started, static_cast<int>(node.s.rows()));
-      ends.first = node.s.col(0);
+      create_output(writer, arguments.output, setup, *started);
+      ends.first = values();
     }
-    writer->append(node);
-    ends.last = node.s.col(0);
-    progress.update((node.p - options.from) / (options.to - options.from), ++points);
+    writer->append(point);
+    ends.last = values();
+    progress.update((point.node.p - options.from) / (options.to - options.from), ++points);
     return true;
   };
   const TraceResult result = trace(model, options, observer);
@@ -181,10 +225,14 @@ void add_trace(CLI::App& program, int& exit_code) {
   TraceOptions defaults;
   TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {
     const std::string name = key;
+    if (name == "certify") return;  // a flag, below
     command->add_option_function<std::string>(
         flag(name), [arguments, name](const std::string& text) { arguments->options[name] = text; },
         std::string(help) + " (overrides the scene)");
   });
+  command->add_flag_callback(
+      "--no-certify", [arguments] { arguments->options["certify"] = "false"; },
+      "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
   command->footer(
       "Examples:\n"
       "  eigentrail trace data/scenes/rotating_mass.toml -o blade.h5\n"

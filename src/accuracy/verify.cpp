@@ -13,12 +13,6 @@
 namespace eigentrail {
 namespace {
 
-std::string attribute(const LociFile& loci, const std::string& name) {
-  const auto found = loci.attributes.find(name);
-  if (found == loci.attributes.end()) throw InputError(loci.path + ": has no attribute " + name);
-  return found->second;
-}
-
 /// The scene and the options that the file was made from.
 TraceSetup rebuild(const LociFile& loci) {
   OptionTexts options;
@@ -26,13 +20,14 @@ TraceSetup rebuild(const LociFile& loci) {
     const std::string key = name.starts_with("option_") ? name.substr(7) : "";
     if (!key.empty() && text != "auto") options.emplace_back(key, text);
   }
-  return prepare_trace(parse_scene(attribute(loci, "scene"), attribute(loci, "scene_path")), options);
+  return prepare_trace(parse_scene(loci.attribute("scene"), loci.attribute("scene_path")), options);
 }
 
-/// The whole spectrum at p, from the stored equilibrium nearest to it.
-std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci, double p) {
+/// The whole spectrum where the path passes p, from the stored equilibrium at the nearer end of the step.
+std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci,
+                                       const LociFile::Position& position, double p) {
   RunCounts counts;
-  const auto node = static_cast<Eigen::Index>(loci.nearest_node(p));
+  const auto node = static_cast<Eigen::Index>(position.step) + (position.t > 0.5 ? 1 : 0);
   // The stored equilibrium is a guess, not a fact: it is part of what is checked.
   const EquilibriumGuess guess{loci.equilibrium.row(node).transpose(), loci.multiplier.row(node).transpose(),
                                false};
@@ -43,27 +38,64 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   return spectrum;
 }
 
+/// Near a meeting single eigenvalues are as uncertain as roots of a polynomial there, and what the file
+/// stores, and promises, are the block's functions. An error of an eigenvalue counts as the error of those:
+/// weighed by its distance to the others, where that is below a tenth.
+double weight_in_block(const Spectrum& spectrum, Complex s, double error, double scale) {
+  double weight = 1.0;
+  for (const StartingMode& other : spectrum.modes) {
+    for (const Complex neighbour : {other.s, std::conj(other.s)}) {
+      if (neighbour == s || (other.s.imag() == 0.0 && neighbour != other.s)) continue;
+      weight *= std::min(1.0, std::max(std::abs(neighbour - s), error) / (0.1 * scale));
+      if (other.s.imag() == 0.0) break;
+    }
+  }
+  return weight;
+}
+
+/// Whether each mode is part of a block of several on the step.
+std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes) {
+  std::vector<bool> result(n_modes, false);
+  for (const DenseBlock& block : step.blocks) {
+    for (const int mode : block.modes) result[static_cast<std::size_t>(mode)] = block.size() > 1;
+  }
+  return result;
+}
+
 /// Distance of every traced value from the eigenvalue assigned to it, one to one, relative to max(|s|,
-/// reference). More traced values than eigenvalues: those left over are infinitely far.
-Vector distances(const ComplexVector& traced, const Spectrum& spectrum, double reference) {
-  const auto n = static_cast<Eigen::Index>(
-      std::max<std::size_t>(spectrum.modes.size(), static_cast<std::size_t>(traced.size())));
+/// reference); zero for modes that do not exist. More traced values than eigenvalues: those left over are
+/// infinitely far.
+Vector distances(const ComplexVector& traced, const std::vector<bool>& in_block, const Spectrum& spectrum,
+                 double reference) {
+  std::vector<Eigen::Index> present;
+  for (Eigen::Index i = 0; i < traced.size(); ++i) {
+    if (std::isfinite(traced[i].real())) present.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(std::max(spectrum.modes.size(), present.size()));
   constexpr double nowhere = 1e30;
   Matrix cost = Matrix::Constant(n, n, nowhere);
-  cost.bottomRows(n - traced.size()).setZero();  // eigenvalues that nobody followed
-  for (Eigen::Index i = 0; i < traced.size(); ++i) {
+  const auto count = static_cast<Eigen::Index>(present.size());
+  cost.bottomRows(n - count).setZero();  // eigenvalues that nobody followed
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Complex value = traced[present[static_cast<std::size_t>(i)]];
     for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
       const Complex s = spectrum.modes[j].s;
       // A pair is stored by its upper member; on the real axis rounding may pick the lower one.
-      const double distance = std::min(std::abs(traced[i] - s), std::abs(traced[i] - std::conj(s)));
+      const double distance = std::min(std::abs(value - s), std::abs(value - std::conj(s)));
       cost(i, static_cast<Eigen::Index>(j)) = distance / std::max(std::abs(s), reference);
     }
   }
   const std::vector<int> assignment = optimal_assignment(cost);
-  Vector result(traced.size());
-  for (Eigen::Index i = 0; i < traced.size(); ++i) {
-    const double distance = cost(i, assignment[static_cast<std::size_t>(i)]);
-    result[i] = distance < nowhere ? distance : INFINITY;
+  Vector result = Vector::Zero(traced.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int j = assignment[static_cast<std::size_t>(i)];
+    const double distance = cost(i, j);
+    const Eigen::Index mode = present[static_cast<std::size_t>(i)];
+    result[mode] = distance < nowhere ? distance : INFINITY;
+    if (!in_block[static_cast<std::size_t>(mode)] || !std::isfinite(result[mode])) continue;
+    const Complex s = spectrum.modes[static_cast<std::size_t>(j)].s;
+    const double scale = std::max(std::abs(s), reference);
+    result[mode] *= weight_in_block(spectrum, s, distance * scale, scale);
   }
   return result;
 }
@@ -74,7 +106,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   if (loci.n_nodes() == 0) throw InputError(loci.path + ": holds no points");
   const TraceSetup setup = rebuild(loci);
   const PathProblem problem = problem_along(*setup.model, setup.options.parameter);
-  const double reference = std::stod(attribute(loci, "reference"));
+  const double reference = std::stod(loci.attribute("reference"));
   VerifyReport report;
   report.tolerance = setup.options.tolerance;
 
@@ -82,15 +114,19 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   std::uniform_real_distribution<double> uniform(loci.lowest(), loci.highest());
   for (; report.samples < options.samples; ++report.samples) {
     const double p = uniform(engine);
-    const auto spectrum = fresh_spectrum(problem, loci, p);
-    if (!spectrum) {
-      ++report.unsolved;
-      continue;
+    for (const LociFile::Position& position : loci.positions(p)) {
+      const auto spectrum = fresh_spectrum(problem, loci, position, p);
+      if (!spectrum) {
+        ++report.unsolved;
+        continue;
+      }
+      Eigen::Index mode = 0;
+      const std::vector<bool> in_block = in_blocks(loci.steps[position.step], loci.modes.size());
+      const double worst =
+          distances(loci.eigenvalues_at(position), in_block, *spectrum, reference).maxCoeff(&mode);
+      if (report.worst.mode < 0 || worst > report.worst.relative)
+        report.worst = {worst, p, static_cast<int>(mode)};
     }
-    Eigen::Index mode = 0;
-    const double worst = distances(loci.eigenvalues_at(p), *spectrum, reference).maxCoeff(&mode);
-    if (report.worst.mode < 0 || worst > report.worst.relative)
-      report.worst = {worst, p, static_cast<int>(mode)};
   }
   return report;
 }

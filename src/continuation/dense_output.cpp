@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace eigentrail {
 namespace {
+
+/// Terms that fall more slowly than this are taken to fall like this.
+constexpr double slowest_decay = 0.8;
 
 /// Series coefficients in the unit of t: column k times length^k.
 ComplexMatrix in_unit_length(const ComplexMatrix& series, double length) {
@@ -16,13 +20,15 @@ ComplexMatrix in_unit_length(const ComplexMatrix& series, double length) {
 
 }  // namespace
 
-HermiteInterpolant::HermiteInterpolant(double a, const ComplexMatrix& left, double b,
-                                       const ComplexMatrix& right)
-    : begin_(a), length_(b - a), at_left_(left.rows(), left.cols()), slope_(left.rows(), left.cols()) {
-  const ComplexMatrix l = in_unit_length(left, length_);
-  const ComplexMatrix r = in_unit_length(right, length_);
-  const Eigen::Index nodes = left.cols();  // at each end
-  // Row by row in the number of left nodes i: F(i, j) = F(i-1, j) - F(i, j-1), the ends lying 1 apart in t.
+HermiteInterpolant::HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right)
+    : from_left_(length, left, right), from_right_(-length, right, left) {}
+
+HermiteInterpolant::Terms::Terms(double length, const ComplexMatrix& near, const ComplexMatrix& far)
+    : value(near.rows(), near.cols()), slope(near.rows(), near.cols()) {
+  const ComplexMatrix l = in_unit_length(near, length);
+  const ComplexMatrix r = in_unit_length(far, length);
+  const Eigen::Index nodes = near.cols();  // at each end
+  // Row by row in the number of near nodes i: F(i, j) = F(i-1, j) - F(i, j-1), the ends lying 1 apart in t.
   std::vector<ComplexVector> above;  // F(i-1, j) by j
   above.emplace_back();
   for (Eigen::Index j = 1; j <= nodes; ++j) above.emplace_back(r.col(j - 1));
@@ -31,40 +37,51 @@ HermiteInterpolant::HermiteInterpolant(double a, const ComplexMatrix& left, doub
     for (Eigen::Index j = 1; j <= nodes; ++j) {
       row.emplace_back(above[static_cast<std::size_t>(j)] - row[static_cast<std::size_t>(j - 1)]);
     }
-    at_left_.col(i - 1) = row[static_cast<std::size_t>(i - 1)];
-    slope_.col(i - 1) = row[static_cast<std::size_t>(i)];
+    value.col(i - 1) = row[static_cast<std::size_t>(i - 1)];
+    slope.col(i - 1) = row[static_cast<std::size_t>(i)];
     above = std::move(row);
   }
 }
 
-ComplexVector HermiteInterpolant::operator()(double p) const {
-  const double t = (p - begin_) / length_;
-  const double bubble = t * (t - 1.0);
-  ComplexVector value = ComplexVector::Zero(at_left_.rows());
-  for (Eigen::Index k = at_left_.cols() - 1; k >= 0; --k)
-    value = value * bubble + at_left_.col(k) + slope_.col(k) * t;
+ComplexVector HermiteInterpolant::operator()(Complex t) const {
+  const bool left = t.real() <= 0.5;
+  const Terms& terms = left ? from_left_ : from_right_;
+  const Complex u = left ? t : 1.0 - t;
+  const Complex bubble = u * (u - 1.0);
+  ComplexVector value = ComplexVector::Zero(terms.value.rows());
+  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k)
+    value = value * bubble + terms.value.col(k) + terms.slope.col(k) * u;
   return value;
 }
 
-double HermiteInterpolant::term(Eigen::Index function, Eigen::Index k) const {
-  return std::max(std::abs(at_left_(function, k)), std::abs(at_left_(function, k) + slope_(function, k)));
+ComplexVector HermiteInterpolant::slope(double t) const {
+  const bool left = t <= 0.5;
+  const Terms& terms = left ? from_left_ : from_right_;
+  const double u = left ? t : 1.0 - t;
+  const double bubble = u * (u - 1.0);
+  ComplexVector value = ComplexVector::Zero(terms.value.rows());
+  ComplexVector derivative = value;
+  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k) {
+    derivative = derivative * bubble + value * (2.0 * u - 1.0) + terms.slope.col(k);
+    value = value * bubble + terms.value.col(k) + terms.slope.col(k) * u;
+  }
+  return left ? derivative : ComplexVector(-derivative);
 }
 
-Vector HermiteInterpolant::estimated_error() const {
-  const Eigen::Index q = at_left_.cols() - 1;
-  Vector error = Vector::Zero(at_left_.rows());
-  if (q < 2) return error;
-  const double bubble = std::pow(0.25, static_cast<double>(q + 1));  // largest |t (t - 1)|^(q+1)
+double HermiteInterpolant::term(Eigen::Index function, Eigen::Index k) const {
+  const double size = std::max(std::abs(from_left_.value(function, k)),
+                               std::abs(from_left_.value(function, k) + from_left_.slope(function, k)));
+  return size * std::pow(0.25, static_cast<double>(k));  // the largest |t (t - 1)|^k
+}
+
+Vector HermiteInterpolant::error_without_last() const {
+  const Eigen::Index q = from_left_.value.cols() - 1;
+  Vector error(from_left_.value.rows());
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     const double last = term(i, q);
     const double before = term(i, q - 1);
-    double next = before > 0.0 ? last * (last / before) : last;
-    // The last term may vanish by chance; the two before it tell the decay as well.
-    if (q >= 3 && term(i, q - 2) > 0.0) {
-      const double decay = before / term(i, q - 2);
-      next = std::max(next, before * decay * decay);
-    }
-    error[i] = bubble * next;
+    const double decay = before > 0.0 ? std::min(last / before, slowest_decay) : slowest_decay;
+    error[i] = last / (1.0 - decay);
   }
   return error;
 }

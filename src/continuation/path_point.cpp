@@ -1,8 +1,12 @@
 #include "eigentrail/continuation/path_point.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -11,8 +15,8 @@ void size_counters(const PathProblem& problem, RunCounts& counts) {
   if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
 }
 
-Equilibrium equilibrium_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
-                           RunCounts& counts) {
+Equilibrium equilibrium_at(const PathProblem& problem, double& p, const EquilibriumGuess& guess,
+                           const std::optional<PathPlane>& plane, RunCounts& counts) {
   const StageTimer timer(counts.equilibrium_seconds);
   const Vector parameters = parameters_at(problem, p);
   // A fixed equilibrium is solved once, at the start, and kept.
@@ -21,16 +25,24 @@ Equilibrium equilibrium_at(const PathProblem& problem, double p, const Equilibri
     const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
     return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
-  Equilibrium result =
-      solve_equilibrium(problem.model, parameters, guess.x, guess.lambda, problem.steady, counts.evaluations);
+  Equilibrium result = plane
+                           ? solve_equilibrium_on(*plane, problem.model, parameters, problem.traced, guess.x,
+                                                  guess.lambda, problem.steady, p, counts.evaluations)
+                           : solve_equilibrium(problem.model, parameters, guess.x, guess.lambda,
+                                               problem.steady, counts.evaluations);
   counts.equilibrium_iterations += static_cast<std::uint64_t>(result.report.iterations);
   counts.equilibrium_factorizations += static_cast<std::uint64_t>(result.report.factorizations);
   return result;
 }
 
-/// Series of the equilibrium when `parameter` moves away from its value at the point.
+/// Series of the equilibrium when `parameter` moves away from its value at the point, or along the path.
 EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, int parameter, Path& path,
                             RunCounts& counts) {
+  if (point.plane) {
+    return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
+                                        parameters_at(problem, point.p), problem.traced, problem.order + 1,
+                                        path, counts.evaluations);
+  }
   VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
   parameters.col(0) = parameters_at(problem, point.p);
   parameters(parameter, 1) = 1.0;
@@ -38,34 +50,29 @@ EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, 
     path = {parameters, point.equilibrium.x, point.equilibrium.lambda};
     return {};
   }
-  return differentiate_equilibrium(problem.model, point.equilibrium, parameters, problem.order, path,
+  return differentiate_equilibrium(problem.model, point.equilibrium, parameters, problem.order + 1, path,
                                    counts.evaluations);
 }
 
-/// Series of v = T z.
-ComplexVectorSeries physical_series(const TangentBasis& basis, const ComplexVectorSeries& z) {
-  if (basis.is_identity) return z;
-  ComplexVectorSeries v = ComplexVectorSeries::Zero(basis.T[0].rows(), z.cols());
-  for (std::size_t j = 0; j < basis.T.size(); ++j) {
-    const auto shift = static_cast<Eigen::Index>(j);
-    if (shift >= z.cols()) break;
-    v.rightCols(z.cols() - shift) += basis.T[j].cast<Complex>() * z.leftCols(z.cols() - shift);
+/// Series of V = T Z.
+std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, const std::vector<ComplexMatrix>& Z) {
+  if (basis.is_identity) return Z;
+  std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(basis.T[0].rows(), Z[0].cols()));
+  for (std::size_t j = 0; j < basis.T.size() && j < Z.size(); ++j) {
+    for (std::size_t i = 0; i + j < Z.size(); ++i) V[i + j] += basis.T[j].cast<Complex>() * Z[i];
   }
-  return v;
+  return V;
+}
+
+bool is_finite(const Track& track) {
+  return track.functions.allFinite() && std::all_of(track.series.Z.begin(), track.series.Z.end(),
+                                                    [](const auto& Z) { return Z.allFinite(); });
 }
 
 }  // namespace
 
-ComplexVector PathPoint::eigenvalues() const {
-  ComplexVector s(static_cast<Eigen::Index>(modes.size()));
-  for (std::size_t i = 0; i < modes.size(); ++i) s[static_cast<Eigen::Index>(i)] = modes[i].s;
-  return s;
-}
-
-ComplexMatrix PathPoint::shapes() const {
-  ComplexMatrix z(pencil.size(), static_cast<Eigen::Index>(modes.size()));
-  for (std::size_t i = 0; i < modes.size(); ++i) z.col(static_cast<Eigen::Index>(i)) = modes[i].z;
-  return basis.is_identity ? z : ComplexMatrix(basis.T[0].cast<Complex>() * z);
+ComplexMatrix PathPoint::shapes(std::size_t pair) const {
+  return basis.is_identity ? pairs[pair].Z : ComplexMatrix(basis.T[0].cast<Complex>() * pairs[pair].Z);
 }
 
 PathProblem problem_along(const Model& model, const std::string& parameter) {
@@ -82,11 +89,12 @@ Vector parameters_at(const PathProblem& problem, double p) {
 }
 
 PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
-                    const Matrix& previous_basis, RunCounts& counts) {
+                    const Matrix& previous_basis, RunCounts& counts, const std::optional<PathPlane>& plane) {
   size_counters(problem, counts);
   PathPoint point;
+  point.plane = plane;
+  point.equilibrium = equilibrium_at(problem, p, guess, plane, counts);
   point.p = p;
-  point.equilibrium = equilibrium_at(problem, p, guess, counts);
   if (point.equilibrium.status != SteadyStatus::converged) {
     point.status = PointStatus::no_equilibrium;
     point.message = point.equilibrium.report.message;
@@ -99,9 +107,10 @@ PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess
   return point;
 }
 
-PathPoint compute_point(const PathProblem& problem, double p, const Prediction& prediction,
+PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts) {
-  PathPoint point = reduce_at(problem, p, prediction.equilibrium, previous_basis, counts);
+  PathPoint point =
+      reduce_at(problem, prediction.p, prediction.equilibrium, previous_basis, counts, prediction.plane);
   if (point.status != PointStatus::computed) return point;
   if (point.pencil.size() != previous_basis.cols()) {
     point.status = PointStatus::no_equilibrium;
@@ -109,17 +118,16 @@ PathPoint compute_point(const PathProblem& problem, double p, const Prediction& 
     return point;
   }
   const StageTimer timer(counts.modes_seconds);
-  const PencilAtPoint pencil(point.pencil);
-  for (Eigen::Index i = 0; i < prediction.s.size(); ++i) {
-    const ComplexVector shape = prediction.shapes.col(i);
-    const ComplexVector z =
-        point.basis.is_identity ? shape : ComplexVector(point.basis.T[0].transpose().cast<Complex>() * shape);
-    point.modes.push_back(
-        correct_mode(pencil, prediction.s[i], z, problem.s_ref, problem.corrector, counts.modes));
-    if (point.modes.back().status != ModeStatus::converged) {
+  for (std::size_t i = 0; i < prediction.pairs.size(); ++i) {
+    InvariantPair start = prediction.pairs[i];
+    if (!point.basis.is_identity) start.Z = point.basis.T[0].transpose().cast<Complex>() * start.Z;
+    const PencilAtPoint pencil(point.pencil, start.chart);
+    point.pairs.push_back(
+        correct_pair(pencil, start, problem.reference(start.chart), problem.corrector, counts.modes));
+    if (point.pairs.back().status != PairStatus::converged) {
       point.status = PointStatus::mode_lost;
-      point.lost_mode = static_cast<int>(i);
-      point.message = "mode " + std::to_string(i + 1) + ": the corrector did not converge";
+      point.lost_track = static_cast<int>(i);
+      point.message = "the corrector did not converge";
       return point;
     }
   }
@@ -129,6 +137,18 @@ PathPoint compute_point(const PathProblem& problem, double p, const Prediction& 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts) {
   return differentiate_point(problem, point, problem.traced, counts);
+}
+
+Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
+                          RunCounts& counts) {
+  Track track;
+  track.pair = std::move(pair);
+  PairSeries series = differentiate_pair(node.pencil, track.pair, problem.order + 1, counts.modes);
+  track.functions = block_functions(series.Lambda);
+  track.roots = pair_eigenvalues(track.pair);
+  track.modes.assign(static_cast<std::size_t>(track.size()), Track::no_mode);
+  track.series = {physical_series(node.basis, series.Z), std::move(series.Lambda)};
+  return track;
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
@@ -143,29 +163,17 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   const StageTimer timer(counts.differentiation_seconds);
   PathNode node;
   node.p = point.p;
+  const int order = problem.order + 1;
   if (path_series(problem, point, parameter, node.path, counts)) return std::nullopt;
-  Linearization linearization;
-  if (problem.model.linearize(node.path, problem.order, linearization, counts.evaluations))
-    return std::nullopt;
-  TangentBasis basis = point.basis;
-  differentiate_basis(point.equilibrium.kkt.constraints(), linearization.A, problem.order, basis);
-  const ReducedPencil pencil = reduce(linearization, basis, problem.order);
-
-  const auto n_modes = static_cast<Eigen::Index>(point.modes.size());
-  node.s.resize(n_modes, problem.order + 1);
-  node.backward_error.resize(n_modes);
-  node.condition.resize(n_modes);
-  for (Eigen::Index i = 0; i < n_modes; ++i) {
-    const Mode& mode = point.modes[static_cast<std::size_t>(i)];
-    const ModeSeries series = differentiate_mode(pencil, mode, problem.order, counts.modes);
-    node.s.row(i) = series.s.transpose();
-    node.shapes.push_back(physical_series(basis, series.z));
-    node.backward_error[i] = mode.backward_error;
-    node.condition[i] = mode.condition;
+  if (problem.model.linearize(node.path, order, node.linearization, counts.evaluations)) return std::nullopt;
+  node.basis = point.basis;
+  differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
+  node.pencil = reduce(node.linearization, node.basis, order);
+  node.stiffness_condition = point.equilibrium.kkt.reciprocal_condition();
+  for (const InvariantPair& pair : point.pairs) {
+    node.tracks.push_back(differentiate_track(problem, node, pair, counts));
+    if (!is_finite(node.tracks.back())) return std::nullopt;
   }
-  if (!node.s.allFinite()) return std::nullopt;
-  node.mass = linearization.M[0];
-  node.basis = basis.T[0];
   return node;
 }
 

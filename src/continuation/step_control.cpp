@@ -25,14 +25,6 @@ double StepControl::propose(double remaining) const {
   return remaining < 2.0 * step ? 0.5 * remaining : step;
 }
 
-double StepControl::error_from_miss(double h, double miss) const {
-  const double ratio = last_step_ > 0.0 ? 0.25 / (1.0 + last_step_ / h) : 0.25;
-  const double error = miss * std::pow(ratio, order_ + 1);
-  // The miss averages the derivative over this step and the last one. Where it grows from step to step, this
-  // step has the larger half of it.
-  return last_error_ > 0.0 ? error * std::pow(std::max(trend(h, error), 1.0), order_ + 1) : error;
-}
-
 double StepControl::trend(double h, double error) const {
   return (last_step_ / h) * std::pow(error / last_error_, 1.0 / (2.0 * order_ + 2.0));
 }
@@ -49,7 +41,7 @@ void StepControl::accept(double h, double error) {
     factor /= std::max(trend(h, error), 1.0);
   }
   if (rejected_) factor = std::min(factor, 1.0);
-  step_ = std::min(h * std::clamp(factor, smallest_growth, largest_growth), max_step_);
+  step_ = std::clamp(h * std::clamp(factor, smallest_growth, largest_growth), min_step_, max_step_);
   last_step_ = h;
   last_error_ = error;
   rejected_ = false;

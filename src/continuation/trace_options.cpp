@@ -21,6 +21,9 @@ class OptionReader {
   void operator()(const char* key, const char*, std::string& value) {
     if (table_.has(key)) value = table_.text(key);
   }
+  void operator()(const char* key, const char*, bool& value) {
+    if (table_.has(key)) value = table_.flag(key);
+  }
   void operator()(const char* key, const char*, double& value) {
     if (table_.has(key)) value = number(key);
   }
@@ -96,6 +99,7 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
     double number = 0.0;
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
     if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
+    if (text == "true" || text == "false") value.data = text == "true";
     std::erase_if(merged.entries, [&option](const auto& entry) { return entry.first == option.first; });
     merged.entries.emplace_back(option.first, std::move(value));
   }
@@ -130,8 +134,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
           "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
-  require(options.order >= 1 && options.order <= max_order, "order",
-          "must lie between 1 and " + std::to_string(max_order));
+  require(options.order >= 1 && options.order < max_order, "order",
+          "must lie between 1 and " + std::to_string(max_order - 1));
   require(positive(options.reference), "reference", "must be positive");
   require(positive(options.first_step), "first_step", "must be positive");
   require(positive(options.max_step), "max_step", "must be positive");
@@ -180,6 +184,8 @@ OptionTexts describe_options(const TraceOptions& options) {
     using T = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<T, std::string>) {
       texts.emplace_back(key, value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      texts.emplace_back(key, value ? "true" : "false");
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
       texts.emplace_back(key, value ? std::to_string(*value) : "all");
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {

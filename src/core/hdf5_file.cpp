@@ -4,6 +4,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace eigentrail {
@@ -215,11 +216,21 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
   const Handle type = memory_type(spec.type);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
   if (spec.growing) {
-    limits[0] = H5S_UNLIMITED;
+    std::fill(limits.begin(), limits.end(), H5S_UNLIMITED);
     std::vector<hsize_t> chunk = dims;
     chunk[0] = chunk_rows(spec.shape, H5Tget_size(type));
     for (hsize_t& c : chunk) c = std::max<hsize_t>(c, 1);
     check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), action);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const Complex complex_fill(nan, nan);
+    const double real_fill = nan;
+    const std::int64_t integer_fill = -1;
+    if (spec.type != ElementType::text) {
+      const void* fill = spec.type == ElementType::complex   ? static_cast<const void*>(&complex_fill)
+                         : spec.type == ElementType::integer ? static_cast<const void*>(&integer_fill)
+                                                             : static_cast<const void*>(&real_fill);
+      check(H5Pset_fill_value(properties, type, fill), action);
+    }
   }
   const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose,
                      action);
@@ -229,6 +240,13 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
       H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, links, properties, H5P_DEFAULT),
       H5Dclose, action);
   for (const auto& [name, value] : spec.attributes) write_text_attribute(set, name, value);
+}
+
+void Hdf5File::extend(const std::string& dataset, unsigned dimension, std::uint64_t size) {
+  Shape dims = shape(dataset);
+  dims.at(dimension) = size;
+  const std::vector<hsize_t> extent(dims.begin(), dims.end());
+  check(H5Dset_extent(implementation_->dataset(dataset), extent.data()), "extend dataset " + dataset);
 }
 
 void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
@@ -309,6 +327,10 @@ std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
 
 std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
   return implementation_->read<Complex>(dataset, ElementType::complex);
+}
+
+std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
+  return implementation_->read<std::int64_t>(dataset, ElementType::integer);
 }
 
 std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {

@@ -28,7 +28,8 @@ struct DatasetSpec {
   std::string name;
   ElementType type = ElementType::real;
   Shape shape;
-  bool growing = false;  ///< the first dimension is unlimited; the data are chunked
+  bool growing = false;  ///< all dimensions are unlimited; the data are chunked; what was never written reads
+                         ///< as NaN (numbers) or -1 (integers)
   std::map<std::string, std::string> attributes;
 };
 
@@ -46,6 +47,9 @@ class Hdf5File {
   ~Hdf5File();
 
   void create_dataset(const DatasetSpec& spec);
+
+  /// Makes a growing dataset longer along one dimension; what is new reads as NaN or -1 until it is written.
+  void extend(const std::string& dataset, unsigned dimension, std::uint64_t size);
 
   /// Writes whole rows (first index) from `first_row` on, growing the dataset when it must. Data are
   /// row-major.
@@ -71,6 +75,7 @@ class Hdf5File {
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
+  std::vector<std::int64_t> read_integers(const std::string& dataset) const;
   std::vector<std::string> read_texts(const std::string& dataset) const;
 
   bool has_attribute(const std::string& name) const;

@@ -206,5 +206,6 @@ template class Assembly<1>;
 template class Assembly<2>;
 template class Assembly<3>;
 template class Assembly<4>;
+template class Assembly<5>;
 
 }  // namespace eigentrail

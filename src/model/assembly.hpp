@@ -34,5 +34,6 @@ extern template class Assembly<1>;
 extern template class Assembly<2>;
 extern template class Assembly<3>;
 extern template class Assembly<4>;
+extern template class Assembly<5>;
 
 }  // namespace eigentrail

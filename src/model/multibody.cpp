@@ -50,8 +50,10 @@ EvaluationFault dispatch(int order, Visit&& visit) {
       return visit.template operator()<3>();
     case 4:
       return visit.template operator()<4>();
+    case 5:
+      return visit.template operator()<5>();
     default:
-      throw std::invalid_argument("order of a series: expected 0 to 4, got " + std::to_string(order));
+      throw std::invalid_argument("order of a series: expected 0 to 5, got " + std::to_string(order));
   }
 }
 

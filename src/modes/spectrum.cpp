@@ -1,6 +1,7 @@
 #include "eigentrail/modes/spectrum.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -69,6 +70,17 @@ ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_comple
   return z.normalized();
 }
 
+/// Companion form a y = mu b y with y = [z; mu z].
+void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Matrix& b) {
+  const Eigen::Index n = M.rows();
+  a = Matrix::Zero(2 * n, 2 * n);
+  b = Matrix::Identity(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -K;
+  a.bottomRightCorner(n, n) = -C;
+  b.bottomRightCorner(n, n) = M;
+}
+
 }  // namespace
 
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
@@ -87,12 +99,8 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
     spectrum.status = SpectrumStatus::singular_pencil;
     return spectrum;
   }
-  Matrix a = Matrix::Zero(2 * n, 2 * n);
-  Matrix b = Matrix::Identity(2 * n, 2 * n);
-  a.topRightCorner(n, n).setIdentity();
-  a.bottomLeftCorner(n, n) = -scaled_K;
-  a.bottomRightCorner(n, n) = -scaled_C;
-  b.bottomRightCorner(n, n) = scaled_M;
+  Matrix a, b;
+  linearize(scaled_M, scaled_C, scaled_K, a, b);
   Vector alpha_real(2 * n), alpha_imag(2 * n), beta(2 * n);
   Matrix vectors(2 * n, 2 * n);
   const auto size = static_cast<lapack_int>(2 * n);
@@ -115,6 +123,37 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
   });
   spectrum.status = SpectrumStatus::complete;
   return spectrum;
+}
+
+InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
+                                 Eigen::Index k, bool is_real) {
+  constexpr int iterations = 6;
+  constexpr double offset = 1e-5;  // of the spectrum's scale: the shift must not hit an eigenvalue
+  const Eigen::Index n = M.rows();
+  const Scaling scaling = fan_lin_van_dooren(M, C, K);
+  Matrix a, b;
+  linearize(scaling.delta * scaling.gamma * scaling.gamma * M, scaling.delta * scaling.gamma * C,
+            scaling.delta * K, a, b);
+  const Complex mu = centre / scaling.gamma;
+  const double size = std::max(std::abs(mu), 1e-3);
+  const Complex shift = is_real ? Complex(mu.real() + offset * size) : mu + offset * size * Complex(0.6, 0.8);
+  const Eigen::PartialPivLU<ComplexMatrix> lu(a.cast<Complex>() - shift * b.cast<Complex>());
+  ComplexMatrix X(2 * n, k);
+  for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
+  for (int i = 0; i < iterations; ++i) {
+    const ComplexMatrix Y = lu.solve(b.cast<Complex>() * X);
+    X = Eigen::HouseholderQR<ComplexMatrix>(Y).householderQ() * ComplexMatrix::Identity(2 * n, k);
+  }
+  InvariantPair pair;
+  pair.is_real = is_real;
+  pair.Z = X.topRows(n);
+  pair.Lambda = scaling.gamma * (b.cast<Complex>() * X).householderQr().solve(a.cast<Complex>() * X);
+  if (is_real) {
+    // Real input gives a real subspace; the basis from QR is real up to signs.
+    pair.Z.imag().setZero();
+    pair.Lambda.imag().setZero();
+  }
+  return pair;
 }
 
 }  // namespace eigentrail

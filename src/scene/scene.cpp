@@ -256,6 +256,13 @@ std::string TableReader::text(const std::string& key) {
   return *text;
 }
 
+bool TableReader::flag(const std::string& key) {
+  const Value& value = require(key, "true or false");
+  const auto* flag = std::get_if<bool>(&value.data);
+  if (flag == nullptr) fail(key, "expected true or false, found " + value.kind());
+  return *flag;
+}
+
 std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const std::string& key) {
   const std::string expected = "a list of matrices, each a list of rows, lowest power first";
   const auto items = [&](const Value& value) -> const Array& {

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
@@ -43,19 +42,117 @@ void check_format(const Hdf5File& file, const std::string& path) {
   }
 }
 
-void read_series(const Hdf5File& file, LociFile& loci) {
+using RowMajorComplex = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+void require(bool holds, const LociFile& loci, const std::string& dataset) {
+  if (!holds) throw InputError(loci.path + ": " + dataset + " does not fit the other datasets");
+}
+
+void read_points(const Hdf5File& file, LociFile& loci) {
   loci.p = file.read_real(loci.parameter);
-  const Shape shape = file.shape("eigenvalue_series");
-  const bool consistent = shape.size() == 3 && shape[0] == loci.p.size() && shape[1] == loci.modes.size() &&
-                          shape[2] >= 2 && shape[2] <= static_cast<std::uint64_t>(max_order) + 1;
-  if (!consistent) throw InputError(loci.path + ": eigenvalue_series does not fit the other datasets");
-  const std::vector<Complex> data = file.read_complex("eigenvalue_series");
-  using RowMajor = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto rows = static_cast<Eigen::Index>(shape[1]);
-  const auto columns = static_cast<Eigen::Index>(shape[2]);
-  for (std::size_t node = 0; node < loci.p.size(); ++node) {
-    loci.series.emplace_back(
-        Eigen::Map<const RowMajor>(data.data() + node * shape[1] * shape[2], rows, columns));
+  require(file.shape("eigenvalue") == Shape{loci.p.size(), loci.modes.size()}, loci, "eigenvalue");
+  const std::vector<Complex> data = file.read_complex("eigenvalue");
+  loci.eigenvalues = Eigen::Map<const RowMajorComplex>(data.data(), static_cast<Eigen::Index>(loci.p.size()),
+                                                       static_cast<Eigen::Index>(loci.modes.size()));
+}
+
+/// Raw arrays of the dense output.
+struct DenseArrays {
+  Shape shape;  ///< step, function, end, order
+  std::vector<double> length, parameter;
+  std::vector<Complex> output;
+  std::vector<std::int64_t> block, chart, mode_block, certified;
+};
+
+DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
+  DenseArrays arrays;
+  arrays.shape = file.shape("dense_output");
+  const Shape& shape = arrays.shape;
+  const bool fits = shape.size() == 4 && shape[0] + 1 == std::max<std::uint64_t>(loci.p.size(), 1) &&
+                    shape[2] == 2 && shape[3] >= 2 && shape[3] <= static_cast<std::uint64_t>(max_order);
+  require(fits, loci, "dense_output");
+  require(file.shape("step_length") == Shape{shape[0]}, loci, "step_length");
+  require(file.shape("step_parameter") == Shape{shape[0], 2, shape[3]}, loci, "step_parameter");
+  for (const char* name : {"dense_block", "dense_chart"}) {
+    require(file.shape(name) == Shape{shape[0], shape[1]}, loci, name);
+  }
+  for (const char* name : {"mode_block", "certified"}) {
+    require(file.shape(name) == Shape{shape[0], loci.modes.size()}, loci, name);
+  }
+  arrays.length = file.read_real("step_length");
+  arrays.parameter = file.read_real("step_parameter");
+  arrays.output = file.read_complex("dense_output");
+  arrays.block = file.read_integers("dense_block");
+  arrays.chart = file.read_integers("dense_chart");
+  arrays.mode_block = file.read_integers("mode_block");
+  arrays.certified = file.read_integers("certified");
+  return arrays;
+}
+
+/// The block of a step that begins at function `first`.
+DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size_t step, std::size_t first) {
+  const std::size_t functions = arrays.shape[1];
+  const std::size_t orders = arrays.shape[3];
+  const auto number = static_cast<std::int64_t>(first);
+  std::size_t size = 0;
+  while (first + size < functions && arrays.block[step * functions + first + size] == number) ++size;
+  DenseBlock block;
+  block.chart = arrays.chart[step * functions + first] == 1 ? Chart::reciprocal : Chart::finite;
+  block.left.resize(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(orders));
+  block.right = block.left;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Complex* row = arrays.output.data() + (step * functions + first + i) * 2 * orders;
+    const auto at = static_cast<Eigen::Index>(i);
+    for (std::size_t k = 0; k < orders; ++k) {
+      block.left(at, static_cast<Eigen::Index>(k)) = row[k];
+      block.right(at, static_cast<Eigen::Index>(k)) = row[orders + k];
+    }
+  }
+  block.certified = true;
+  for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
+    if (arrays.mode_block[step * loci.modes.size() + mode] != number) continue;
+    block.modes.push_back(static_cast<int>(mode));
+    block.certified = block.certified && arrays.certified[step * loci.modes.size() + mode] == 1;
+  }
+  require(block.modes.size() <= size && block.left.allFinite() && block.right.allFinite(), loci,
+          "dense_output");
+  return block;
+}
+
+void read_steps(const Hdf5File& file, LociFile& loci) {
+  const DenseArrays arrays = read_arrays(file, loci);
+  const std::size_t functions = arrays.shape[1];
+  const std::size_t orders = arrays.shape[3];
+  for (std::size_t step = 0; step < arrays.shape[0]; ++step) {
+    PathStep path_step;
+    path_step.length = arrays.length[step];
+    path_step.parameter = Eigen::Map<const RowMajorReal>(arrays.parameter.data() + step * 2 * orders, 2,
+                                                         static_cast<Eigen::Index>(orders));
+    for (std::size_t i = 0; i < functions; ++i) {
+      if (arrays.block[step * functions + i] == static_cast<std::int64_t>(i))
+        path_step.blocks.push_back(read_block(arrays, loci, step, i));
+    }
+    loci.steps.push_back(std::move(path_step));
+  }
+}
+
+void read_events(const Hdf5File& file, LociFile& loci) {
+  const std::vector<std::string> lines = file.read_texts("events");
+  const std::vector<double> parameters = file.read_real("event_parameter");
+  const std::vector<double> half_widths = file.read_real("event_half_width");
+  const std::vector<Complex> eigenvalues = file.read_complex("event_eigenvalue");
+  const std::vector<Complex> puiseux = file.read_complex("event_puiseux");
+  const std::size_t count = lines.size();
+  require(parameters.size() == count && half_widths.size() == count && eigenvalues.size() == count &&
+              puiseux.size() == count,
+          loci, "events");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t kind = lines[i].find(',');
+    const std::size_t modes = lines[i].rfind(',');
+    require(kind != std::string::npos && modes > kind, loci, "events");
+    loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
+                           lines[i].substr(modes + 1), half_widths[i], puiseux[i]});
   }
 }
 
@@ -67,18 +164,23 @@ Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& 
     throw InputError(loci.path + ": " + name + " does not fit the other datasets");
   }
   const std::vector<double> data = file.read_real(name);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(shape[0]),
-                                    static_cast<Eigen::Index>(shape[1]));
+  return Eigen::Map<const RowMajorReal>(data.data(), static_cast<Eigen::Index>(shape[0]),
+                                        static_cast<Eigen::Index>(shape[1]));
 }
 
 }  // namespace
 
 double LociFile::lowest() const {
-  return p.empty() ? NAN : std::min(p.front(), p.back());
+  return p.empty() ? NAN : *std::min_element(p.begin(), p.end());
 }
 double LociFile::highest() const {
-  return p.empty() ? NAN : std::max(p.front(), p.back());
+  return p.empty() ? NAN : *std::max_element(p.begin(), p.end());
+}
+
+const std::string& LociFile::attribute(const std::string& name) const {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) throw InputError(path + ": has no attribute " + name);
+  return found->second;
 }
 
 std::size_t LociFile::nearest_node(double value) const {
@@ -86,23 +188,53 @@ std::size_t LociFile::nearest_node(double value) const {
   return static_cast<std::size_t>(std::min_element(p.begin(), p.end(), closer) - p.begin());
 }
 
-ComplexVector LociFile::eigenvalues_at(double value) const {
+std::vector<LociFile::Position> LociFile::positions(double value) const {
+  std::vector<Position> found;
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    for (const double t : step_positions(steps[step], value)) {
+      // A node belongs to the step that ends there.
+      const bool repeated =
+          t == 0.0 && !found.empty() && found.back().step + 1 == step && found.back().t == 1.0;
+      if (!repeated) found.push_back({step, t});
+    }
+  }
+  return found;
+}
+
+ComplexVector LociFile::eigenvalues_at(const Position& position) const {
+  const auto left = static_cast<Eigen::Index>(position.step);
+  if (position.t == 0.0) return eigenvalues.row(left).transpose();
+  if (position.t == 1.0) return eigenvalues.row(left + 1).transpose();
+  return step_eigenvalues(steps[position.step], eigenvalues.row(left).transpose(),
+                          eigenvalues.row(left + 1).transpose(), position.t);
+}
+
+std::vector<ComplexVector> LociFile::eigenvalues_at(double value) const {
   if (p.empty()) throw InputError(path + ": holds no points");
-  if (!(value >= lowest() && value <= highest())) {
+  const auto node = std::find(p.begin(), p.end(), value);
+  std::vector<ComplexVector> result;
+  for (const Position& position : positions(value)) result.push_back(eigenvalues_at(position));
+  if (result.empty() && node != p.end()) result.emplace_back(eigenvalues.row(node - p.begin()).transpose());
+  if (result.empty()) {
     throw InputError(path + ": " + parameter + " = " + exact_text(value) + " lies outside the traced range " +
                      exact_text(lowest()) + " ... " + exact_text(highest()));
   }
-  const bool ascending = p.back() >= p.front();
-  const auto after = [&](double node, double target) { return ascending ? node < target : node > target; };
-  const auto found = std::lower_bound(p.begin(), p.end(), value, after);
-  const auto right = static_cast<std::size_t>(found - p.begin());
-  ComplexVector s = p[right] == value
-                        ? ComplexVector(series[right].col(0))
-                        : HermiteInterpolant(p[right - 1], series[right - 1], p[right], series[right])(value);
-  for (Complex& member : s) {
-    if (member.imag() < 0.0) member = std::conj(member);
+  return result;
+}
+
+double LociFile::certified_share(std::size_t mode) const {
+  double covered = 0.0;
+  double certified = 0.0;
+  for (const PathStep& step : steps) {
+    for (const DenseBlock& block : step.blocks) {
+      if (std::find(block.modes.begin(), block.modes.end(), static_cast<int>(mode)) == block.modes.end())
+        continue;
+      const double length = std::abs(step.length);
+      covered += length;
+      if (block.certified) certified += length;
+    }
   }
-  return s;
+  return covered > 0.0 ? certified / covered : NAN;
 }
 
 LociFile read_loci(const std::string& path) {
@@ -120,7 +252,9 @@ LociFile read_loci(const std::string& path) {
     loci.modes = file.read_texts("mode");
     loci.coordinates = file.read_texts("coordinate");
     if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
-    read_series(file, loci);
+    read_points(file, loci);
+    read_steps(file, loci);
+    read_events(file, loci);
     loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
     loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
     loci.residual = file.read_real("residual");

@@ -67,7 +67,7 @@ UNKNOWN_NAMES = [
     blade("unknown key of trace", "to = 5.0", "to = 5.0\n§tolerence = 1e-6",
           "[trace] tolerence: unknown key", "did you mean 'tolerance'?"),
     blade("unknown key unlike any known one", "to = 5.0", "to = 5.0\n§colour = 1", "[trace] colour: unknown key; known: "
-          "parameter, from, to, tolerance, modes, order, reference, first_step, max_step, max_nodes"),
+          "parameter, from, to, tolerance, modes, order, reference, first_step, max_step, max_nodes, certify"),
     blade("unknown key of a parameter", 'unit = "rad/s"', '§units = "rad/s"',
           "[parameters] omega: unknown key 'units'", "did you mean 'unit'?"),
     blade("unknown key at top level", "title =", "§titel =", "titel: unknown key", "did you mean 'title'?"),
@@ -94,7 +94,11 @@ UNKNOWN_NAMES = [
           "[trace] parameter: 'drag' is defined by an expression") + (('parameter = "omega"', '§parameter = "drag"'),),
     ("traced parameter named like a dataset", BLADE.replace("omega", "mode").replace("parameter =", "§parameter ="),
      ("cannot be called 'mode'", "rename it")),
-]
+] + [(f"traced parameter named {name}", BLADE.replace("omega", name).replace("parameter =", "§parameter ="),
+      (f"cannot be called '{name}'", "rename it"))
+     for name in ("step", "function", "end", "event", "step_length", "step_parameter", "dense_output", "dense_block",
+                  "dense_chart", "mode_block", "certified", "events", "event_parameter", "event_eigenvalue",
+                  "event_half_width", "event_puiseux", "event_node")]
 
 WRONG_TYPES = [
     blade("text where a number belongs", "mass   = 50.0", "§mass   = true",
@@ -113,6 +117,8 @@ WRONG_TYPES = [
     blade("number as element table", 'title = "Blade"', "§drags = 3\ntitle = 'x'", "drags: unknown key", "'drag'"),
     blade("number as gravity", 'title = "Blade"', "§gravity = 9.81", "gravity: expected a table [gravity]"),
     blade("text as order", "to = 5.0", 'to = 5.0\n§order = "high"', "[trace] order", "unknown parameter 'high'"),
+    blade("number as certify", "to = 5.0", "to = 5.0\n§certify = 1",
+          "[trace] certify: expected true or false, found a number"),
     blade("date", "mass   = 50.0", "mass   = §1979-05-27", "dates and times have no meaning in a scene"),
     blade("unit that is no text", 'unit = "rad/s"', "§unit = 1", "[parameters] omega: unit: expected a text"),
     blade_with("coordinate that is no axis", '[[fixed]]\npoint = "blade"\n§coordinate = "w"',
@@ -257,9 +263,12 @@ USAGE = [
     ("eval without a place", ["eval", "blade.h5"], ["--at"]),
     ("eval --at without a value", ["eval", "blade.h5", "--at"], ["--at"]),
     ("eval as csv and json", ["eval", "blade.h5", "--at", "50", "--csv", "--json"], ["--csv", "--json"]),
+    ("events as csv and json", ["events", "blade.h5", "--csv", "--json"], ["--csv", "--json"]),
+    ("events of no file", ["events"], ["FILE"]),
+    ("events at a place", ["events", "blade.h5", "--at", "50"], ["--at"]),
     ("info as json and scene", ["info", "blade.h5", "--json", "--scene"], ["--json", "--scene"]),
 ] + [(f"{command[0]} of {name}", [command[0], file, *command[1:]], [f"{file}: ", *fragments])
-     for command in (["eval", "--at", "50"], ["info"])
+     for command in (["eval", "--at", "50"], ["events"], ["info"])
      for name, file, fragments in [
          ("a missing file", "none.h5", ["no such file"]),
          ("a folder", "folder", ["folder"]),

@@ -10,9 +10,9 @@ import unittest
 import h5py
 import numpy as np
 
-from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, SCENES, ProgramTest, edited
+from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, SCENES, ProgramTest, edited
 
-COMMANDS = ["trace", "eval", "info", "explain"]
+COMMANDS = ["trace", "eval", "events", "info", "explain"]
 DEFAULT_TOLERANCE = 1e-6
 
 
@@ -97,12 +97,115 @@ class Eval(CommandTest):
         self.assertEqual([float(line.split(",")[0]) for line in text.splitlines()[1::2]], places)
 
 
+    def test_modes_that_do_not_exist_are_left_out(self):
+        self.trace(BIRTH)
+        rows = self.eval_rows("loci.h5", [0.5, 0.997, 0.998, 1.2])
+        self.assertEqual([row[:2] for row in rows],
+                         [(0.5, "mode 1"), (0.997, "mode 1"), (0.998, "mode 1"), (0.998, "mode 2"),
+                          (1.2, "mode 1"), (1.2, "mode 2")])
+        roots = [complex(-0.05, math.sqrt(0.9975 - p)) for p in (0.5, 0.997)]
+        roots += [-0.05 + sign * math.sqrt(p - 0.9975) for p in (0.998, 1.2) for sign in (1, -1)]
+        self.assert_within(np.array([s for *_, s in rows]), np.array(roots), DEFAULT_TOLERANCE)
+        self.assertEqual([row["mode"] for row in json.loads(self.run_well("eval", "loci.h5", "--at", "0.5", "--json"))],
+                         ["mode 1"])
+        self.assertEqual(len(self.run_well("eval", "loci.h5", "--at", "0.5").splitlines()), 2)
+
+
+class Events(CommandTest):
+    def events(self):
+        return list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
+
+    def test_csv_has_the_promised_header_and_a_row_per_event(self):
+        self.trace(BIRTH)
+        self.assertEqual(self.run_well("events", "loci.h5", "--csv").splitlines()[0], "kind,parameter,real,imag,modes")
+        collision, divergence = self.events()
+        self.assertEqual((collision["kind"], divergence["kind"]), ("collision", "divergence"))
+        self.assertAlmostEqual(float(collision["parameter"]), 0.9975, delta=1e-12)
+        self.assertAlmostEqual(float(collision["real"]), -0.05, delta=1e-7)
+        self.assertAlmostEqual(float(collision["imag"]), 0.0, delta=1e-7)
+        self.assertAlmostEqual(float(divergence["parameter"]), 1.0, delta=1e-12)
+        self.assertEqual((float(divergence["real"]), float(divergence["imag"])), (0.0, 0.0))
+        self.assertIn("1", collision["modes"].split(";"))
+        self.assertEqual(divergence["modes"], "1")
+
+    def test_csv_is_what_the_file_holds(self):
+        for scene in (BIRTH, CROSSING, BLADE):
+            with h5py.File(self.trace(scene, "--force")) as file:
+                self.assertEqual(self.run_well("events", "loci.h5", "--csv").splitlines()[1:],
+                                 file["events"].asstr()[:].tolist())
+
+    def test_json_holds_the_numbers_of_the_csv(self):
+        self.trace(BIRTH)
+        rows = json.loads(self.run_well("events", "loci.h5", "--json"))
+        keys = ["kind", "parameter", "real", "imag", "modes"]
+        self.assertEqual([{
+key: str(row[key]) for key in ("kind", "modes")} for row in rows],
+                         [{
+key: row[key] for key in ("kind", "modes")} for row in self.events()])
+        for key in ("parameter", "real", "imag"):
+            self.assertEqual([row[key] for row in rows], [float(row[key]) for row in self.events()])
+        self.assertEqual([list(row) for row in rows], [keys + ["puiseux"], keys])
+
+    def test_collision_has_its_puiseux_coefficient(self):
+        """s = -0.05 +- sqrt(p - 0.9975): the coefficient is 1, or its other root."""
+        self.trace(BIRTH)
+        collision = json.loads(self.run_well("events", "loci.h5", "--json"))[0]
+        self.assertAlmostEqual(complex(*collision["puiseux"]) ** 2, 1.0, places=9)
+
+    def test_crossing_names_both_modes(self):
+        self.trace(CROSSING)
+        crossing, = self.events()
+        self.assertEqual((crossing["kind"], crossing["modes"]), ("crossing", "1;2"))
+        self.assertAlmostEqual(float(crossing["parameter"]), 0.5, delta=1e-9)
+        self.assertAlmostEqual(float(crossing["imag"]), math.sqrt(1.5), delta=1e-9)
+
+    def test_veering_has_its_half_width(self):
+        """s^2 = -3/2 +- sqrt((p - 1/2)^2 + c^2): modes meet at p = 1/2 +- i c."""
+        self.trace(edited(CROSSING, "[[1, 0], [0, 2]]", "[[1, 0.003], [0.003, 2]]"))
+        veering, = json.loads(self.run_well("events", "loci.h5", "--json"))
+        self.assertEqual((veering["kind"], veering["modes"]), ("veering", "1;2"))
+        self.assertAlmostEqual(veering["parameter"], 0.5, delta=1e-6)
+        self.assertAlmostEqual(veering["half_width"], 0.003, delta=1e-6)
+
+    def test_table_for_people_names_its_columns(self):
+        self.trace(BIRTH)
+        lines = self.run_well("events", "loci.h5").splitlines()
+        self.assertRegex(lines[0], r"^ *kind +p +s +modes +remark$")
+        self.assertRegex(lines[1], r"^ *collision +0\.9975 +-0\.05 \+ \S+j +\S.* +Puiseux coefficient ")
+        self.assertRegex(lines[2], r"^ *divergence +1 +0 \+ 0j +1 *$")
+        self.assertEqual(len(lines), 3)
+
+    def test_both_directions_find_the_same(self):
+        self.trace(BIRTH, "--from", "1.5", "--to", "0")
+        collision, divergence = self.events()
+        self.assertEqual((collision["kind"], divergence["kind"]), ("collision", "divergence"))
+        self.assertAlmostEqual(float(collision["parameter"]), 0.9975, delta=1e-12)
+        self.assertAlmostEqual(float(divergence["parameter"]), 1.0, delta=1e-12)
+        self.assertEqual((collision["modes"], divergence["modes"]), ("1;2", "1"))
+        self.assertEqual([row[:2] for row in self.eval_rows("loci.h5", [0.5, 1.2])],  # mode 1 goes on as the pair
+                         [(0.5, "mode 1"), (1.2, "mode 1"), (1.2, "mode 2")])
+
+    def test_none_is_said_in_every_form(self):
+        self.trace(FAMILY)
+        self.assertEqual(self.run_well("events", "loci.h5"), "no special points between p = 0 and 1\n")
+        self.assertEqual(self.run_well("events", "loci.h5", "--csv"), "kind,parameter,real,imag,modes\n")
+        self.assertEqual(json.loads(self.run_well("events", "loci.h5", "--json")), [])
+
+    def test_summary_and_info_point_to_them(self):
+        self.write("scene.toml", BIRTH)
+        summary = self.run_well("trace", "scene.toml", "-o", "loci.h5")
+        self.assertRegex(summary, r"special points\n +collision +p = 0\.9975 .*\n +divergence +p = 1 ")
+        self.assertIn("2 special points; `eigentrail events` lists them", self.run_well("info", "loci.h5"))
+        self.assertEqual(json.loads(self.run_well("info", "loci.h5", "--json"))["events"], 2)
+
+
 class Info(CommandTest):
     def test_for_people_names_status_sizes_range_and_counts(self):
         self.trace(BLADE)
         text = self.run_well("info", "loci.h5")
         for fragment in ["Blade", "schema 1", "run completed", "3 coordinates, 1 constraints, 2 modes",
-                         "omega  100 -> 5 rad/s, tolerance 1e-06", "mode 2", "counts  equilibrium_factorizations"]:
+                         "omega  100 -> 5 rad/s, tolerance 1e-06", "mode 2", "certified", "100 %",
+                         "counts  certificate_factorizations", "equilibrium_factorizations"]:
             self.assertIn(fragment, text)
 
     def test_json_is_one_object_that_agrees_with_the_file(self):
@@ -115,6 +218,13 @@ class Info(CommandTest):
         self.assertEqual(info["modes"], ["mode 1", "mode 2"])
         self.assertEqual(info["coordinates"], ["blade.x", "blade.y", "blade.z"])
         self.assertEqual(info["constraints"], ["rod 1"])
+        self.assertEqual(info["certified_share"], {"mode 1": 1, "mode 2": 1})
+        self.assertEqual(info["events"], 0)
+
+    def test_mode_that_does_not_exist_at_an_end_is_a_dash(self):
+        self.trace(BIRTH)
+        text = self.run_well("info", "loci.h5")
+        self.assertRegex(text, r"\n +mode 2 +- +-0\.75887234 [+-] 0j +100 % ")
 
     def test_scene_comes_back_as_written(self):
         self.trace(BLADE)
@@ -184,11 +294,11 @@ class Trace(CommandTest):
 
     def test_a_second_run_gives_the_same_numbers(self):
         with h5py.File(self.trace(BLADE)) as one, h5py.File(self.trace(BLADE, output="two.h5")) as two:
-            for name in ["omega", "eigenvalue_series", "mode_shape", "equilibrium"]:
+            for name in ["omega", "eigenvalue", "dense_output", "certified", "mode_shape", "equilibrium"]:
                 np.testing.assert_array_equal(one[name][:], two[name][:])
 
     def test_up_and_down_agree_within_the_tolerance(self):
-        # At 5 rad/s, where the scene's own range ends, its guess leads to another equilibrium.
+# At 5 rad / s, where the scene's own range ends, its guess leads to another equilibrium.
         scene = (SCENES / "rotating_mass.toml").read_text(encoding="utf-8")
         self.trace(scene, "--from", "100", "--to", "10", output="down.h5")
         self.trace(scene, "--from", "10", "--to", "100", output="up.h5")
@@ -203,7 +313,9 @@ class Trace(CommandTest):
             p = file["omega"][:]
             self.assertEqual((p[0], p[-1]), (20.0, 30.0))
             self.assertLessEqual(np.max(np.diff(p)), 0.5 * (1.0 + 1e-12))
-            self.assertEqual(file["eigenvalue_series"].shape, (len(p), 1, 3))
+            self.assertEqual(file["eigenvalue"].shape, (len(p), 1))
+            self.assertEqual(file["dense_output"].shape, (len(p) - 1, 1, 2, 3))
+            self.assertEqual(file["step_parameter"].shape, (len(p) - 1, 2, 3))
             self.assertEqual(file.attrs["tolerance"], 1e-9)
             for key, text in {"from": "20", "to": "30", "modes": "1", "order": "2", "max_step": "0.5"}.items():
                 self.assertEqual(file.attrs["option_" + key], text)
@@ -233,6 +345,50 @@ class Trace(CommandTest):
             self.assertAlmostEqual(abs(file["eigenvalue_derivative"][0, 0]) / slope, 1.0, places=6)
 
 
+
+class TraceWithoutCertificate(CommandTest):
+    def trace_loudly(self, scene, *options):
+        self.write("scene.toml", scene)
+        return self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force", *options)
+
+    def check(self, scene, *options):
+        summary = self.trace_loudly(scene, *options)
+        self.assertIn("  identity  not certified (--no-certify)\n", summary)
+        self.assertNotIn("certified on every step", summary)
+        with h5py.File(self.folder / "loci.h5") as file:
+            certified, exists = file["certified"][:], file["mode_block"][:] >= 0
+            np.testing.assert_array_equal(certified, np.where(exists, 0, -1))
+            self.assertTrue(np.any(exists))
+            self.assertEqual(file.attrs["option_certify"], "false")
+            self.assertEqual(file.attrs["count_certified_mode_steps"], 0)
+            self.assertEqual(file.attrs["count_certificate_factorizations"], 0)
+        info = json.loads(self.run_well("info", "loci.h5", "--json"))
+        self.assertEqual(info["certified_share"], {
+mode: 0 for mode in info["modes"]})
+        self.assertIn("identity of mode 1 not certified from ", self.run_well("info", "loci.h5"))
+
+    def test_everything_is_marked_uncertified(self):
+        for scene in (BLADE, FAMILY, BIRTH, CROSSING):
+            self.check(scene, "--no-certify")
+
+    def test_the_scene_can_ask_for_it(self):
+        self.check(edited(BLADE, "to = 5.0", "to = 5.0\ncertify = false"))
+
+    def test_the_numbers_keep_their_tolerance(self):
+        self.trace(BLADE, "--no-certify")
+        places = np.linspace(5.0, 100.0, 137)
+        self.assert_within(self.eval_at("loci.h5", places), np.array([blade_eigenvalues(omega) for omega in places]),
+                           DEFAULT_TOLERANCE)
+
+    def test_without_the_flag_everything_here_is_certified(self):
+        for scene in (BLADE, FAMILY, BIRTH, CROSSING):
+            self.assertIn("  identity  certified on every step\n", self.trace_loudly(scene))
+            with h5py.File(self.folder / "loci.h5") as file:
+                np.testing.assert_array_equal(file["certified"][:], np.where(file["mode_block"][:] >= 0, 1, -1))
+                self.assertEqual(file.attrs["option_certify"], "true")
+            self.assertNotIn("not certified", self.run_well("info", "loci.h5"))
+
+
 class TraceOfAFamily(CommandTest):
     def test_matrices_in_hdf5_equal_those_in_the_scene(self):
         expected_file = self.trace(FAMILY)
@@ -245,7 +401,7 @@ class TraceOfAFamily(CommandTest):
         (scenes / "family.toml").write_text(FAMILY[:FAMILY.index("M =")] + 'file = "data/m.h5"\n', encoding="utf-8")
         self.run_well("trace", "scenes/family.toml", "-o", "from_hdf5.h5", "--quiet")
         with h5py.File(expected_file) as expected, h5py.File(self.folder / "from_hdf5.h5") as actual:
-            for name in ["p", "eigenvalue_series", "mode_shape"]:
+            for name in ["p", "eigenvalue", "dense_output", "mode_shape"]:
                 np.testing.assert_array_equal(actual[name][:], expected[name][:])
 
     def test_system_without_mass_is_followed(self):
@@ -275,13 +431,19 @@ class TraceThatEndsEarly(CommandTest):
         np.testing.assert_array_equal(self.eval_at("loci.h5", p), s)
         self.assertEqual(self.run_program("eval", "loci.h5", "--at", "5").returncode, EXIT_BAD_INPUT)
 
-    def test_at_the_end_of_a_branch_the_points_before_it_are_kept(self):
-        """The spring pendulum's branch ends in a pitchfork at k = mass g / length = 13.08 N/m."""
-        self.check(self.run_program("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10"),
-                   "the step became too small after k = 13.08")
+    def test_at_a_pitchfork_the_path_stays_on_its_branch(self):
+        """The spring pendulum's branch reaches its pitchfork at k = mass g / length = 13.08 N/m and runs back."""
+        self.run_well("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10", "--quiet")
+        events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
+        self.assertIn("pitchfork", [event["kind"] for event in events])
+        for event in events:
+            self.assertAlmostEqual(float(event["parameter"]), 13.08, places=6)
         k = 20.0
-        expected = 1j * math.sqrt(k / 2.0) * math.sqrt(1.0 - (13.08 / k) ** 2)
-        self.assert_within(self.eval_at("loci.h5", [k]), np.array([[expected]]), 1e-8)
+        expected = math.sqrt(k / 2.0) * math.sqrt(1.0 - (13.08 / k) ** 2)
+        rows = list(csv.DictReader(io.StringIO(self.run_well("eval", "loci.h5", "--at", k, "--csv"))))
+        self.assertGreaterEqual(len(rows), 1)
+        for row in rows:
+            self.assertAlmostEqual(float(row["imag"]), expected, places=7)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,10 @@
-"""The loci file of the rotating mass, opened by other people's software: h5py, and xarray without extra code."""
+"""The loci file of the rotating mass, opened by other people's software: h5py, and xarray without extra code.
 
+Its dense output, and that of scenes whose modes meet, evaluated as docs/loci-file.md says.
+"""
+
+import csv
+import io
 import pathlib
 import shutil
 import subprocess
@@ -10,7 +15,7 @@ import h5py
 import numpy as np
 import xarray
 
-from program import PROGRAM, SCENES, TIME_LIMIT
+from program import BIRTH, CROSSING, PROGRAM, SCENES, TIME_LIMIT, ProgramTest
 
 SCENE = SCENES / "rotating_mass.toml"
 MASS, LENGTH, HINGE = 50.0, 5.0, np.array([1.0, 0.0, 0.0])
@@ -21,7 +26,6 @@ LAYOUT = {
     "omega": (("node",), "rad/s"),
     "eigenvalue": (("node", "mode"), "1/s"),
     "eigenvalue_derivative": (("node", "mode"), "1/s/(rad/s)"),
-    "eigenvalue_series": (("node", "mode", "order"), "1/s/(rad/s)^order"),
     "frequency": (("node", "mode"), "rad/s"),
     "damping_ratio": (("node", "mode"), "1"),
     "mode_shape": (("node", "mode", "coordinate"), "1"),
@@ -29,9 +33,29 @@ LAYOUT = {
     "condition": (("node", "mode"), "1"),
     "equilibrium": (("node", "coordinate"), "m"),
     "multiplier": (("node", "constraint"), "1"),
+    "step_length": (("step",), "1"),
+    "step_parameter": (("step", "end", "order"), "rad/s"),
+    "dense_output": (("step", "function", "end", "order"), "1"),
+    "dense_block": (("step", "function"), "1"),
+    "dense_chart": (("step", "function"), "1"),
+    "mode_block": (("step", "mode"), "1"),
+    "certified": (("step", "mode"), "1"),
+    "events": (("event",), "1"),
+    "event_parameter": (("event",), "rad/s"),
+    "event_eigenvalue": (("event",), "1/s"),
+    "event_half_width": (("event",), "rad/s"),
+    "event_puiseux": (("event",), "1/s"),
+    "event_node": (("event",), "1"),
 }
-DIMENSIONS = {"node", "mode", "coordinate", "constraint", "order"}
-COMPLEX = {"eigenvalue", "eigenvalue_derivative", "eigenvalue_series", "mode_shape"}
+DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event"}
+COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux"}
+WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node"}
+
+
+def type_of(name):
+    if name == "events":
+        return np.dtype(object)  # text
+    return np.dtype(np.complex128 if name in COMPLEX else np.int64 if name in WHOLE else np.float64)
 
 
 def setUpModule():
@@ -51,8 +75,7 @@ class InH5py(unittest.TestCase):
         self.addCleanup(self.file.close)
 
     def test_datasets_are_those_of_the_schema(self):
-        # Events are stored once they have been looked for.
-        self.assertEqual(set(self.file) - {"events"}, set(LAYOUT) | DIMENSIONS)
+        self.assertEqual(set(self.file), set(LAYOUT) | DIMENSIONS)
 
     def test_every_dimension_has_its_scale(self):
         for name, (dimensions, _) in LAYOUT.items():
@@ -63,11 +86,15 @@ class InH5py(unittest.TestCase):
                                  [["/" + d] for d in dimensions])
 
     def test_dimensions_are_labelled(self):
-        labels = {name: self.file[name].asstr()[:].tolist() for name in ("mode", "coordinate", "constraint")}
+        labels = {name: self.file[name].asstr()[:].tolist() for name in ("mode", "coordinate", "constraint", "end")}
         self.assertEqual(labels, {"mode": ["mode 1", "mode 2"], "coordinate": ["blade.x", "blade.y", "blade.z"],
-                                  "constraint": ["rod 1"]})
-        for name in ("node", "order"):
+                                  "constraint": ["rod 1"], "end": ["left", "right"]})
+        for name in ("node", "step", "function", "order", "event"):
             np.testing.assert_array_equal(self.file[name][:], np.arange(len(self.file[name])))
+
+    def test_a_step_joins_a_point_and_the_next(self):
+        self.assertEqual(len(self.file["step"]), len(self.file["node"]) - 1)
+        self.assertEqual(len(self.file["order"]), 4)
 
     def test_everything_has_units_and_a_long_name(self):
         for name, dataset in self.file.items():
@@ -75,10 +102,10 @@ class InH5py(unittest.TestCase):
                 self.assertEqual(dataset.attrs["units"], LAYOUT.get(name, ((), "1"))[1])
                 self.assertTrue(dataset.attrs["long_name"])
 
-    def test_complex_numbers_read_as_such(self):
+    def test_complex_and_whole_numbers_read_as_such(self):
         for name in LAYOUT:
             with self.subTest(name):
-                self.assertEqual(self.file[name].dtype, np.complex128 if name in COMPLEX else np.float64)
+                self.assertEqual(self.file[name].dtype, type_of(name))
 
     def test_root_says_how_the_file_was_made(self):
         attributes = self.file.attrs
@@ -92,12 +119,18 @@ class InH5py(unittest.TestCase):
         options = {name[7:]: text for name, text in attributes.items() if name.startswith("option_")}
         self.assertEqual(options, {
             "parameter": "omega", "from": "100", "to": "5", "tolerance": "1e-08", "modes": "all", "order": "3",
-            "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000"})
+            "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000",
+            "certify": "true"})
+        self.assertGreater(attributes["reference"], 0.0)
+        self.assertEqual(attributes["notes"], "")
 
     def test_counts_fit_the_data(self):
         counts = {name[6:]: int(n) for name, n in self.file.attrs.items() if name.startswith("count_")}
         n_nodes, n_modes = self.file["eigenvalue"].shape
         self.assertEqual((counts["nodes"], counts["modes_available"]), (n_nodes, n_modes))
+        self.assertEqual(counts["events"], len(self.file["events"]))
+        self.assertEqual(counts["mode_steps"], np.sum(self.file["mode_block"][:] >= 0))
+        self.assertEqual(counts["certified_mode_steps"], np.sum(self.file["certified"][:] == 1))
         points = n_nodes + counts["rejected_steps"]
         self.assertGreaterEqual(counts["mode_factorizations"], n_nodes * n_modes)
         self.assertGreaterEqual(counts["mode_iterations"], n_nodes * n_modes)
@@ -122,17 +155,49 @@ class Numbers(unittest.TestCase):
         np.testing.assert_allclose(self.data["frequency"], np.abs(s), rtol=ROUNDING)
         np.testing.assert_allclose(self.data["damping_ratio"], -s.real / np.abs(s), rtol=ROUNDING)
 
-    def test_series_begins_with_eigenvalue_and_derivative(self):
-        np.testing.assert_array_equal(self.data["eigenvalue_series"][..., 0], self.data["eigenvalue"])
-        np.testing.assert_array_equal(self.data["eigenvalue_series"][..., 1], self.data["eigenvalue_derivative"])
+    def test_every_mode_is_a_block_of_its_own_that_follows_s(self):
+        for name in ("dense_block", "mode_block"):
+            np.testing.assert_array_equal(self.data[name], np.tile([0, 1], (len(self.data["step_length"]), 1)))
+        self.assertFalse(np.any(self.data["dense_chart"]))
+
+    def test_every_step_is_certified(self):
+        self.assertTrue(np.all(self.data["certified"] == 1))
+
+    def test_series_begin_with_eigenvalue_and_derivative(self):
+        for end, nodes in enumerate((slice(None, -1), slice(1, None))):
+            series = self.data["dense_output"][:, :, end]
+            np.testing.assert_array_equal(series[..., 0], self.data["eigenvalue"][nodes])
+            np.testing.assert_array_equal(series[..., 1], self.data["eigenvalue_derivative"][nodes])
+
+    def test_away_from_folds_the_parameter_is_the_coordinate(self):
+        omega, series = self.data["omega"], self.data["step_parameter"]
+        np.testing.assert_array_equal(series[:, 0, 0], omega[:-1])
+        np.testing.assert_array_equal(series[:, 1, 0], omega[1:])
+        np.testing.assert_array_equal(series[..., 1], 1.0)
+        np.testing.assert_array_equal(series[..., 2:], 0.0)
+        np.testing.assert_allclose(self.data["step_length"], np.diff(omega), rtol=ROUNDING)
+
+    def test_flutter_is_the_one_event(self):
+        line, = self.data["events"]
+        kind, place, real, imag, modes = line.decode().split(",")
+        self.assertEqual((kind, modes), ("flutter", "1"))
+        self.assertEqual(float(place), self.data["event_parameter"][0])
+        self.assertEqual(complex(float(real), float(imag)), self.data["event_eigenvalue"][0])
+        self.assertAlmostEqual(float(place), 12.44, delta=0.005)
+        self.assertAlmostEqual(self.data["event_eigenvalue"][0].real, 0.0, delta=1e-8)
+        self.assertTrue(np.isnan(self.data["event_half_width"][0]))
+        self.assertTrue(np.isnan(self.data["event_puiseux"][0]))
+        node, omega = self.data["event_node"][0], self.data["omega"]
+        self.assertTrue(omega[node] <= self.data["event_parameter"][0] < omega[node - 1])
+        self.assertTrue(self.data["eigenvalue"][node - 1, 0].real < 0.0 <= self.data["eigenvalue"][node, 0].real)
 
     def test_series_leads_to_the_next_point(self):
         """Its remainder is of fourth order: |s(p + h) - sum| shrinks with h^4, far below the linear term."""
-        series = self.data["eigenvalue_series"]
-        step = np.diff(self.data["omega"])[:, np.newaxis]
-        predicted = sum(series[:-1, :, k] * step**k for k in range(4))
+        series = self.data["dense_output"][:, :, 0]
+        step = self.data["step_length"][:, np.newaxis]
+        predicted = sum(series[..., k] * step**k for k in range(4))
         miss = np.abs(predicted - self.data["eigenvalue"][1:])
-        self.assertLess(np.max(miss / np.abs(series[:-1, :, 1] * step)), 1e-2)
+        self.assertLess(np.max(miss / np.abs(series[..., 1] * step)), 1e-2)
 
     def test_a_pair_is_its_member_above_the_real_axis(self):
         self.assertTrue(np.all(self.data["eigenvalue"].imag >= 0.0))
@@ -182,7 +247,7 @@ class InXarray(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(self.set[name].dims, dimensions)
                 self.assertEqual(self.set[name].attrs["units"], unit)
-                self.assertEqual(self.set[name].dtype, np.complex128 if name in COMPLEX else np.float64)
+                self.assertEqual(self.set[name].dtype, type_of(name))
 
     def test_traced_parameter_is_a_coordinate_of_everything_along_the_path(self):
         for name, (dimensions, _) in LAYOUT.items():
@@ -214,9 +279,195 @@ class InXarray(unittest.TestCase):
         stable = growth.omega[growth < 0.0].min()
         self.assertTrue(float(unstable) < 12.44 < float(stable))
 
+    def test_steps_and_events_are_read_by_their_labels(self):
+        left = self.set.dense_output.sel(step=0, function=0, end="left", order=0)
+        self.assertEqual(complex(left), complex(self.set.eigenvalue.sel(node=0, mode="mode 1")))
+        self.assertEqual(str(self.set.events.sel(event=0).values).split(",")[0], "flutter")
+
     def test_root_attributes_arrive(self):
         self.assertEqual(self.set.attrs["format"], "eigentrail-loci")
         self.assertEqual(self.set.attrs["scene"], SCENE.read_text(encoding="utf-8"))
+
+
+class Birth(ProgramTest):
+    """Mode 1 of BIRTH, a pair, becomes two real modes at p = 0.9975; the second one gets a column there."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", BIRTH)
+        self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
+        with h5py.File(self.folder / "loci.h5") as file:
+            self.data = {name: dataset[()] for name, dataset in file.items()}
+        self.before = self.data["p"] < 0.9975 - 1e-9
+        self.behind = self.data["p"] > 0.9975 + 1e-9
+
+    def test_a_point_lies_on_either_side_and_one_on_the_meeting(self):
+        self.assertTrue(np.any(self.before) and np.any(self.behind))
+        self.assertEqual(np.sum(~self.before & ~self.behind), 1)
+
+    def test_the_column_grows_in_every_dataset(self):
+        self.assertEqual(self.data["mode"].tolist(), [b"mode 1", b"mode 2"])
+        for name, (dimensions, _) in LAYOUT.items():
+            if "mode" in dimensions:
+                self.assertEqual(self.data[name].shape[1], 2, name)
+
+    def test_mode_2_is_nan_before_the_meeting_and_exists_from_there(self):
+        for name in ("eigenvalue", "frequency", "damping_ratio", "residual", "condition", "mode_shape"):
+            absent = np.isnan(self.data[name].reshape(len(self.data["p"]), 2, -1)).any(axis=2)
+            self.assertFalse(np.any(absent[:, 0]), name)
+            np.testing.assert_array_equal(absent[:, 1], self.before, name)
+        self.assertTrue(np.all(np.isnan(self.data["eigenvalue_derivative"][self.before, 1])))
+        self.assertTrue(np.all(np.isfinite(self.data["eigenvalue_derivative"][self.behind])))
+
+    def test_steps_say_where_it_exists(self):
+        for name in ("mode_block", "certified"):
+            np.testing.assert_array_equal(self.data[name][:, 1] == -1, self.before[:-1], name)
+            self.assertTrue(np.all(self.data[name][:, 0] >= 0), name)
+        for blocks, functions in zip(self.data["mode_block"], self.data["dense_block"]):
+            for block in set(blocks) - {-1}:
+                self.assertGreaterEqual(np.sum(functions == block), np.sum(blocks == block))
+
+    def test_eigenvalues_are_those_of_the_closed_form(self):
+        root = np.sqrt(self.data["p"] - 0.9975 + 0j)
+        away = self.before | self.behind
+        np.testing.assert_allclose(self.data["eigenvalue"][away, 0], (-0.05 + root)[away], rtol=1e-9)
+        np.testing.assert_allclose(self.data["eigenvalue"][self.behind, 1], (-0.05 - root)[self.behind], rtol=1e-9)
+        at = ~away
+        np.testing.assert_allclose(self.data["eigenvalue"][at], -0.05, atol=1e-6)  # uncertain as a double root is
+
+    def test_derivative_is_nan_where_they_meet(self):
+        self.assertTrue(np.all(np.isnan(self.data["eigenvalue_derivative"][~self.before & ~self.behind])))
+
+    def test_collision_and_divergence_are_stored(self):
+        kinds = [line.decode().split(",")[0] for line in self.data["events"]]
+        self.assertEqual(kinds, ["collision", "divergence"])
+        np.testing.assert_allclose(self.data["event_parameter"], [0.9975, 1.0], rtol=ROUNDING)
+        np.testing.assert_allclose(self.data["event_eigenvalue"], [-0.05, 0.0], atol=1e-7)
+        self.assertTrue(np.all(np.isnan(self.data["event_half_width"])))
+        self.assertAlmostEqual(self.data["event_puiseux"][0] ** 2, 1.0, places=9)
+        self.assertTrue(np.isnan(self.data["event_puiseux"][1]))
+        for node, place in zip(self.data["event_node"], self.data["event_parameter"]):
+            self.assertTrue(self.data["p"][node - 1] < place <= self.data["p"][node] + ROUNDING)
+
+
+def between(h, left, right, t):
+    """The polynomial of degree 2q + 1 that shares the series (last axis) at both ends of a step of length h."""
+    if t > 0.5:
+        return between(-h, right, left, 1.0 - t)
+    n = left.shape[-1]
+    table = {}
+    for i in range(1, n + 1):
+        table[i, 0], table[0, i] = left[..., i - 1] * h ** (i - 1), right[..., i - 1] * h ** (i - 1)
+    for i in range(1, n + 1):
+        for j in range(1, n + 1):
+            table[i, j] = table[i - 1, j] - table[i, j - 1]
+    return sum((t * (t - 1.0)) ** k * (table[k + 1, k] + table[k + 1, k + 1] * t) for k in range(n))
+
+
+def roots_of_block(functions):
+    """Of one function, or of tau and delta."""
+    if len(functions) == 1:
+        return functions
+    tau, delta = functions
+    return tau + np.sqrt(delta) * np.array([1.0, -1.0])
+
+
+def in_order_of(known, roots):
+    """Two roots in the order nearest to the known values."""
+    swapped = roots[::-1]
+    n = len(known)
+    return swapped if np.sum(np.abs(swapped[:n] - known)) < np.sum(np.abs(roots[:n] - known)) else roots
+
+
+def followed(roots_at, start, a, b):
+    """The roots at b in the order of those at a; in halves, until they move little compared with their gap."""
+    middle = in_order_of(start, roots_at(0.5 * (a + b)))
+    end = in_order_of(middle, roots_at(b))
+    moved = max(np.max(np.abs(middle - start)), np.max(np.abs(end - middle)))
+    if moved < 0.3 * min(abs(s[0] - s[1]) for s in (start, middle, end)) or abs(b - a) < 1e-6:
+        return end
+    return followed(roots_at, followed(roots_at, start, a, 0.5 * (a + b)), 0.5 * (a + b), b)
+
+
+def dense_eigenvalues(data, parameter, place):
+    """Eigenvalues of all modes where the parameter is the path's coordinate; NaN for modes that do not exist."""
+    begin, h = data[parameter][:-1], data["step_length"]
+    step = np.flatnonzero((place - begin) / h <= 1.0)
+    step = step[(place - begin[step]) / h[step] >= 0.0][0]
+    t = (place - begin[step]) / h[step]
+    eigenvalues = np.full(len(data["mode"]), complex(np.nan, np.nan))
+    for block in set(data["mode_block"][step]) - {-1}:
+        modes, = np.nonzero(data["mode_block"][step] == block)
+        left, right = np.moveaxis(data["dense_output"][step][data["dense_block"][step] == block], 1, 0)
+        follows_reciprocal = data["dense_chart"][step, block] == 1
+
+        def roots_at(t, left=left, right=right):
+            return roots_of_block(between(h[step], left, right, t))
+
+        roots = roots_at(t)
+        if len(roots) == 2:
+            end = max((0, 1), key=lambda end: abs(np.subtract(*roots_at(float(end)))))
+            known = data["eigenvalue"][step + end, modes]
+            named = in_order_of(1.0 / known if follows_reciprocal else known, roots_at(float(end)))
+            roots = followed(roots_at, named, float(end), t)
+        eigenvalues[modes] = (1.0 / roots if follows_reciprocal else roots)[:len(modes)]
+    return np.where(eigenvalues.imag < 0.0, np.conj(eigenvalues), eigenvalues)
+
+#(p - 1 / 2) s ^ 2 + s + 1 = 0 : the second root passes through infinity at p = 1 / 2.
+THROUGH_INFINITY = """\
+[trace]
+parameter = "p"
+from = 0
+to = 0.7
+
+[matrix_family]
+M = [[[-0.5]], [[1]]]
+C = [[[1]]]
+K = [[[1]]]
+"""
+
+
+class DenseOutput(ProgramTest):
+    def check(self, scene, parameter, places, block_sizes, charts=(0,)):
+        """numpy and eval agree at all places; blocks of these sizes and charts occur."""
+        self.write("scene.toml", scene)
+        self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
+        with h5py.File(self.folder / "loci.h5") as file:
+            data = {name: dataset[()] for name, dataset in file.items()}
+        sizes = {int(n) for row in data["dense_block"] for n in np.unique(row[row >= 0], return_counts=True)[1]}
+        self.assertEqual(sizes, set(block_sizes))
+        self.assertEqual(set(data["dense_chart"].ravel().tolist()) - {-1}, set(charts))
+
+        text = self.run_well("eval", "loci.h5", "--csv", "--at", *map(repr, map(float, places)))
+        expected = np.full((len(places), len(data["mode"])), complex(np.nan, np.nan))
+        names = [name.decode() for name in data["mode"]]
+        where = {float(place): i for i, place in enumerate(places)}
+        for row in csv.DictReader(io.StringIO(text)):
+            expected[where[float(row["parameter"])], names.index(row["mode"])] = complex(float(row["real"]),
+                                                                                         float(row["imag"]))
+        actual = np.array([dense_eigenvalues(data, parameter, place) for place in places])
+        np.testing.assert_allclose(actual, expected, rtol=1e-10, atol=1e-13, equal_nan=True)
+        return actual
+
+    def test_blocks_of_one(self):
+        self.check(SCENE.read_text(encoding="utf-8"), "omega", np.linspace(5.0, 100.0, 173), [1])
+
+    def test_block_of_two_that_holds_a_pair_and_then_two_real_modes(self):
+        places = np.linspace(0.0, 1.5, 151)
+        s = self.check(BIRTH, "p", places, [1, 2])
+        np.testing.assert_array_equal(np.isnan(s[:, 1]), places < 0.9975)
+
+    def test_block_of_two_modes_that_cross(self):
+        places = np.linspace(0.0, 1.0, 152)  # not the crossing itself
+        s = self.check(CROSSING, "p", places, [1, 2])
+        np.testing.assert_allclose(s, 1j * np.sqrt(np.column_stack([1.0 + places, 2.0 - places])), rtol=1e-6)
+
+    def test_chart_of_a_mode_that_passes_through_infinity(self):
+        places = np.linspace(0.0, 0.7, 139)  # not p = 1/2 itself
+        s = self.check(THROUGH_INFINITY, "p", places, [1, 2], charts=[0, 1])
+        m = places - 0.5
+        roots = -2.0 / (1.0 + np.array([[1.0], [-1.0]]) * np.sqrt(1.0 - 4.0 * m))
+        np.testing.assert_allclose(s, roots.T, rtol=1e-4)
 
 
 if __name__ == "__main__":

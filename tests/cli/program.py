@@ -60,6 +60,31 @@ M = [[[1, 0], [0, 1]]]
 K = [[[1, 0], [0, 2]], [[0, 1], [1, 0]]]
 """
 
+# s^2 + 0.1 s + 1 - p = 0: a pair, s = -0.05 +- sqrt(p - 0.9975), that becomes two real modes; one is zero at p = 1.
+BIRTH = """\
+[trace]
+parameter = "p"
+from = 0
+to = 1.5
+
+[matrix_family]
+M = [[[1]]]
+C = [[[0.1]]]
+K = [[[1]], [[-1]]]
+"""
+
+# Two oscillators without coupling, s^2 = -(1 + p) and s^2 = -(2 - p): they cross at p = 1/2.
+CROSSING = """\
+[trace]
+parameter = "p"
+from = 0
+to = 1
+
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+K = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]
+"""
+
 
 def edited(scene, old, new):
     """The scene with its one occurrence of `old` replaced."""

@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from program import BLADE, FAMILY, ProgramTest
+from program import BIRTH, BLADE, CROSSING, FAMILY, ProgramTest
 
 
 class Verify(ProgramTest):
@@ -28,10 +28,19 @@ class Verify(ProgramTest):
     def test_the_same_seed_gives_the_same_report(self):
         self.assertEqual(self.verify("--seed", "7").stdout, self.verify("--seed", "7").stdout)
 
-    def test_family_of_matrices_passes(self):
-        self.write("scene.toml", FAMILY)
+    def assert_passes(self, scene):
+        self.write("scene.toml", scene)
         self.assertEqual(self.run_program("trace", "scene.toml", "-o", "blade.h5", "--force").returncode, 0)
         self.assertEqual(self.verify().returncode, 0)
+
+    def test_family_of_matrices_passes(self):
+        self.assert_passes(FAMILY)
+
+    def test_a_pair_that_becomes_two_real_modes_passes(self):
+        self.assert_passes(BIRTH)
+
+    def test_a_crossing_passes(self):
+        self.assert_passes(CROSSING)
 
     def assert_fails(self):
         run = self.verify()
@@ -40,25 +49,25 @@ class Verify(ProgramTest):
 
     def test_eigenvalues_off_by_twice_the_tolerance_fail(self):
         def edit(file):
-            series = file["eigenvalue_series"][...]
-            series[:, 0, 0] *= 1 + 2 * file.attrs["tolerance"]
-            file["eigenvalue_series"][...] = series
+            series = file["dense_output"][...]  # step, function (of BLADE: one for each mode), end, order
+            series[:, 0, :, 0] *= 1 + 2 * file.attrs["tolerance"]
+            file["dense_output"][...] = series
         self.change(edit)
         self.assert_fails()
 
     def test_one_wrong_derivative_fails(self):
         def edit(file):
-            series = file["eigenvalue_series"][...]
-            series[:, 1, 1] *= 1.01
-            file["eigenvalue_series"][...] = series
+            series = file["dense_output"][...]
+            series[:, 1, :, 1] *= 1.01
+            file["dense_output"][...] = series
         self.change(edit)
         self.assert_fails()
 
     def test_a_doubled_mode_fails(self):
         def edit(file):
-            series = file["eigenvalue_series"][...]
+            series = file["dense_output"][...]
             series[:, 1] = series[:, 0]
-            file["eigenvalue_series"][...] = series
+            file["dense_output"][...] = series
         self.change(edit)
         self.assert_fails()
 

@@ -74,12 +74,26 @@ TEST(StepControl, FailedStepsShrinkUntilExhausted) {
   EXPECT_LT(tries, 40);
 }
 
-TEST(StepControl, ConvertsTheMissIntoTheErrorInside) {
-  // Equal steps: ((1/4) h^2 / (h (h + h)))^(q+1) = (1/8)^(q+1).
-  StepControl control(1, 0.1, 0.5, 1e-11 * 1.0);
-  control.accept(0.1, 0.3);
-  const double miss = 0.3 * 64.0;
-  EXPECT_NEAR(control.error_from_miss(0.1, miss), 0.3, 1e-12);
+TEST(StepControl, GrowsByTheRootOfTheErrorsOrder) {
+  // The error of the interpolant of order q goes with h^(2q+2): the next step aims at three tenths of what is
+  // accepted.
+  for (int order = 1; order <= 4; ++order) {
+    StepControl control(order, 1.0, 50.0, 1e-10);
+    control.accept(1.0, 0.01);
+    EXPECT_NEAR(control.step(), std::min(std::pow(30.0, 1.0 / (2.0 * order + 2.0)), 2.5), 1e-12)
+        << "order " << order;
+  }
+}
+
+TEST(StepControl, DoesNotGrowRightAfterARejection) {
+  StepControl control(3, 1.0, 50.0, 1e-10);
+  control.reject(1.0, 8.0);
+  const double h = control.step();
+  EXPECT_LT(h, 1.0);
+  control.accept(h, 1e-6);
+  EXPECT_EQ(control.step(), h);
+  control.accept(h, 1e-6);
+  EXPECT_GT(control.step(), h);
 }
 
 }  // namespace

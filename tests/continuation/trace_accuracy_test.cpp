@@ -97,12 +97,27 @@ INSTANTIATE_TEST_SUITE_P(
              "Order" + std::to_string(info.param.order);
     });
 
+/// Factorizations per mode and point; the points that special points were located with count as well.
+double factorizations_per_point(const TraceResult& result) {
+  int points = result.nodes;
+  for (const Event& event : result.events) points += event.retrackings;
+  return static_cast<double>(result.counts.modes.factorizations) /
+         (result.n_modes * static_cast<double>(points));
+}
+
 TEST(TraceWork, OneFactorizationPerModeAndStep) {
   for (const char* tolerance : {"1e-6", "1e-8", "1e-10"}) {
     const RecordedTrace recorded = record_trace(scene_setting("rotating_mass", {{"tolerance", tolerance}}));
-    const double per_step = static_cast<double>(recorded.result.counts.modes.factorizations) /
-                            (recorded.result.n_modes * static_cast<double>(recorded.result.nodes));
-    EXPECT_LE(per_step, 1.10) << "tolerance " << tolerance;
+    EXPECT_LE(factorizations_per_point(recorded.result), 1.10) << "tolerance " << tolerance;
+  }
+}
+
+TEST(TraceWork, OneFactorizationPerModeAndStepWhereNothingHappens) {
+  for (const char* tolerance : {"1e-6", "1e-8", "1e-10"}) {
+    const RecordedTrace recorded =
+        record_trace(scene_setting("rotating_mass", {{"tolerance", tolerance}, {"to", "20"}}));
+    EXPECT_TRUE(recorded.result.events.empty());
+    EXPECT_LE(factorizations_per_point(recorded.result), 1.10) << "tolerance " << tolerance;
   }
 }
 

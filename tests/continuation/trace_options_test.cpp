@@ -19,12 +19,15 @@ TEST(TraceOptions, DefaultsAreDocumented) {
   EXPECT_EQ(options.tolerance, 1e-6);
   EXPECT_EQ(options.order, 3);
   EXPECT_FALSE(options.modes || options.reference || options.first_step || options.max_step);
+  EXPECT_TRUE(options.certify);
 }
 
 TEST(TraceOptions, CommandLineOverridesTheScene) {
-  const TraceOptions options = read("parameter = \"p\"\nfrom = 0\nto = 1\nmodes = 3\n",
-                                    {{"to", "2.5"}, {"modes", "all"}, {"tolerance", "1e-9"}});
+  const TraceOptions options =
+      read("parameter = \"p\"\nfrom = 0\nto = 1\nmodes = 3\n",
+           {{"to", "2.5"}, {"modes", "all"}, {"tolerance", "1e-9"}, {"certify", "false"}});
   EXPECT_EQ(options.to, 2.5);
+  EXPECT_FALSE(options.certify);
   EXPECT_FALSE(options.modes);
   EXPECT_EQ(options.tolerance, 1e-9);
 }
@@ -49,6 +52,8 @@ TEST(TraceOptions, ProvenanceListsEveryOption) {
   EXPECT_NE(std::find(texts.begin(), texts.end(), std::pair<std::string, std::string>("from", "0.1")),
             texts.end());
   EXPECT_NE(std::find(texts.begin(), texts.end(), std::pair<std::string, std::string>("modes", "all")),
+            texts.end());
+  EXPECT_NE(std::find(texts.begin(), texts.end(), std::pair<std::string, std::string>("certify", "true")),
             texts.end());
 }
 
@@ -78,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"NoModes", "to = 1\nmodes = 0\n", "[trace] modes: must be at least 1"},
         BadOption{"ModesText", "to = 1\nmodes = \"some\"\n", "[trace] modes"},
         BadOption{"NegativeStep", "to = 1\nmax_step = -1\n", "[trace] max_step: must be positive"},
+        BadOption{"CertifyText", "to = 1\ncertify = \"no\"\n", "[trace] certify: expected true or false"},
+        BadOption{"CertifyNumber", "to = 1\ncertify = 1\n", "[trace] certify: expected true or false"},
         BadOption{"UnknownKey", "to = 1\ntolerence = 1e-3\n", "did you mean 'tolerance'?"}),
     [](const auto& info) { return info.param.name; });
 

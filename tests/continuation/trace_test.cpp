@@ -1,9 +1,13 @@
 // The trace loop: identity of modes, outcomes as values, independence of the choice of basis.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "eigentrail/modes/regroup.hpp"
 #include "support/scenes.hpp"
+#include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -16,15 +20,20 @@ TEST(Trace, RandomBasisAtEveryPointChangesNoEigenvalue) {
   RunCounts counts;
   counts.evaluations = setting.model->new_counts();
   for (const PathNode& node : recorded.nodes) {
-    Prediction prediction{
-        {node.path.x.col(0), node.path.lambda.col(0), true}, node.s.col(0), ComplexMatrix(3, 2)};
-    for (int i = 0; i < 2; ++i) prediction.shapes.col(i) = node.shapes[static_cast<std::size_t>(i)].col(0);
-    const PathPoint aligned = compute_point(problem, node.p, prediction, node.basis, counts);
-    for (int i = 0; i < 2; ++i) {
-      const Complex s = node.s(i, 0);
-      EXPECT_LT(std::abs(aligned.modes[static_cast<std::size_t>(i)].s - s), 1e-13 * std::abs(s))
-          << "at " << node.p;
+    Prediction prediction{node.p, {node.path.x.col(0), node.path.lambda.col(0), true}, {}};
+    for (const Track& track : node.tracks) {
+      prediction.pairs.push_back(track.pair);
+      prediction.pairs.back().Z = track.series.Z[0];
     }
+    const PathPoint aligned = compute_point(problem, prediction, node.basis.T[0], counts);
+    ASSERT_EQ(aligned.status, PointStatus::computed);
+    std::vector<Complex> expected, found;
+    for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+      for (const Complex s : node.tracks[i].roots) expected.push_back(s);
+      for (const Complex s : pair_eigenvalues(aligned.pairs[i])) found.push_back(s);
+    }
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_LT(matched_distance(expected, found), 1e-13) << "at " << node.p;
   }
 }
 
@@ -57,7 +66,7 @@ TEST(Trace, FollowsTheModesOfLeastMagnitude) {
   const RecordedTrace recorded = record_trace(scene_setting("rotating_mass", {{"modes", "1"}}));
   EXPECT_EQ(recorded.result.n_modes, 1);
   EXPECT_EQ(recorded.result.n_available, 2);
-  EXPECT_NEAR(recorded.nodes.front().s(0, 0).imag(), 44.72, 0.01);
+  EXPECT_NEAR(recorded.modes.front()[0].s.imag(), 44.72, 0.01);
 }
 
 TEST(Trace, ModesThatCrossKeepTheirIdentity) {
@@ -90,6 +99,14 @@ TEST(Trace, ModesThatVeerKeepTheirOrder) {
   }
 }
 
+/// ds/dp of a mode at a point.
+Complex slope_of(const std::vector<ModeState>& modes, int mode) {
+  for (const ModeState& state : modes) {
+    if (state.mode == mode) return state.slope;
+  }
+  throw std::out_of_range("no such mode");
+}
+
 TEST(Trace, DerivativesAreRefinedBesideAVeering) {
   // Long steps at a loose tolerance predict poorly beside a veering of half-width 0.02, and the factors
   // belong to the prediction.
@@ -98,11 +115,12 @@ TEST(Trace, DerivativesAreRefinedBesideAVeering) {
       "[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nK = [ [[4, 0.02], [0.02, 4]], [[1, 0], [0, -1]] ]\n");
   const RecordedTrace recorded = record_trace(setting);
   ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  for (const PathNode& node : recorded.nodes) {
+  for (std::size_t i = 0; i < recorded.nodes.size(); ++i) {
+    const PathNode& node = recorded.nodes[i];
     const double root = std::hypot(node.p, 0.02);
     for (const auto& [mode, sign] : {std::pair(0, -1.0), std::pair(1, 1.0)}) {
       const double expected = sign * node.p / root / (2.0 * std::sqrt(4.0 + sign * root));
-      EXPECT_NEAR(node.s(mode, 1).imag(), expected, 1e-10) << "at " << node.p;
+      EXPECT_NEAR(slope_of(recorded.modes[i], mode).imag(), expected, 1e-10) << "at " << node.p;
     }
   }
 }
@@ -135,11 +153,89 @@ TEST(Trace, EveryOutcomeAtTheStartIsAStatusWithAReason) {
   EXPECT_EQ(singular.result.status, TraceStatus::singular_pencil);
   EXPECT_FALSE(has_started(singular.result.status));
   EXPECT_TRUE(singular.nodes.empty());
-  const RecordedTrace defective =
-      record_trace(family("[ [[1, 0], [0, 1]] ]", "[ [[1, 0.5], [-0.5, 2]], [[1, 0], [0, 0]] ]"));
-  EXPECT_EQ(defective.result.status, TraceStatus::multiple_mode) << defective.result.message;
-  EXPECT_FALSE(defective.result.message.empty());
 }
+
+TEST(Trace, StartsAtAnExceptionalPoint) {
+  // K = [[1 + p, 1/2], [-1/2, 2]]: both modes are one at p = 0, where s^2 = -3/2. Behind it
+  // s^2 = -(3 + p) / 2 +- sqrt(p (p - 2)) / 2.
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
+      "K = [ [[1, 0.5], [-0.5, 2]], [[1, 0], [0, 0]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  ASSERT_EQ(recorded.result.n_columns, 2);
+  for (int i = 1; i <= 40; ++i) {
+    const double p = i / 40.0;
+    const Complex root = std::sqrt(Complex(p * (p - 2.0)));
+    const std::vector<Complex> expected{std::sqrt(0.5 * (-3.0 - p + root)),
+                                        -std::sqrt(0.5 * (-3.0 - p - root))};
+    const ComplexVector found = recorded.eigenvalues_at(p);
+    std::vector<Complex> upper;
+    for (const Complex s : expected) upper.push_back(s.imag() < 0.0 ? std::conj(s) : s);
+    EXPECT_LT(matched_distance(upper, {found.begin(), found.end()}), 1e-6) << "at " << p;
+  }
+}
+
+TEST(Trace, ClusterThatRoundingTearsApartIsReportedAtTheStart) {
+  // One Jordan chain of eight: K = S (4 + N) S^-1 with whole numbers. Its eigenvalues are known to the eighth
+  // root of rounding, so nobody can say which of them belong together.
+  constexpr Eigen::Index n = 8;
+  Matrix chain = 4.0 * Matrix::Identity(n, n);
+  chain.diagonal(1).setOnes();
+  const Matrix S = Matrix::Ones(n, n).triangularView<Eigen::Lower>();
+  Matrix inverse = Matrix::Identity(n, n);
+  inverse.diagonal(-1).setConstant(-1.0);
+  const Matrix K = S * chain * inverse;
+  std::ostringstream stiffness, mass;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const char* separator = j > 0 ? ", " : i > 0 ? "], [" : "";
+      stiffness << separator << K(i, j);
+      mass << separator << (i == j ? 1 : 0);
+    }
+  }
+  const RecordedTrace recorded = record_trace(
+      make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[" + mass.str() +
+                   "]] ]\nK = [ [[" + stiffness.str() + "]], [[" + mass.str() + "]] ]\n"));
+  EXPECT_EQ(recorded.result.status, TraceStatus::multiple_mode) << recorded.result.message;
+  EXPECT_FALSE(has_started(recorded.result.status));
+  EXPECT_NE(recorded.result.message.find("p = 0"), std::string::npos) << recorded.result.message;
+  EXPECT_TRUE(recorded.nodes.empty());
+}
+
+/// Two modes of different damping whose frequencies cross, coupled less than their dampings differ: the
+/// exceptional points lie on one side of the real axis, and each mode goes straight on.
+class PassingModes : public testing::TestWithParam<std::tuple<double, std::string>> {};
+
+TEST_P(PassingModes, KeepTheirIdentityAtEveryTolerance) {
+  const auto& [coupling, tolerance] = GetParam();
+  std::ostringstream k;
+  k << coupling;
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 0.6\ntolerance = " + tolerance +
+      "\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nC = [ [[0.01, 0], [0, 0.02]] ]\nK = [ [[1, " + k.str() +
+      "], [" + k.str() + ", 1]], [[1, 0], [0, -1]] ]\n");
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  double worst = 0.0;
+  for (int i = 0; i <= 100; ++i) {
+    const double p = std::min(-0.5 + 1.1 * i / 100.0, 0.6);
+    // Without the coupling, which moves them by less than its square over the difference in damping.
+    const Complex rising(-0.005, std::sqrt(1.0 + p - 0.005 * 0.005));
+    const Complex falling(-0.01, std::sqrt(1.0 - p - 0.01 * 0.01));
+    const ComplexVector s = recorded.eigenvalues_at(p);
+    worst = std::max({worst, std::abs(s[0] - rising), std::abs(s[1] - falling)});
+  }
+  EXPECT_LT(worst, 1e-3) << "exchanged";
+  for (const Event& event : recorded.result.events) {
+    EXPECT_NE(event.kind, EventKind::collision) << event_line(event) << ": they never meet";
+    EXPECT_NE(event.kind, EventKind::crossing) << event_line(event) << ": they never meet";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Couplings, PassingModes,
+                         testing::Combine(testing::Values(0.0, 1e-4, 5e-4),
+                                          testing::Values("1e-4", "1e-6", "1e-8")));
 
 TEST(Trace, FaultyOptionsOfALibraryUserThrow) {
   Setting setting = scene_setting("rotating_mass");
@@ -169,7 +265,7 @@ TEST(Trace, StopsWhenTheObserverSaysSo) {
   const Setting setting = scene_setting("rotating_mass");
   int seen = 0;
   TraceObserver observer;
-  observer.node = [&](const PathNode&) { return ++seen < 5; };
+  observer.point = [&](const TracePoint&) { return ++seen < 5; };
   const TraceResult result = trace(*setting.model, setting.options, observer);
   EXPECT_EQ(result.status, TraceStatus::stopped);
   EXPECT_EQ(seen, 5);

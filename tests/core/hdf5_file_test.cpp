@@ -5,6 +5,7 @@
 #include <hdf5_hl.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -100,6 +101,7 @@ TEST_F(Hdf5FileTest, IntegersAreStoredAsIntegersOf64Bits) {
     EXPECT_EQ(stored, data);
   });
   EXPECT_EQ(Hdf5File::open(path).read_real("n")[2], 1099511627776.0);
+  EXPECT_EQ(Hdf5File::open(path).read_integers("n"), data);
 }
 
 TEST_F(Hdf5FileTest, TextsOfAnyLengthAndScriptSurviveARoundTrip) {
@@ -142,6 +144,36 @@ TEST_F(Hdf5FileTest, RowsCanBeWrittenAgainWithoutGrowing) {
   file.write_rows("p", 0, std::vector<double>{1, 2, 3, 4, 5, 6});
   file.write_rows("p", 1, std::vector<double>{30, 40});
   EXPECT_EQ(file.read_real("p"), (std::vector<double>{1, 2, 30, 40, 5, 6}));
+}
+
+TEST_F(Hdf5FileTest, ExtendedDatasetsKeepTheirDataAndReadAsNothingWhereTheyAreNew) {
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_dataset(growing("x", ElementType::real, {0, 2}));
+    file.create_dataset(growing("s", ElementType::complex, {0, 1}));
+    file.create_dataset(growing("n", ElementType::integer, {0, 2}));
+    file.write_rows("x", 0, std::vector<double>{1.0, 2.0, 3.0, 4.0});
+    file.write_rows("s", 0, std::vector<Complex>{{1.0, 2.0}});
+    file.write_rows("n", 0, std::vector<std::int64_t>{5, 6});
+    file.extend("x", 1, 3);
+    file.extend("s", 1, 2);
+    file.extend("n", 1, 3);
+    file.write_rows("x", 2, std::vector<double>{7.0, 8.0, 9.0});
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_EQ(file.shape("x"), (Shape{3, 3}));
+  const std::vector<double> x = file.read_real("x");
+  ASSERT_EQ(x.size(), 9U);
+  for (const auto& [at, expected] : std::vector<std::pair<std::size_t, double>>{
+           {0, 1.0}, {1, 2.0}, {3, 3.0}, {4, 4.0}, {6, 7.0}, {7, 8.0}, {8, 9.0}}) {
+    EXPECT_EQ(x[at], expected) << at;
+  }
+  EXPECT_TRUE(std::isnan(x[2]) && std::isnan(x[5]));
+  const std::vector<Complex> s = file.read_complex("s");
+  ASSERT_EQ(s.size(), 2U);
+  EXPECT_EQ(s[0], Complex(1.0, 2.0));
+  EXPECT_TRUE(std::isnan(s[1].real()) && std::isnan(s[1].imag()));
+  EXPECT_EQ(file.read_integers("n"), (std::vector<std::int64_t>{5, 6, -1}));
 }
 
 TEST_F(Hdf5FileTest, FlushedRowsAreInTheFileWhileItIsStillOpen) {

@@ -6,6 +6,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "support/scenes.hpp"
+#include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -167,11 +168,25 @@ TEST(MatrixFamily, FollowsTheClosedFormUpToTheExceptionalPoint) {
   }
 }
 
-TEST(MatrixFamily, StopsBeforeAnExceptionalPointAndSaysWhere) {
-  const RecordedTrace recorded = record_trace(make_setting(flutter, {{"to", "1"}}));
-  EXPECT_EQ(recorded.result.status, TraceStatus::step_too_small);
-  EXPECT_NEAR(recorded.result.reached, 0.5, 1e-3);
-  EXPECT_NE(recorded.result.message.find("p = 0.4999"), std::string::npos) << recorded.result.message;
+TEST(MatrixFamily, PassesAnExceptionalPointAndSaysWhere) {
+  const RecordedTrace recorded = record_trace(make_setting(flutter, {{"tolerance", "1e-10"}, {"to", "1"}}));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  for (int i = 1; i <= 100; ++i) {
+    const double p = 0.5 + 0.5 * i / 100.0;
+    // A growing and a decaying oscillation, s = +-j sqrt(3/2 +- j sqrt(p^2 - 1/4)).
+    const Complex s = Complex(0.0, 1.0) * std::sqrt(Complex(1.5, std::sqrt(p * p - 0.25)));
+    const ComplexVector found = recorded.eigenvalues_at(p);
+    const std::vector<Complex> expected{s, Complex(-s.real(), s.imag())};
+    EXPECT_LT(matched_distance(expected, {found.begin(), found.end()}), 4e-10) << "at " << p;
+  }
+  ASSERT_EQ(recorded.result.events.size(), 1U);
+  const Event& event = recorded.result.events[0];
+  EXPECT_EQ(event.kind, EventKind::collision);
+  EXPECT_NEAR(event.p, 0.5, 1e-12);
+  EXPECT_LT(std::abs(event.s - Complex(0.0, std::sqrt(1.5))), 1e-12);
+  EXPECT_EQ(event.modes, (std::vector<int>{0, 1}));
+  // (s1 - s2)^2 / 4 = (sqrt(2 + p^2) - 3/2) / 2 has the slope 1/6.
+  EXPECT_NEAR(std::abs(event.puiseux), std::sqrt(1.0 / 6.0), 1e-10);
 }
 
 TEST(MatrixFamily, ConstraintsReduceIt) {

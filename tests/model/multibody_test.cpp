@@ -127,7 +127,7 @@ TEST(Multibody, OrderBeyondTheHighestIsRefused) {
   EvaluationCounts counts = setting.model->new_counts();
   Linearization lin;
   const Path path{setting.scene.parameters.declared_values(), Vector::Zero(3), Vector::Zero(2)};
-  EXPECT_THROW((void)setting.model->linearize(path, 5, lin, counts), std::invalid_argument);
+  EXPECT_THROW((void)setting.model->linearize(path, max_order + 1, lin, counts), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
+#include "eigentrail/modes/regroup.hpp"
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
@@ -94,6 +98,72 @@ TEST(Spectrum, RigidBodyModesAreZeros) {
   ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
   EXPECT_NEAR(std::abs(spectrum.modes.front().s), 0.0, 1e-7);
   EXPECT_NEAR(spectrum.modes.back().s.imag(), std::sqrt(2.0), 1e-13);
+}
+
+/// Members of `spectrum` and their conjugates by distance from `centre`, the nearest k.
+std::vector<Complex> nearest_to(Complex centre, const Spectrum& spectrum, std::size_t k) {
+  std::vector<Complex> all = with_conjugates(spectrum);
+  std::sort(all.begin(), all.end(),
+            [centre](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
+  all.resize(k);
+  return all;
+}
+
+/// Residual of a block relative to the size of its terms.
+double relative_residual(const ReducedPencil& pencil, const InvariantPair& pair) {
+  const PencilAtPoint point(pencil);
+  return point.residual(pair.Z, pair.Lambda).norm() / (point.magnitude(pair.Lambda.norm()) * pair.Z.norm());
+}
+
+std::vector<Complex> block_eigenvalues(const InvariantPair& pair) {
+  const ComplexVector values = pair_eigenvalues(pair);
+  return {values.begin(), values.end()};
+}
+
+TEST(InvariantSubspace, HoldsTheEigenvaluesNearestToACentre) {
+  // Clusters of two and three in a spectrum of twelve; six iterations separate what is ten times farther
+  // away.
+  Matrix K = Matrix::Identity(6, 6);
+  K.diagonal() << 1.0, 1.001, 9.0, 9.001, 9.002, 30.0;
+  K(0, 1) = K(3, 4) = 2e-4;
+  const ReducedPencil pencil{{Matrix::Identity(6, 6)}, {1e-3 * K}, {K}};
+  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  for (const auto& [centre, k] : {std::pair(Complex(0.0, 1.0), 2), std::pair(Complex(0.0, 3.0), 3)}) {
+    const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, k, false);
+    ASSERT_EQ(pair.size(), k);
+    EXPECT_LT(relative_residual(pencil, pair), 1e-9);
+    const auto expected = nearest_to(centre, spectrum, static_cast<std::size_t>(k));
+    EXPECT_LT(matched_distance(expected, block_eigenvalues(pair)), 1e-8);
+  }
+}
+
+TEST(InvariantSubspace, IsReliableWhereVectorsCoincide) {
+  // K = [[1, 1/2], [-1/2, 2]] has one vector for two eigenvalues j sqrt(3/2): QZ's two are parallel.
+  const ReducedPencil pencil{
+      {Matrix::Identity(2, 2)}, {Matrix::Zero(2, 2)}, {Matrix{{1.0, 0.5}, {-0.5, 2.0}}}};
+  const Complex s(0.0, std::sqrt(1.5));
+  const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], s, 2, false);
+  EXPECT_LT(relative_residual(pencil, pair), 1e-12);
+  EXPECT_LT(std::abs(pair.Lambda.trace() / 2.0 - s), 1e-12);
+  EXPECT_GT(pair.Z.bdcSvd().singularValues()[1], 0.1);
+  const Spectrum rival = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  ASSERT_EQ(rival.modes.size(), 2U);
+  EXPECT_GT(std::abs(rival.modes[0].z.dot(rival.modes[1].z)), 1.0 - 1e-6);
+}
+
+TEST(InvariantSubspace, OfAPairNearTheRealAxisIsReal) {
+  // s^2 + 2 s + 1 + gap^2 = 0 beside a faster mode.
+  for (const double gap : {0.0, 1e-9, 1e-5}) {
+    const ReducedPencil pencil{{Matrix::Identity(2, 2)},
+                               {Matrix{{2.0, 0.1}, {0.0, 0.3}}},
+                               {Matrix{{1.0 + gap * gap, 0.1}, {0.0, 400.0}}}};
+    const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], -1.0, 2, true);
+    EXPECT_TRUE(pair.is_real);
+    EXPECT_TRUE(pair.Z.imag().isZero(0.0) && pair.Lambda.imag().isZero(0.0));
+    EXPECT_LT(relative_residual(pencil, pair), 1e-12) << "gap " << gap;
+    EXPECT_NEAR(pair.Lambda.trace().real(), -2.0, 1e-11) << "gap " << gap;
+    EXPECT_NEAR(pair.Lambda.real().determinant(), 1.0 + gap * gap, 1e-11) << "gap " << gap;
+  }
 }
 
 TEST(Spectrum, NoFreedomsNoModes) {

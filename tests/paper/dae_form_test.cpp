@@ -33,9 +33,10 @@ class DaeForm : public testing::TestWithParam<Case> {
     M = lin.M[0];
     C = lin.C[0];
     K = lin.K[0];
-    for (const Mode& mode : point.modes) {
-      projected.push_back(mode.s);
-      if (mode.s.imag() != 0.0) projected.push_back(std::conj(mode.s));
+    for (const InvariantPair& pair : point.pairs) {
+      const Complex s = pair.eigenvalue();
+      projected.push_back(s);
+      if (s.imag() != 0.0) projected.push_back(std::conj(s));
     }
   }
 

@@ -43,13 +43,13 @@ TEST_P(GeneralPosition, EquilibriumAgreesToTwelveDigits) {
 
 TEST_P(GeneralPosition, EigenvaluesAndDerivativesAgree) {
   const PathNode node = node_at(lag().omega);
-  ASSERT_EQ(node.s.rows(), 2);
+  ASSERT_EQ(node.tracks.size(), 2U);
   for (const auto& [row, reference] : {std::pair(0, &lag()), std::pair(1, &flap())}) {
     const double tolerances[] = {value_tolerance, second_tolerance, second_tolerance, fourth_tolerance,
                                  fourth_tolerance};
     for (int k = 0; k <= 4; ++k) {
       const Complex expected = reference->derivative(k);
-      const Complex found = node.s(row, k) * factorial(k);
+      const Complex found = node.s(static_cast<std::size_t>(row), k) * factorial(k);
       EXPECT_LT(std::abs(found - expected), tolerances[k] * std::abs(expected))
           << "mode " << row << " order " << k;
     }
@@ -66,7 +66,8 @@ TEST(RotatingMass, SensitivitiesWithTenfoldDragAgree) {
     for (int k = 0; k <= 4; ++k) {
       const Complex expected = rotating_mass_r20[static_cast<std::size_t>(row)].derivative(k);
       const double tolerance = k == 0 ? value_tolerance : k <= 2 ? second_tolerance : fourth_tolerance;
-      EXPECT_LT(std::abs(node.s(row, k) * factorial(k) - expected), tolerance * std::abs(expected));
+      const Complex found = node.s(static_cast<std::size_t>(row), k) * factorial(k);
+      EXPECT_LT(std::abs(found - expected), tolerance * std::abs(expected));
     }
   }
 }
@@ -79,15 +80,17 @@ TEST(RotatingMass, LiteralPartialDerivativeOfConstraintsIsWrong) {
     const PathNode node = record_trace(setting).nodes.back();
     RunCounts counts;
     counts.evaluations = setting.model->new_counts();
-    Prediction prediction{
-        {node.path.x.col(0), node.path.lambda.col(0), true}, node.s.col(0), ComplexMatrix(3, 2)};
-    for (int i = 0; i < 2; ++i) prediction.shapes.col(i) = node.shapes[static_cast<std::size_t>(i)].col(0);
-    const PathPoint point = compute_point(problem, omega, prediction, node.basis, counts);
+    Prediction prediction{omega, {node.path.x.col(0), node.path.lambda.col(0), true}, {}};
+    for (const Track& track : node.tracks) {
+      prediction.pairs.push_back(track.pair);
+      prediction.pairs.back().Z = track.series.Z[0];
+    }
+    const PathPoint point = compute_point(problem, prediction, node.basis.T[0], counts);
     ASSERT_EQ(point.status, PointStatus::computed);
     Linearization linearization;
     ASSERT_FALSE(setting.model->linearize(node.path, 1, linearization, counts.evaluations));
     const ReducedPencil literal = reduce(linearization, point.basis, 1);  // T' = 0
-    const Complex wrong = differentiate_mode(literal, point.modes[0], 1, counts.modes).s[1];
+    const Complex wrong = differentiate_pair(literal, point.pairs[0], 1, counts.modes).Lambda[1](0, 0);
     EXPECT_NEAR(std::abs(wrong - node.s(0, 1)) / std::abs(node.s(0, 1)), expected_error,
                 0.01 * expected_error)
         << "omega = " << omega;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail::test {
@@ -44,30 +44,50 @@ PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& coun
   const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   const PencilAtPoint pencil(point.pencil);
   for (const StartingMode& mode : spectrum.modes) {
-    point.modes.push_back(
-        correct_mode(pencil, mode.s, mode.z, 1e-6 * spectrum.scale, problem.corrector, counts.modes));
-    if (point.modes.back().status != ModeStatus::converged)
+    InvariantPair start;
+    start.is_real = mode.s.imag() == 0.0;
+    start.Z = mode.z;
+    start.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
+    if (start.is_real) start.Z.imag().setZero();
+    point.pairs.push_back(
+        correct_pair(pencil, start, 1e-6 * spectrum.scale, problem.corrector, counts.modes));
+    if (point.pairs.back().status != PairStatus::converged)
       throw std::runtime_error("a mode did not converge");
   }
   return point;
 }
 
+ComplexVector RecordedTrace::eigenvalues_of_node(std::size_t node) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  ComplexVector s = ComplexVector::Constant(result.n_columns, Complex(nan, nan));
+  for (const ModeState& state : modes[node]) s[state.mode] = state.s;
+  return s;
+}
+
+std::vector<ComplexVector> RecordedTrace::all_eigenvalues_at(double p) const {
+  std::vector<ComplexVector> found;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (const double t : step_positions(steps[i], p)) {
+      if (t == 0.0 && i > 0) continue;  // the end of the step before
+      found.push_back(step_eigenvalues(steps[i], eigenvalues_of_node(i), eigenvalues_of_node(i + 1), t));
+    }
+  }
+  return found;
+}
+
 ComplexVector RecordedTrace::eigenvalues_at(double p) const {
-  const bool ascending = nodes.back().p > nodes.front().p;
-  const auto before = [&](const PathNode& node, double value) {
-    return ascending ? node.p < value : node.p > value;
-  };
-  auto right = std::lower_bound(nodes.begin(), nodes.end(), p, before);
-  if (right == nodes.begin()) ++right;
-  const auto left = right - 1;
-  return HermiteInterpolant(left->p, left->s, right->p, right->s)(p);
+  const auto all = all_eigenvalues_at(p);
+  if (all.empty()) throw std::out_of_range("the trace does not pass " + std::to_string(p));
+  return all.front();
 }
 
 RecordedTrace record_trace(const Setting& setting, BasisChoice basis) {
   RecordedTrace recorded;
   TraceObserver observer;
-  observer.node = [&](const PathNode& node) {
-    recorded.nodes.push_back(node);
+  observer.point = [&](const TracePoint& point) {
+    recorded.nodes.push_back(point.node);
+    recorded.modes.push_back(point.modes);
+    if (point.step != nullptr) recorded.steps.push_back(*point.step);
     return true;
   };
   recorded.result = trace(*setting.model, setting.options, observer, basis);

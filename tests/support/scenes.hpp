@@ -28,13 +28,19 @@ Setting scene_setting(const std::string& name, const OptionTexts& overrides = {}
 /// the following differentiation.
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts);
 
-/// Every point of a trace.
+/// Every point and step of a trace.
 struct RecordedTrace {
   TraceResult result;
   std::vector<PathNode> nodes;
+  std::vector<std::vector<ModeState>> modes;  ///< per node
+  std::vector<PathStep> steps;
 
-  /// Dense output of all modes.
+  /// Dense output of all modes where the trace first passes p; NaN where a mode does not exist.
   ComplexVector eigenvalues_at(double p) const;
+  /// The same wherever it passes p.
+  std::vector<ComplexVector> all_eigenvalues_at(double p) const;
+  /// Eigenvalues of all modes at a node.
+  ComplexVector eigenvalues_of_node(std::size_t node) const;
 };
 RecordedTrace record_trace(const Setting& setting, BasisChoice basis = BasisChoice::aligned);
 

@@ -1,11 +1,14 @@
-// Dense output: the two-point Hermite interpolant of the power series at both ends of a step, and its error.
+// Dense output: the polynomial that shares the power series of both ends of a step.
 //
-// With derivatives up to order q at both ends, and t = (p - a) / h, h = b - a,
-//     s(t) = sum_{k=0..q} (t (t - 1))^k (F(k+1, k) + F(k+1, k+1) t),
-// F(i, j) the divided difference over i nodes at t = 0 and j at t = 1: a truncated two-point Taylor expansion
-// (Lopez & Temme, Stud. Appl. Math. 109, 2002). Its terms fall geometrically, at the rate h^2 / (4 |z - a| |z
-// - b|) set by the nearest singularity z, so the first term left out, which is the error, is told by the last
-// ones kept.
+// Of degree 2q+1, in the form of a truncated two-point Taylor expansion, with t = 0 at the left end and 1 at
+// the right,
+//
+//     s(t) = sum_{k=0..q} (t (t - 1))^k (F(k+1, k) + F(k+1, k+1) t)
+//
+// where F(i, j) is the divided difference over i nodes at the left end and j at the right (Lopez & Temme,
+// Stud. Appl. Math. 109, 2002). Its terms fall geometrically, at the rate h^2 / (4 |z - a| |z - b|) set by
+// the nearest singularity z. The term k = q is the difference to the interpolant of order q - 1, hence the
+// error of that one.
 #pragma once
 
 #include "eigentrail/core/types.hpp"
@@ -14,24 +17,32 @@ namespace eigentrail {
 
 class HermiteInterpolant {
  public:
-  /// `left` and `right` hold power series coefficients (rows: functions, columns: order + 1) at a and b, a !=
-  /// b.
-  HermiteInterpolant(double a, const ComplexMatrix& left, double b, const ComplexMatrix& right);
+  /// `left` and `right` hold power series coefficients (rows: functions, columns: order + 1) at the ends of a
+  /// step of signed length `length`, not zero.
+  HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right);
 
-  /// Values of all functions at p; outside [a, b] it extrapolates.
-  ComplexVector operator()(double p) const;
+  /// Values of all functions at t; outside [0, 1] it extrapolates, off the real axis it continues
+  /// analytically.
+  ComplexVector operator()(Complex t) const;
 
-  /// Estimated largest error of every function within [a, b], from the decay of the terms. Needs order >= 2:
-  /// with order 1 there is no decay to see yet, and the estimate is zero.
-  Vector estimated_error() const;
+  /// Derivatives with respect to t.
+  ComplexVector slope(double t) const;
+
+  /// Estimated largest error on the step of every function of the interpolant of order q - 1: the term k = q,
+  /// and what follows it if the terms go on falling as the last two did.
+  Vector error_without_last() const;
 
  private:
-  /// Largest magnitude of term k on [a, b] without the factor (t (t - 1))^k.
   double term(Eigen::Index function, Eigen::Index k) const;
 
-  double begin_, length_;
-  ComplexMatrix at_left_;  ///< column k: F(k+1, k), the value of term k at t = 0
-  ComplexMatrix slope_;    ///< column k: F(k+1, k+1)
+  /// The expansion as seen from one end: relative accuracy there also where a function vanishes at that end.
+  struct Terms {
+    Terms(double length, const ComplexMatrix& near, const ComplexMatrix& far);
+    ComplexMatrix value;  ///< column k: F(k+1, k), the value of term k at the near end
+    ComplexMatrix slope;  ///< column k: F(k+1, k+1)
+  };
+
+  Terms from_left_, from_right_;
 };
 
 }  // namespace eigentrail

@@ -7,20 +7,46 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/modes/mode.hpp"
-#include "eigentrail/steady/equilibrium.hpp"
+#include "eigentrail/modes/invariant_pair.hpp"
+#include "eigentrail/steady/path_plane.hpp"
 
 namespace eigentrail {
 
-/// What a point leaves behind for prediction, dense output and the file.
+/// A mode, or a block of close ones, at a point.
+struct Track {
+  static constexpr int no_mode =
+      -1;                           ///< member of a block that is no mode of its own: the lower one of a pair
+  static constexpr int guest = -2;  ///< member that is not followed, but too close to leave out
+
+  InvariantPair pair;         ///< in reduced coordinates
+  PairSeries series;          ///< Z in physical coordinates, V = T Z
+  ComplexMatrix functions;    ///< k x (order + 2): smooth functions of the block (block_functions)
+  ComplexVector roots;        ///< eigenvalues of the block in its chart
+  std::vector<int> modes;     ///< the mode of every root from here on, from 0
+  std::vector<int> arriving;  ///< the same up to here; differs where modes are born or die
+
+  /// Where eigenvalues meet at the point: who is who a little later, when that is known.
+  struct Departure {
+    double distance = 0.0;  ///< in the path's coordinate
+    ComplexVector roots;    ///< in the order of `modes`
+  };
+  std::optional<Departure> departure;
+
+  Eigen::Index size() const { return pair.size(); }
+};
+
+/// What a point leaves behind for prediction, dense output, certificate and the file.
 struct PathNode {
-  double p = 0.0;                           ///< traced parameter, in its unit
-  Path path;                                ///< equilibrium series
-  ComplexMatrix s;                          ///< modes x (order + 1): eigenvalue series
-  std::vector<ComplexVectorSeries> shapes;  ///< per mode, n x (order + 1): physical vector v = T z
-  Vector backward_error, condition;         ///< per mode
-  Matrix mass;                              ///< n x n, weight of the modal assurance criterion
-  Matrix basis;                             ///< n x (n - rank)
+  double p = 0.0;  ///< traced parameter, in its unit
+  Path path;       ///< equilibrium series
+  std::vector<Track> tracks;
+  Linearization linearization;       ///< series
+  TangentBasis basis;                ///< series
+  ReducedPencil pencil;              ///< series
+  double stiffness_condition = 1.0;  ///< reciprocal condition of the tangent stiffness; 0: not known
+
+  /// Coefficient k of the eigenvalue of a track of one mode.
+  Complex s(std::size_t track, Eigen::Index k) const { return tracks[track].functions(0, k); }
 };
 
 /// Work and wall time of a run, stage by stage. Evaluation counters take their size at the first use.
@@ -29,11 +55,16 @@ struct RunCounts {
   ModeCounts modes;
   std::uint64_t equilibrium_iterations = 0;      ///< of KINSOL
   std::uint64_t equilibrium_factorizations = 0;  ///< of the KKT matrix
+  std::uint64_t spectra = 0;                     ///< full spectra by QZ
+  std::uint64_t event_factorizations = 0;        ///< as ModeCounts::factorizations, to locate special points
+  std::uint64_t certificate_factorizations = 0;  ///< complex LU of size n + 1 (blocks: n k + k^2)
   double equilibrium_seconds = 0.0;              ///< solve and linearize
   double reduction_seconds = 0.0;
   double modes_seconds = 0.0;
   double differentiation_seconds = 0.0;
-  double matching_seconds = 0.0;  ///< comparison with the prediction
+  double matching_seconds = 0.0;  ///< identity, completeness
+  double certificate_seconds = 0.0;
+  double events_seconds = 0.0;
   double output_seconds = 0.0;
 };
 
@@ -58,11 +89,15 @@ struct PathProblem {
   int traced = 0;          ///< index of the traced parameter
   Vector parameters = {};  ///< declared values; the traced entry is replaced at each point
   Structure structure = {};
-  int order = 3;
-  double s_ref = 1.0;  ///< magnitude below which an eigenvalue counts as zero, 1/s
+  int order = 3;         ///< of the dense output; series have one coefficient more, for its error
+  double s_ref = 1.0;    ///< magnitude below which an eigenvalue counts as zero, 1/s
+  double s_max = 1e300;  ///< magnitude above which it counts as infinite
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
+
+  /// Magnitude below which the eigenvalue of a chart counts as zero.
+  double reference(Chart chart) const { return chart == Chart::finite ? s_ref : 1.0 / s_max; }
 };
 
 /// The problem of following `model` along the parameter of that name, all others at their declared values.
@@ -78,9 +113,10 @@ struct EquilibriumGuess {
 
 /// Where the next point is expected.
 struct Prediction {
+  double p = 0.0;
   EquilibriumGuess equilibrium;
-  ComplexVector s;       ///< per mode
-  ComplexMatrix shapes;  ///< n x modes, physical vectors
+  std::vector<InvariantPair> pairs;     ///< Z in physical coordinates
+  std::optional<PathPlane> plane = {};  ///< where p is not given but found: the plane that the point lies on
 };
 
 enum class PointStatus { computed, no_equilibrium, mode_lost };
@@ -89,15 +125,16 @@ enum class PointStatus { computed, no_equilibrium, mode_lost };
 struct PathPoint {
   PointStatus status = PointStatus::computed;
   std::string message;  ///< reason when not computed
-  int lost_mode = -1;   ///< the mode that was not corrected
+  int lost_track = -1;  ///< the track that was not corrected
   double p = 0.0;
+  std::optional<PathPlane> plane;
   Equilibrium equilibrium;
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
-  std::vector<Mode> modes;
+  std::vector<InvariantPair> pairs;
 
-  ComplexVector eigenvalues() const;
-  ComplexMatrix shapes() const;  ///< n x modes, v = T z
+  /// V = T Z of a pair.
+  ComplexMatrix shapes(std::size_t pair) const;
 };
 
 /// Parameters at p, in declared units.
@@ -105,14 +142,16 @@ Vector parameters_at(const PathProblem& problem, double p);
 
 /// Equilibrium, linearization and reduction at p; no modes yet.
 PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
-                    const Matrix& previous_basis, RunCounts& counts);
+                    const Matrix& previous_basis, RunCounts& counts,
+                    const std::optional<PathPlane>& plane = std::nullopt);
 
 /// The whole point, from a prediction.
-PathPoint compute_point(const PathProblem& problem, double p, const Prediction& prediction,
+PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
-/// Differentiates a computed point to the order of the problem along the traced parameter. Empty when a
-/// series coefficient is not finite.
+/// Differentiates a computed point to one order more than the problem's, along the traced parameter, or along
+/// the path's own coordinate when the point lies on a plane. Empty when a series coefficient is not finite.
+/// The tracks have their roots, but no modes assigned yet.
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts);
 
@@ -121,5 +160,9 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
 /// (seed paper, end of Sect. 4.3).
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
                                             RunCounts& counts);
+
+/// Series of one block at a point that is already differentiated.
+Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
+                          RunCounts& counts);
 
 }  // namespace eigentrail

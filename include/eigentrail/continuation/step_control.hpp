@@ -1,11 +1,8 @@
 // Step length from the error of the dense output.
 //
-// Two estimates of that error are at hand, and the larger counts. One is told by the interpolant itself
-// (HermiteInterpolant::estimated_error). The other comes from the miss of the previous step's interpolant,
-// extrapolated to the new point: it misses by s^(2q+2)/(2q+2)! (h (h + h_old))^(q+1), while inside the new
-// step the error is at most s^(2q+2)/(2q+2)! (h^2/4)^(q+1). The step then grows or shrinks with the (2q+2)-th
-// root of the error, with the trend of the last two steps taken on (Gustafsson, ACM Trans. Math. Softw. 20,
-// 1994).
+// The error of the interpolant of order q on a step of length h is of the order h^(2q+2), so the step grows
+// or shrinks with the (2q+2)-th root of the error, with the trend of the last two steps taken on (Gustafsson,
+// ACM Trans. Math. Softw. 20, 1994).
 #pragma once
 
 namespace eigentrail {
@@ -18,10 +15,6 @@ class StepControl {
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;
 
-  /// Error inside a step of length h from the predictor's `miss` at its end, both as fractions of the
-  /// accepted error. The first step has no previous interpolant and compares with the Taylor polynomial.
-  double error_from_miss(double h, double miss) const;
-
   /// After an accepted step with estimated error / accepted error = `error`.
   void accept(double h, double error);
 
@@ -30,6 +23,9 @@ class StepControl {
 
   /// Whether steps have become too short to mean anything.
   bool exhausted() const { return step_ < min_step_; }
+
+  /// Length of the next step as far as accuracy is concerned.
+  double step() const { return step_; }
 
  private:
   double growth(double error) const;

@@ -24,6 +24,7 @@ struct TraceOptions {
   std::optional<double> first_step;  ///< in the parameter's unit, > 0; absent: from the series at the start
   std::optional<double> max_step;    ///< in the parameter's unit, > 0; absent: a quarter of the range
   int max_nodes = 100000;            ///< the trace stops there, >= 2
+  bool certify = true;               ///< evidence step by step that no modes were exchanged (certificate.hpp)
 
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>
@@ -39,6 +40,7 @@ struct TraceOptions {
     visit("first_step", "length of the first step, in the parameter's unit", self.first_step);
     visit("max_step", "longest step, in the parameter's unit", self.max_step);
     visit("max_nodes", "stop after this many points", self.max_nodes);
+    visit("certify", "give evidence at every step that no modes were exchanged", self.certify);
   }
 };
 

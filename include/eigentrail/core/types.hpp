@@ -13,8 +13,8 @@ using Matrix = Eigen::MatrixXd;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-/// Highest order of the series along the path.
-inline constexpr int max_order = 4;
+/// Highest order of the series along the path: one more than that of a dense output, for its error.
+inline constexpr int max_order = 5;
 
 /// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order it
 /// is used at; the coefficients it lacks are zero. A constant therefore has size 1 and costs nothing in

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "eigentrail/reduction/reduced_pencil.hpp"
+#include "eigentrail/modes/invariant_pair.hpp"
 
 namespace eigentrail {
 
@@ -25,5 +25,11 @@ struct [[nodiscard]] Spectrum {
 /// matrices have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60
 /// (2n)^3.
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
+
+/// The block of the k eigenvalues nearest to `centre`, by inverse iteration with k vectors on the companion
+/// form: reliable also where single vectors coincide. `is_real` asks for a real block; the centre is then
+/// real. Not yet corrected. Cost one LU of size 2n.
+InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
+                                 Eigen::Index k, bool is_real);
 
 }  // namespace eigentrail

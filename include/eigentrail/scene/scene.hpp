@@ -55,6 +55,9 @@ class TableReader {
 
   std::string text(const std::string& key);
 
+  /// true or false.
+  bool flag(const std::string& key);
+
   /// List of matrices, each a list of rows of expressions: [matrix][row][column].
   std::vector<std::vector<std::vector<Expression>>> matrices(const std::string& key);
 

@@ -22,22 +22,20 @@ class LociWriter {
   /// Creates `path` with its header. The file appears under its name complete with header or not at all; an
   /// existing file is replaced in that moment. Throws std::runtime_error when the file cannot be written.
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
-             const TraceStart& start, int n_modes);
+             const TraceStart& start);
   ~LociWriter();
   LociWriter(const LociWriter&) = delete;
   LociWriter& operator=(const LociWriter&) = delete;
 
-  /// Adds a point; it reaches the disk with the next flush, after at most a second of further points.
-  void append(const PathNode& node);
+  /// Adds a point and the step that led to it; they reach the disk with the next flush, after at most a
+  /// second of further points.
+  void append(const TracePoint& point);
 
-  /// Writes what is buffered, and the outcome and counts of the run.
+  /// Writes what is buffered, the events, and the outcome and counts of the run.
   void finish(const TraceResult& result);
 
  private:
   struct Implementation;
-
-  void flush();
-
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -1,0 +1,49 @@
+// Evidence that the pair at the end of a step is the continuation of the pair at its beginning.
+//
+// Newton-Kantorovich tube (radii polynomial, e.g. van den Berg & Lessard, Notices AMS 62, 2015): on the
+// pencil interpolated between the two points, with B = J^-1 at the middle of a piece of the step and the
+// interpolated pair U(t), bounds Y >= |B F(U)|, Z1 >= |I - B J|, Z2 >= |B F''| are formed at sample points.
+// Where some r > 0 has Y + Z1 r + Z2 r^2/2 <= r there is one exact pair within r of U(t), throughout the
+// piece. Pieces that fail are halved. Nothing else can then be met on the way: two pairs cannot be exchanged.
+//
+// The bounds are sampled, and norms are estimated by power iteration: evidence, not interval arithmetic.
+#pragma once
+
+#include "eigentrail/continuation/path_point.hpp"
+
+namespace eigentrail {
+
+/// The pencil between two neighbouring points, in the reduced coordinates of the left one. Costs no model
+/// evaluation.
+class StepPencil {
+ public:
+  /// `length` is the step in the path's coordinate; both points must outlive the object.
+  StepPencil(const PathNode& left, const PathNode& right, double length);
+
+  /// M, C, K at t in [0, 1].
+  struct Matrices {
+    Matrix M, C, K;
+  };
+  Matrices at(double t) const;
+
+  double length() const { return length_; }
+  const PathNode& left() const { return left_; }
+
+  /// Weights of the coefficients at both ends (left, then right) in the value at t.
+  Vector weights(double t) const;
+
+ private:
+  Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
+
+  const PathNode& left_;
+  double length_;
+  Eigen::Index count_;  ///< coefficients at each end
+  ReducedPencil right_;
+};
+
+/// Whether the tube closes on the whole step from `left` to `right`, the same block at both ends. `gap` is
+/// the distance to the nearest other known eigenvalue, which balances vector and eigenvalue in the norm.
+bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
+                  RunCounts& counts);
+
+}  // namespace eigentrail

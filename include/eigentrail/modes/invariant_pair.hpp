@@ -1,0 +1,120 @@
+// Invariant pairs (Z, Lambda) of the reduced pencil: one mode, or several close ones followed as a block.
+//
+//     M Z Lambda^2 + C Z Lambda + K Z = 0,     W0^H Z + W1^H Z Lambda = I
+//
+// (Betcke & Kressner, Linear Algebra Appl. 435, 2011). The eigenvalues of Lambda are eigenvalues of the
+// pencil. While single eigenvalues lose half their digits where they meet, the pair stays a smooth function
+// of the parameter as long as the block as a whole keeps its distance from the other modes. A block of one is
+// an ordinary eigenpair; its equations are those of the seed paper, Eqs. 32 and 35.
+//
+// With Lambda brought to Schur form the linearized equations fall apart into one bordered system of size n +
+// k per column. Its LU is computed once per point, at the predicted pair, and serves the Newton corrections,
+// the conditions and every order of the sensitivities; residual correction with the exact matrices makes up
+// for the factors belonging to the prediction.
+#pragma once
+
+#include <Eigen/LU>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "eigentrail/reduction/reduced_pencil.hpp"
+
+namespace eigentrail {
+
+struct CorrectorOptions {
+  double tolerance = 1e-14;           ///< relative size of the last correction, > 0
+  double refactor_contraction = 0.1;  ///< a slower contraction of the corrections factors anew, 0 < . < 1
+  int max_iterations = 30;            ///< >= 1
+};
+
+/// Work done on modes, summed over a run.
+struct ModeCounts {
+  std::uint64_t factorizations = 0;  ///< complex LU of size n + k
+  std::uint64_t iterations = 0;      ///< Newton corrections
+  std::uint64_t solves = 0;          ///< back-substitutions, all purposes
+};
+
+/// Which function of the parameter is followed. Near an infinite eigenvalue (singular mass) mu = 1/s is
+/// smooth: it is an eigenvalue of the pencil with M and K exchanged.
+enum class Chart { finite, reciprocal };
+
+/// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
+struct PencilAtPoint {
+  const Matrix& M;
+  const Matrix& C;
+  const Matrix& K;
+  double norm_M, norm_C, norm_K;  ///< Frobenius
+
+  explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
+  explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;  ///< referred to, not copied
+
+  Eigen::Index size() const { return M.rows(); }
+  ComplexMatrix matrix(Complex mu) const;
+  /// M Z Lambda^2 + C Z Lambda + K Z.
+  ComplexMatrix residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
+  /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors.
+  double magnitude(double mu) const;
+};
+
+/// LU factors of the linearized equations at a pair.
+class PairFactorization {
+ public:
+  /// W = [W0; W1] is 2n x k. Cost k LU factorizations of size n + k.
+  PairFactorization(const PencilAtPoint& pencil, const ComplexMatrix& Z, const ComplexMatrix& Lambda,
+                    const ComplexMatrix& W);
+
+  /// Solves for the change (dZ, dLambda) that changes the residual by R (n x k) and the normalization by N (k
+  /// x k).
+  void solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ, ComplexMatrix& dLambda) const;
+
+  /// Bound of |dLambda| / |R|: how far a residual moves the block as a whole.
+  double sensitivity() const;
+
+ private:
+  Matrix M_, C_;
+  ComplexMatrix U_, T_, T2_, Z_, W_;  ///< Lambda = U T U^H; Z U; W U
+  std::vector<Eigen::PartialPivLU<ComplexMatrix>> columns_;
+  double slope_scale_, border_scale_;
+};
+
+enum class PairStatus { converged, not_converged, singular };
+
+struct InvariantPair {
+  PairStatus status = PairStatus::not_converged;
+  Chart chart = Chart::finite;
+  bool is_real = false;         ///< real Z and Lambda: the block is closed under conjugation
+  ComplexMatrix Z;              ///< n x k
+  ComplexMatrix Lambda;         ///< k x k
+  ComplexMatrix W;              ///< 2n x k, normalization
+  double backward_error = 0.0;  ///< |residual| / (magnitude |Z|)
+  double condition = 0.0;       ///< relative condition number of the block, w.r.t. max(|mu|, reference)
+  std::optional<PairFactorization> factors;
+
+  Eigen::Index size() const { return Lambda.rows(); }
+  /// s of a block of one in the finite chart.
+  Complex eigenvalue() const { return Lambda(0, 0); }
+};
+
+/// Brings [Z; Z Lambda / gamma] to orthonormal columns, which become the normalization W. gamma =
+/// max(|Lambda|, reference) balances the halves (a block of one has W1 = 0 and |z| = 1); eigenvalues that
+/// count as zero must not blow the lower one up. The eigenvalues of Lambda do not change.
+void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, double reference);
+
+/// Refines a pair by chord-Newton. `reference` is the magnitude below which an eigenvalue (1/s in the
+/// reciprocal chart) counts as zero, > 0. Z, Lambda, chart and is_real are read from `start`.
+InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
+                           const CorrectorOptions& options, ModeCounts& counts);
+
+/// Power series of a pair along the path.
+struct PairSeries {
+  std::vector<ComplexMatrix> Z;       ///< order + 1 coefficients, n x k
+  std::vector<ComplexMatrix> Lambda;  ///< order + 1 coefficients, k x k
+};
+
+/// Sensitivities of any order: coefficient j of the equations formed with Z_j = Lambda_j = 0 is the right
+/// side (Eq. 35 for one mode and j = 1).
+PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& pair, int order,
+                              ModeCounts& counts);
+
+}  // namespace eigentrail

@@ -1,0 +1,57 @@
+// Smooth functions of a block: what is interpolated between points and stored.
+//
+//   one mode        s
+//   two             tau = (s1 + s2)/2 and delta = ((s1 - s2)/2)^2, so that s = tau +- sqrt(delta)
+//   three and more  the k^2 entries of Lambda, column by column, in a basis that both ends of a step share
+//
+// They stay smooth where the eigenvalues meet. tau and delta do not depend on a basis. For larger blocks the
+// matrix is kept instead of its characteristic polynomial: where some of its eigenvalues coincide without
+// being defective, the polynomial would lose half of their digits and the matrix loses none.
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+/// Number of eigenvalues of a block with this many functions.
+Eigen::Index block_size(Eigen::Index functions);
+
+/// Functions of a block as series, one row each, from the series of Lambda.
+ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda);
+
+/// Eigenvalues from the values of the functions, in no particular order; exactly real or conjugate where all
+/// functions are real.
+ComplexVector block_roots(const ComplexVector& functions);
+
+/// Mean of the eigenvalues.
+Complex block_mean(const ComplexVector& functions);
+
+/// Subdiscriminant of `distinct` eigenvalues: the sum over all choices of that many of the product of (s_i -
+/// s_j)^2 over their pairs (e.g. Basu, Pollack & Roy 2006, Sect. 4.2). With distinct = k it vanishes where
+/// two of the block meet. Where some coincide throughout, the largest one that does not vanish throughout
+/// tells where the others meet them.
+Complex block_discriminant(const ComplexVector& functions, Eigen::Index distinct);
+
+/// How far errors of the functions move the eigenvalues, each at most; near a meeting the distance of the
+/// roots counts as no less than `least_gap`.
+double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
+
+/// Roots of `to` in the order of `from`: the assignment with the least total distance.
+ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to);
+
+/// Series of the eigenvalue `root` of a block from the series of its functions, by Newton's method in series
+/// arithmetic. Empty when the root is not simple.
+ComplexVector root_series(const ComplexMatrix& functions, Complex root);
+
+/// Smallest distance between two of the values; infinite when there is one.
+double least_gap(const ComplexVector& roots);
+
+/// Coefficients of 1 / series; the leading coefficient must not vanish.
+ComplexVector reciprocal_series(const ComplexVector& series);
+
+/// Coefficients of the product of two series of one length.
+ComplexVector multiply_series(const ComplexVector& a, const ComplexVector& b);
+
+}  // namespace eigentrail

@@ -1,0 +1,44 @@
+// Equilibria where the traced parameter is an unknown: pseudo-arclength continuation (Keller 1977).
+//
+// Near a fold the path cannot be followed in p. The point is then looked for on a plane
+//
+//     c.x (x - x*) + c.p (p - p*) = distance
+//
+// across the path, and the distance is the coordinate sigma along the path: x, lambda and p are series in it.
+// The steady equations grow by one row and one column, and the bordered system stays regular at a fold.
+#pragma once
+
+#include "eigentrail/steady/equilibrium.hpp"
+
+namespace eigentrail {
+
+/// Linear functional that measures progress along the path.
+struct PathPlane {
+  Vector x;        ///< size n
+  double p = 1.0;  ///< per unit of the traced parameter
+
+  double operator()(const Vector& position, double parameter) const {
+    return x.dot(position) + p * parameter;
+  }
+};
+
+/// Equilibrium at the intersection of the path with the plane through the guess (x, p); Newton from there.
+/// `p` and the result hold the point found. `parameters` are all parameters, the traced one at its guess.
+Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
+                                 const Vector& x, const Vector& lambda, const SteadyOptions& options,
+                                 double& p, EvaluationCounts& counts);
+
+/// Series of (x, lambda, p) in the plane's coordinate about an equilibrium.
+EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model& model,
+                                             const Equilibrium& equilibrium, const Vector& parameters,
+                                             int traced, int order, Path& path, EvaluationCounts& counts);
+
+/// How far the force that a change of the parameter brings lies in the kernel of the tangent stiffness T^T K
+/// T, between 0 and 1. Where the stiffness is singular, zero means that another path crosses (a pitchfork or
+/// a transcritical point), anything else that this one turns back (a fold). `tangent_basis` is T, of size n x
+/// (n - rank).
+double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
+                                 const Linearization& linearization, const Matrix& tangent_basis,
+                                 EvaluationCounts& counts);
+
+}  // namespace eigentrail

@@ -1,0 +1,236 @@
+#include "eigentrail/continuation/certificate.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "continuation/shared_basis.hpp"
+#include "eigentrail/continuation/dense_output.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int max_depth = 3;              ///< a step is halved up to this often
+constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
+constexpr double norm_safety = 1.2;       ///< factor on it
+constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
+
+/// A(h)^-1 as a series.
+MatrixSeries inverse_series(const MatrixSeries& A) {
+  const Eigen::PartialPivLU<Matrix> lu(A[0]);
+  MatrixSeries result{lu.inverse()};
+  for (std::size_t k = 1; k < A.size(); ++k) {
+    Matrix sum = Matrix::Zero(A[0].rows(), A[0].cols());
+    for (std::size_t i = 1; i <= k; ++i) sum += A[i] * result[k - i];
+    result.emplace_back(-lu.solve(sum));
+  }
+  return result;
+}
+
+ComplexMatrix kronecker(const ComplexMatrix& A, const ComplexMatrix& B) {
+  ComplexMatrix result(A.rows() * B.rows(), A.cols() * B.cols());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
+      result.block(i * B.rows(), j * B.cols(), B.rows(), B.cols()) = A(i, j) * B;
+  }
+  return result;
+}
+
+/// One block on one step.
+class Tube {
+ public:
+  Tube(const StepPencil& pencil, const Track& left, const Track& right, double gap, RunCounts& counts)
+      : pencil_(pencil), chart_(left.pair.chart), W_(left.pair.W), counts_(counts), gap_(gap) {
+    left_Z_ = in_basis_of(pencil.left(), left.series.Z);
+    left_Lambda_ = left.series.Lambda;
+    right_Z_ = in_basis_of(pencil.left(), right.series.Z);
+    right_Lambda_ = right.series.Lambda;
+    fix_basis(W_, left_Z_, left_Lambda_);
+    fix_basis(W_, right_Z_, right_Lambda_);
+  }
+
+  bool closes(double begin, double end, int depth) {
+    const double middle = 0.5 * (begin + end);
+    if (piece_closes(begin, middle, end)) return true;
+    return depth < max_depth && closes(begin, middle, depth + 1) && closes(middle, end, depth + 1);
+  }
+
+ private:
+  struct State {
+    Matrix M, C, K;
+    ComplexMatrix Z, Lambda;
+  };
+
+  State state(double t) const {
+    StepPencil::Matrices m = pencil_.at(t);
+    if (chart_ == Chart::reciprocal) std::swap(m.M, m.K);
+    const Vector w = pencil_.weights(t);
+    const auto count = static_cast<Eigen::Index>(left_Z_.size());
+    State state{std::move(m.M), std::move(m.C), std::move(m.K), ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
+                ComplexMatrix::Zero(W_.cols(), W_.cols())};
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      state.Z += w[i] * left_Z_[at] + w[count + i] * right_Z_[at];
+      state.Lambda += w[i] * left_Lambda_[at] + w[count + i] * right_Lambda_[at];
+    }
+    return state;
+  }
+
+  /// Jacobian with respect to (vec Z, vec Lambda / scale).
+  ComplexMatrix jacobian(const State& s, double scale) const {
+    const Eigen::Index n = s.Z.rows();
+    const Eigen::Index k = s.Z.cols();
+    const ComplexMatrix W0 = W_.topRows(n);
+    const ComplexMatrix W1 = W_.bottomRows(n);
+    const ComplexMatrix MZ = s.M * s.Z;
+    ComplexMatrix J(n * k + k * k, n * k + k * k);
+    if (k == 1) {
+      const Complex mu = s.Lambda(0, 0);
+      J.topLeftCorner(n, n).real() = (mu * mu).real() * s.M + mu.real() * s.C + s.K;
+      J.topLeftCorner(n, n).imag() = (mu * mu).imag() * s.M + mu.imag() * s.C;
+      J.topRightCorner(n, 1) = scale * (2.0 * mu * MZ + s.C * s.Z);
+      J.bottomLeftCorner(1, n) = W0.adjoint() + mu * W1.adjoint();
+      J.bottomRightCorner(1, 1) = scale * (W1.adjoint() * s.Z);
+      return J;
+    }
+    const ComplexMatrix I = ComplexMatrix::Identity(k, k);
+    const ComplexMatrix Lt = s.Lambda.transpose();
+    J.topLeftCorner(n * k, n * k) = kronecker(Lt * Lt, s.M.cast<Complex>()) +
+                                    kronecker(Lt, s.C.cast<Complex>()) + kronecker(I, s.K.cast<Complex>());
+    J.topRightCorner(n * k, k * k) = scale * (kronecker(Lt, MZ) + kronecker(I, MZ * s.Lambda + s.C * s.Z));
+    J.bottomLeftCorner(k * k, n * k) = kronecker(I, W0.adjoint()) + kronecker(Lt, W1.adjoint());
+    J.bottomRightCorner(k * k, k * k) = scale * kronecker(I, W1.adjoint() * s.Z);
+    return J;
+  }
+
+  ComplexVector residual(const State& s) const {
+    const Eigen::Index n = s.Z.rows();
+    const Eigen::Index k = s.Z.cols();
+    const ComplexMatrix R = (s.M * s.Z * s.Lambda + s.C * s.Z) * s.Lambda + s.K * s.Z;
+    const ComplexMatrix N = W_.topRows(n).adjoint() * s.Z + W_.bottomRows(n).adjoint() * (s.Z * s.Lambda) -
+                            ComplexMatrix::Identity(k, k);
+    ComplexVector F(n * k + k * k);
+    F << R.reshaped(), N.reshaped();
+    return F;
+  }
+
+  bool piece_closes(double begin, double middle, double end) {
+    const State centre = state(middle);
+    const double size = std::max(centre.Lambda.norm(), 1e-300);
+    const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
+    const ComplexMatrix J = jacobian(centre, scale);
+    const Eigen::PartialPivLU<ComplexMatrix> lu(J);
+    ++counts_.certificate_factorizations;
+    double Y = lu.solve(residual(centre)).norm();
+    double Z1 = 0.0;
+    const std::array<double, 4> samples{begin, 0.5 * (begin + middle), 0.5 * (middle + end), end};
+    for (const double t : samples) {
+      const State s = state(t);
+      const ComplexMatrix change = jacobian(s, scale) - J;
+      Y = std::max(Y, lu.solve(residual(s)).norm());
+      Z1 = std::max(Z1, norm_of_solved(lu, change));
+      if (!(Z1 < 1.0) || !std::isfinite(Y)) return false;
+    }
+    const double Z2 = curvature_safety * curvature(centre, scale, lu);
+    const double room = 1.0 - Z1;
+    return room * room > 2.0 * Z2 * Y;
+  }
+
+  /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
+  /// below.
+  double curvature(const State& s, double scale, const Eigen::PartialPivLU<ComplexMatrix>& lu) const {
+    const double mu = s.Lambda.norm();
+    const double equations =
+        2.0 * ((2.0 * s.M.norm() * mu + s.C.norm()) * scale + s.M.norm() * s.Z.norm() * scale * scale);
+    const double normalization = 2.0 * W_.bottomRows(s.Z.rows()).norm() * scale;
+    const Eigen::Index rows = s.Z.size();
+    ComplexMatrix weights = ComplexMatrix::Zero(lu.rows(), lu.rows());
+    weights.diagonal().head(rows).setConstant(equations);
+    weights.diagonal().tail(lu.rows() - rows).setConstant(normalization);
+    return norm_of_solved(lu, weights);
+  }
+
+  /// |J^-1 A| by power iteration.
+  static double norm_of_solved(const Eigen::PartialPivLU<ComplexMatrix>& lu, const ComplexMatrix& A) {
+    const Eigen::Index size = A.cols();
+    ComplexVector v(size);
+    // A fixed start without symmetry.
+    for (Eigen::Index i = 0; i < size; ++i) v[i] = {1.0, std::sin(1.0 + 2.3 * static_cast<double>(i))};
+    double norm = 0.0;
+    for (int i = 0; i < power_iterations; ++i) {
+      const double length = v.norm();
+      if (!(length > 0.0)) return 0.0;
+      v /= length;
+      const ComplexVector w = lu.solve(A * v);
+      norm = std::max(norm, w.norm());
+      const ComplexVector back = lu.adjoint().solve(w);
+      v = A.adjoint() * back;
+      norm = std::max(norm, std::sqrt(v.norm()));
+    }
+    return norm_safety * norm;
+  }
+
+  const StepPencil& pencil_;
+  Chart chart_;
+  ComplexMatrix W_;
+  RunCounts& counts_;
+  double gap_;
+  std::vector<ComplexMatrix> left_Z_, left_Lambda_, right_Z_, right_Lambda_;
+};
+
+}  // namespace
+
+StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length)
+    : left_(left), length_(length), count_(0), right_(right.pencil) {
+  for (const ReducedPencil* pencil : {&left.pencil, &right.pencil}) {
+    count_ =
+        std::max({count_, static_cast<Eigen::Index>(pencil->M.size()),
+                  static_cast<Eigen::Index>(pencil->C.size()), static_cast<Eigen::Index>(pencil->K.size())});
+  }
+  for (const Track& track : left.tracks) {
+    count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
+  }
+  if (left.basis.is_identity) return;
+  // T_left(h) = T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space in the left chart.
+  MatrixSeries overlap;
+  for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
+  if (overlap.size() > 1)
+    overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
+  const TangentBasis change{inverse_series(overlap), false};
+  const int order = static_cast<int>(count_) - 1;
+  right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
+            project(change, right.pencil.K, order)};
+}
+
+Vector StepPencil::weights(double t) const {
+  ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
+  ComplexMatrix right = left;
+  left.topRows(count_).setIdentity();
+  right.bottomRows(count_).setIdentity();
+  return HermiteInterpolant(length_, left, right)(t).real();
+}
+
+Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
+                               const Vector& weights) const {
+  if (left.size() == 1 && right.size() == 1) return left[0];
+  Matrix sum = Matrix::Zero(left[0].rows(), left[0].cols());
+  for (std::size_t i = 0; i < left.size(); ++i) sum += weights[static_cast<Eigen::Index>(i)] * left[i];
+  for (std::size_t i = 0; i < right.size(); ++i)
+    sum += weights[count_ + static_cast<Eigen::Index>(i)] * right[i];
+  return sum;
+}
+
+StepPencil::Matrices StepPencil::at(double t) const {
+  const Vector w = weights(t);
+  return {interpolate(left_.pencil.M, right_.M, w), interpolate(left_.pencil.C, right_.C, w),
+          interpolate(left_.pencil.K, right_.K, w)};
+}
+
+bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
+                  RunCounts& counts) {
+  const StageTimer timer(counts.certificate_seconds);
+  return Tube(pencil, left, right, gap, counts).closes(0.0, 1.0, 0);
+}
+
+}  // namespace eigentrail

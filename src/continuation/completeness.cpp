@@ -1,0 +1,103 @@
+#include "continuation/completeness.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/modes/matching.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double checksum_tolerance = 1e-7;  ///< of the sum of magnitudes
+constexpr double singular = 1e-9;            ///< reciprocal condition below which M or K is left out
+constexpr double same = 1e-4;                ///< relative distance of a track from its eigenvalue
+
+/// All eigenvalues that the tracks stand for, conjugates included.
+std::vector<Complex> all_eigenvalues(const PathNode& node) {
+  std::vector<Complex> all;
+  for (const Track& track : node.tracks) {
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      const Complex s = chart_value(track.roots[i], track.pair.chart);
+      all.push_back(s);
+      if (!track.pair.is_real) all.push_back(std::conj(s));
+    }
+  }
+  return all;
+}
+
+bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::vector<Complex>& all,
+                Chart chart, double reference) {
+  const Eigen::PartialPivLU<Matrix> lu(M);
+  if (!(lu.rcond() > singular)) return true;
+  Complex sum = 0.0;
+  Complex squares = 0.0;
+  double magnitude = reference;
+  double square_magnitude = reference * reference;
+  for (const Complex s : all) {
+    const Complex mu = chart_value(s, chart);
+    sum += mu;
+    squares += mu * mu;
+    magnitude += std::abs(mu);
+    square_magnitude += std::norm(mu);
+  }
+  if (static_cast<Eigen::Index>(all.size()) != 2 * M.rows()) return false;
+  const Matrix G = lu.solve(C);
+  const double trace = -G.trace();
+  const double square_trace = G.cwiseProduct(G.transpose()).sum() - 2.0 * lu.solve(K).trace();
+  return std::abs(sum - trace) <= checksum_tolerance * magnitude &&
+         std::abs(squares - square_trace) <= checksum_tolerance * square_magnitude;
+}
+
+}  // namespace
+
+bool checksum_holds(const PathNode& node, const PathProblem& problem) {
+  const std::vector<Complex> all = all_eigenvalues(node);
+  const ReducedPencil& pencil = node.pencil;
+  return sums_agree(pencil.M[0], pencil.C[0], pencil.K[0], all, Chart::finite,
+                    problem.reference(Chart::finite)) &&
+         sums_agree(pencil.K[0], pencil.C[0], pencil.M[0], all, Chart::reciprocal,
+                    problem.reference(Chart::reciprocal));
+}
+
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
+                                        bool& doubled) {
+  std::vector<Complex> tracked;
+  for (const Track& track : node.tracks) {
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      const Complex s = chart_value(track.roots[i], track.pair.chart);
+      // Members of a real block below the axis stand for the same mode as their conjugates.
+      if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) tracked.push_back(s);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(std::max(tracked.size(), spectrum.modes.size()));
+  constexpr double nobody = 1e6;
+  Matrix cost = Matrix::Constant(n, n, nobody);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
+      const Complex s = spectrum.modes[j].s;
+      const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          std::min(distance / std::max(std::abs(s), s_ref), nobody);
+    }
+  }
+  std::vector<bool> taken(spectrum.modes.size(), false);
+  doubled = false;
+  const std::vector<int> assignment = optimal_assignment(cost);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const int j = assignment[i];
+    if (j >= static_cast<int>(taken.size()) || cost(static_cast<Eigen::Index>(i), j) > same) {
+      doubled = true;
+    } else {
+      taken[static_cast<std::size_t>(j)] = true;
+    }
+  }
+  std::vector<StartingMode> missing;
+  for (std::size_t j = 0; j < taken.size(); ++j) {
+    if (!taken[j]) missing.push_back(spectrum.modes[j]);
+  }
+  return missing;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,134 @@
+#include "eigentrail/continuation/path_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/matching.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Roots may move by this share of the distance to the next one, or they are looked at more closely.
+constexpr double largest_move = 0.3;
+constexpr double smallest_piece = 1e-14;  ///< of a step
+/// Eigenvalues that coincide throughout cannot be told apart; after this many pieces nobody tries any longer.
+constexpr int patience = 300;
+constexpr double piece_without_patience = 1e-2;
+
+Complex upper_member(Complex s) {
+  return s.imag() < 0.0 ? std::conj(s) : s;
+}
+
+ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& block,
+                               const ComplexVector& at_end) {
+  const Eigen::Index k = roots.size();
+  Matrix cost = Matrix::Zero(k, k);
+  for (std::size_t i = 0; i < block.modes.size(); ++i) {
+    const Complex known = chart_value(at_end[block.modes[i]], block.chart);
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const double distance = std::abs(known - roots[j]);
+      cost(static_cast<Eigen::Index>(i), j) = std::isfinite(distance) ? distance : 0.0;
+    }
+  }
+  const std::vector<int> assignment = optimal_assignment(cost);
+  ComplexVector ordered(k);
+  for (Eigen::Index i = 0; i < k; ++i) ordered[i] = roots[assignment[static_cast<std::size_t>(i)]];
+  return ordered;
+}
+
+}  // namespace
+
+Complex chart_value(Complex s, Chart chart) {
+  if (chart == Chart::finite) return s;
+  if (s == 0.0) return {std::numeric_limits<double>::infinity(), 0.0};
+  return std::isfinite(s.real()) && std::isfinite(s.imag()) ? 1.0 / s : Complex(0.0);
+}
+
+ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
+                           double to) {
+  const HermiteInterpolant functions(length, block.left, block.right);
+  if (block.size() == 1) return block_roots(functions(to));
+  ComplexVector current = roots;
+  double t = from;
+  double piece = to - from;
+  for (int pieces = 0; t != to; ++pieces) {
+    const double shortest = pieces < patience ? smallest_piece : piece_without_patience;
+    if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
+    // Seen from its two ends alone a piece in which roots change places looks like one in which nothing
+    // happens; its middle tells.
+    const ComplexVector middle = in_order_of(current, block_roots(functions(t + 0.5 * piece)));
+    const ComplexVector ahead = in_order_of(middle, block_roots(functions(t + piece)));
+    const double first = (middle - current).cwiseAbs().maxCoeff();
+    const double second = (ahead - middle).cwiseAbs().maxCoeff();
+    const double gap = std::min({least_gap(ahead), least_gap(middle), least_gap(current)});
+    if (std::max(first, second) > largest_move * gap && std::abs(piece) > shortest) {
+      piece *= 0.5;
+      continue;
+    }
+    t = piece == to - t ? to : t + piece;
+    current = ahead;
+    piece *= 2.0;
+  }
+  return current;
+}
+
+ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_left,
+                               const ComplexVector& at_right, double t) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  ComplexVector s = ComplexVector::Constant(at_left.size(), Complex(nan, nan));
+  for (const DenseBlock& block : step.blocks) {
+    ComplexVector roots;
+    if (block.size() == 1) {
+      roots = HermiteInterpolant(step.length, block.left, block.right)(t);
+    } else {
+      // Followed from the end where the eigenvalues lie further apart: at a special point they do not tell.
+      const ComplexVector left = block_roots(block.left.col(0));
+      const ComplexVector right = block_roots(block.right.col(0));
+      const bool from_left = least_gap(left) >= least_gap(right);
+      const ComplexVector start =
+          ordered_by_modes(from_left ? left : right, block, from_left ? at_left : at_right);
+      roots = follow_roots(block, step.length, start, from_left ? 0.0 : 1.0, t);
+    }
+    for (std::size_t i = 0; i < block.modes.size(); ++i) {
+      s[block.modes[i]] = upper_member(chart_value(roots[static_cast<Eigen::Index>(i)], block.chart));
+    }
+  }
+  return s;
+}
+
+std::vector<double> step_positions(const PathStep& step, double p) {
+  const double a = step.parameter(0, 0);
+  const double b = step.parameter(1, 0);
+  const bool straight = step.parameter.rightCols(step.parameter.cols() - 1).leftCols(1).isOnes(0.0) &&
+                        step.parameter.rightCols(step.parameter.cols() - 2).isZero(0.0);
+  if (straight) {
+    const double t = (p - a) / (b - a);
+    return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
+  }
+  const HermiteInterpolant interpolant(step.length, step.parameter.row(0).cast<Complex>(),
+                                       step.parameter.row(1).cast<Complex>());
+  const int degree = 2 * static_cast<int>(step.parameter.cols()) - 1;
+  std::vector<double> positions;
+  for (Complex t : roots_near_unit_interval([&](double u) { return interpolant(u)[0] - p; }, degree)) {
+    if (std::abs(t.imag()) > 1e-3 || t.real() < -0.1 || t.real() > 1.1) continue;
+    // Newton's method removes what rounding in the matrix of a nearly straight path has left.
+    for (int i = 0; i < 4; ++i) {
+      const double slope = interpolant.slope(t.real())[0].real();
+      const Complex move = (interpolant(t)[0] - p) / slope;
+      if (!(std::abs(move) < 0.1)) break;
+      t -= move;
+    }
+    // Ends that lie on p are met exactly, up to the rounding of the roots.
+    constexpr double slack = 1e-12;
+    if (std::abs(t.imag()) > 1e-7 || t.real() < -slack || t.real() > 1.0 + slack) continue;
+    positions.push_back(std::clamp(t.real(), 0.0, 1.0));
+  }
+  std::sort(positions.begin(), positions.end());
+  return positions;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,434 @@
+#include "continuation/regrouping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr Eigen::Index largest_block = 6;
+/// Members part that would have met this share of the accepted error alone: of a pair, which costs little to
+/// keep, and of larger blocks, which are told less well.
+constexpr double parting_error = 0.03;
+constexpr double bystander_error = 0.5;
+
+/// Distance of a complex number from the real segment between 0 and h.
+double distance_to_step(Complex z, double h) {
+  const double along = h > 0.0 ? std::clamp(z.real(), 0.0, h) : std::clamp(z.real(), h, 0.0);
+  return std::abs(z - along);
+}
+
+/// Whether sum_k c_k h^k has no root within radius r: the constant term outweighs all others.
+bool no_root_within(const ComplexVector& c, double r) {
+  double others = 0.0;
+  double power = 1.0;
+  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
+  return std::abs(c[0]) > others;
+}
+
+/// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
+/// is the square of the radius that blocks extend around their means.
+double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
+                        double limit) {
+  const ComplexVector difference = 0.5 * (a - b);
+  ComplexVector delta = multiply_series(difference, difference);
+  delta[0] -= spread;
+  if (no_root_within(delta, std::abs(h) + limit)) return INFINITY;
+  double nearest = INFINITY;
+  for (const Complex root : polynomial_roots(delta)) nearest = std::min(nearest, distance_to_step(root, h));
+  return nearest;
+}
+
+double square_radius(const Track& track) {
+  double radius = 0.0;
+  for (const Complex root : track.roots) radius = std::max(radius, std::norm(root - track.roots.mean()));
+  return track.size() == 1 ? 0.0 : radius;
+}
+
+/// Mean of a track as a series of s, also when it is followed as 1/s; empty at infinity.
+ComplexVector mean_series(const Track& track, Chart chart) {
+  ComplexVector mean(track.functions.cols());
+  for (Eigen::Index k = 0; k < mean.size(); ++k) mean[k] = block_mean(track.functions.col(k));
+  if (track.pair.chart == chart) return mean;
+  return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
+}
+
+/// Replaces the tracks with the given indices by one.
+void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
+  std::sort(old.rbegin(), old.rend());
+  for (const std::size_t i : old) node.tracks.erase(node.tracks.begin() + static_cast<std::ptrdiff_t>(i));
+  node.tracks.push_back(std::move(track));
+}
+
+/// The pair corrected at the node and differentiated, its roots in the order of `known`.
+bool settle(const PathProblem& problem, const PathNode& node, const InvariantPair& pair,
+            const ComplexVector& known, const std::vector<int>& modes, Track& track, RunCounts& counts) {
+  const PencilAtPoint pencil(node.pencil, pair.chart);
+  InvariantPair corrected =
+      correct_pair(pencil, pair, problem.reference(pair.chart), problem.corrector, counts.modes);
+  if (corrected.status != PairStatus::converged) return false;
+  track = differentiate_track(problem, node, std::move(corrected), counts);
+  if (!track.functions.allFinite()) return false;
+  track.roots = in_order_of(known, track.roots);
+  track.modes = modes;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
+  const Track& track = node.tracks[index];
+  const double limit = reach * std::abs(h);
+  const ComplexVector mean = mean_series(track, track.pair.chart);
+  std::vector<Partner> partners;
+  const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
+    if (other.size() == 0) return;
+    partner.distance = meeting_distance(mean, other, spread, h, limit);
+    if (partner.distance <= limit) partners.push_back(partner);
+  };
+  // A member may as well meet the conjugate of another track: both are near the real axis then.
+  double nearest_conjugate = INFINITY;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& other = node.tracks[i];
+    const double spread =
+        i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
+    const ComplexVector series = mean_series(other, track.pair.chart);
+    if (i != index) consider(series, spread, {false, i});
+    if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
+    nearest_conjugate =
+        std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h, limit));
+  }
+  if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
+  std::sort(partners.begin(), partners.end(),
+            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
+  return partners;
+}
+
+namespace {
+
+/// Series of every eigenvalue of a track in a chart; empty when one of them cannot be told.
+std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
+  std::vector<ComplexVector> all;
+  for (const Complex root : track.roots) {
+    ComplexVector series = root_series(track.functions, root);
+    if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
+    all.push_back(track.pair.chart == chart ? series : reciprocal_series(series));
+  }
+  return all;
+}
+
+/// Mean and power means of the distances from it: the smooth functions of a block as far as single
+/// eigenvalues tell.
+ComplexMatrix symmetric_functions(const std::vector<ComplexVector>& series) {
+  const auto k = static_cast<Eigen::Index>(series.size());
+  ComplexVector mean = ComplexVector::Zero(series.front().size());
+  for (const ComplexVector& s : series) mean += s / static_cast<double>(k);
+  ComplexMatrix functions(k, mean.size());
+  functions.row(0) = mean.transpose();
+  std::vector<ComplexVector> powers(series.size(), ComplexVector::Unit(mean.size(), 0));
+  for (Eigen::Index j = 1; j <= k; ++j) {
+    ComplexVector sum = ComplexVector::Zero(mean.size());
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      powers[i] = multiply_series(powers[i], series[i] - mean);
+      sum += powers[i] / static_cast<double>(k);
+    }
+    if (j >= 2) functions.row(j - 1) = sum.transpose();
+  }
+  return functions;
+}
+
+/// How far errors of the symmetric functions move their roots: through the characteristic polynomial, whose
+/// slope at a root is the product of the distances to the others.
+double symmetric_root_error(const ComplexVector& roots, const Vector& errors, double least_gap) {
+  const Eigen::Index k = roots.size();
+  const Complex mean = roots.mean();
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    double slope = 1.0;
+    for (Eigen::Index j = 0; j < k; ++j) {
+      if (j != i) slope *= std::max(std::abs(roots[i] - roots[j]), least_gap);
+    }
+    double change = 0.0;
+    for (Eigen::Index j = 2; j <= k; ++j) {
+      const double power =
+          std::pow(std::max(std::abs(roots[i] - mean), least_gap), static_cast<double>(k - j));
+      change += static_cast<double>(k) / static_cast<double>(j) * errors[j - 1] * power;
+    }
+    worst = std::max(worst, change / slope);
+  }
+  return errors[0] + worst;
+}
+
+}  // namespace
+
+double error_as_block(const PathNode& left, const PathNode& right, std::size_t index,
+                      const std::vector<Partner>& partners, double h, double least_gap) {
+  const Chart chart = right.tracks[index].pair.chart;
+  const auto members = [&](const PathNode& node) {
+    std::vector<ComplexVector> all = eigenvalue_series(node.tracks[index], chart);
+    for (const Partner& partner : partners) {
+      std::vector<ComplexVector> more = eigenvalue_series(node.tracks[partner.track], chart);
+      for (ComplexVector& series : more)
+        all.push_back(partner.conjugate ? ComplexVector(series.conjugate()) : series);
+      if (more.empty()) return std::vector<ComplexVector>{};
+    }
+    return all;
+  };
+  const std::vector<ComplexVector> at_left = members(left);
+  const std::vector<ComplexVector> at_right = members(right);
+  if (at_left.empty() || at_left.size() != at_right.size()) return INFINITY;
+  const ComplexMatrix from = symmetric_functions(at_left);
+  const ComplexMatrix to = symmetric_functions(at_right);
+  const Vector errors = HermiteInterpolant(h, from, to).error_without_last();
+  double worst = 0.0;
+  for (const auto* end : {&at_left, &at_right}) {
+    ComplexVector roots(static_cast<Eigen::Index>(end->size()));
+    for (std::size_t i = 0; i < end->size(); ++i) roots[static_cast<Eigen::Index>(i)] = (*end)[i][0];
+    worst = std::max(worst, symmetric_root_error(roots, errors, least_gap));
+  }
+  return std::isfinite(worst) ? worst : INFINITY;
+}
+
+double error_in_other_chart(const PathProblem& problem, const PathNode& left, const PathNode& right,
+                            std::size_t index, double h) {
+  const Track& a = left.tracks[index];
+  const Track& b = right.tracks[index];
+  if (a.size() != 1 || b.size() != 1 || a.roots[0] == 0.0 || b.roots[0] == 0.0) return INFINITY;
+  const Chart other = b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite;
+  const ComplexMatrix from = reciprocal_series(a.functions.row(0).transpose()).transpose();
+  const ComplexMatrix to = reciprocal_series(b.functions.row(0).transpose()).transpose();
+  const double scale = std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(other));
+  return HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
+}
+
+bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
+          RunCounts& counts) {
+  const StageTimer timer(counts.modes_seconds);
+  std::vector<std::size_t> members{index};
+  bool make_real = false;
+  for (const Partner& partner : partners) {
+    if (!partner.conjugate) members.push_back(partner.track);
+    make_real = make_real || partner.conjugate;
+  }
+  std::vector<InvariantPair> pairs;
+  for (const std::size_t i : members) {
+    make_real = make_real || node.tracks[i].pair.is_real;
+    pairs.push_back(node.tracks[i].pair);
+    if (pairs.back().chart != node.tracks[index].pair.chart) pairs.back() = in_other_chart(pairs.back());
+  }
+  std::vector<const InvariantPair*> parts;
+  std::vector<Complex> known;
+  std::vector<int> modes;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Track& track = node.tracks[members[i]];
+    parts.push_back(&pairs[i]);
+    for (Eigen::Index j = 0; j < track.size(); ++j) {
+      const bool same_chart = track.pair.chart == node.tracks[index].pair.chart;
+      known.push_back(same_chart ? track.roots[j] : 1.0 / track.roots[j]);
+      modes.push_back(track.modes[static_cast<std::size_t>(j)]);
+    }
+    if (!make_real || track.pair.is_real) continue;
+    for (Eigen::Index j = 0; j < track.size(); ++j) {
+      known.push_back(std::conj(known[known.size() - static_cast<std::size_t>(track.size())]));
+      modes.push_back(Track::no_mode);
+    }
+  }
+  if (static_cast<Eigen::Index>(known.size()) > std::min(largest_block, 2 * node.pencil.size())) return false;
+  Track joined;
+  const ComplexVector values =
+      Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
+  if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
+  replace(node, members, std::move(joined));
+  return true;
+}
+
+namespace {
+
+/// Which eigenvalues of a block still belong together: connected by meetings within the reach.
+std::vector<std::vector<int>> groups(const Track& track, double h, double reach) {
+  const Eigen::Index k = track.size();
+  std::vector<int> group(static_cast<std::size_t>(k));
+  std::iota(group.begin(), group.end(), 0);
+  std::vector<ComplexVector> series;
+  for (const Complex root : track.roots) series.push_back(root_series(track.functions, root));
+  const double limit = reach * std::abs(h);
+  const double scale = std::max(track.pair.Lambda.norm(), 1e-300);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const auto& a = series[static_cast<std::size_t>(i)];
+      const auto& b = series[static_cast<std::size_t>(j)];
+      const bool apart =
+          std::abs(track.roots[i] - track.roots[j]) > 1e-7 * scale && a.size() > 0 && b.size() > 0;
+      const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit) < limit ||
+                          meeting_distance(a, b, 0.0, -h, limit) < limit;
+      if (!linked) continue;
+      const int from = group[static_cast<std::size_t>(i)];
+      const int to = group[static_cast<std::size_t>(j)];
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  std::vector<std::vector<int>> result;
+  for (int label = 0; label < k; ++label) {
+    std::vector<int> members;
+    for (int i = 0; i < k; ++i) {
+      if (group[static_cast<std::size_t>(i)] == label) members.push_back(i);
+    }
+    if (!members.empty()) result.push_back(std::move(members));
+  }
+  return result;
+}
+
+/// Estimated errors of the eigenvalues of a block if each had been followed by itself on the step of length h
+/// that ended at the node, relative to max(|mu|, reference), in the better chart for each.
+Vector errors_as_singles(const PathProblem& problem, const PathNode& left, const PathNode& right,
+                         std::size_t index, double h) {
+  const Track& a = left.tracks[index];
+  const Track& b = right.tracks[index];
+  Vector errors = Vector::Constant(b.size(), INFINITY);
+  if (a.size() != b.size()) return errors;
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    ComplexMatrix from = root_series(a.functions, a.roots[i]).transpose();
+    ComplexMatrix to = root_series(b.functions, b.roots[i]).transpose();
+    if (from.cols() == 0 || to.cols() == 0) continue;
+    for (const Chart chart :
+         {b.pair.chart, b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite}) {
+      if (chart != b.pair.chart) {
+        if (from(0, 0) == 0.0 || to(0, 0) == 0.0) continue;
+        from = reciprocal_series(from.row(0).transpose()).transpose().eval();
+        to = reciprocal_series(to.row(0).transpose()).transpose().eval();
+      }
+      const double scale =
+          std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(chart));
+      const double error = HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
+      if (error < errors[i]) errors[i] = error;
+    }
+  }
+  return errors;
+}
+
+/// A block without the eigenvalues that could have done alone.
+std::vector<std::vector<int>> without_bystanders(const Vector& errors, double accepted) {
+  std::vector<std::vector<int>> members;
+  std::vector<int> rest;
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    if (errors[i] < accepted) {
+      members.push_back({static_cast<int>(i)});
+    } else {
+      rest.push_back(static_cast<int>(i));
+    }
+  }
+  // One alone that could not do alone has lost its partner by mistake.
+  if (rest.size() == 1) return {};
+  if (!rest.empty()) members.push_back(std::move(rest));
+  return members;
+}
+
+/// The tracks that a block falls into; empty when one of them does not converge.
+std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, const Track& block,
+                            const std::vector<std::vector<int>>& groups, RunCounts& counts) {
+  std::vector<Track> parts;
+  for (const std::vector<int>& members : groups) {
+    std::vector<int> modes;
+    ComplexVector known(static_cast<Eigen::Index>(members.size()));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      known[static_cast<Eigen::Index>(i)] = block.roots[members[i]];
+      modes.push_back(block.modes[static_cast<std::size_t>(members[i])]);
+    }
+    // Conjugates and guests that have parted from the modes are no longer needed.
+    if (std::all_of(modes.begin(), modes.end(), [](int mode) { return mode < 0; })) continue;
+    Track track;
+    if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
+      return {};
+    parts.push_back(std::move(track));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
+                              const std::vector<int>& members, RunCounts& counts) {
+  double inside = 0.0;
+  double outside = INFINITY;
+  ComplexVector known(static_cast<Eigen::Index>(members.size()));
+  std::vector<int> modes;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Complex root = known[static_cast<Eigen::Index>(i)] = track.roots[members[i]];
+    modes.push_back(track.modes[static_cast<std::size_t>(members[i])]);
+    for (int j = 0; j < static_cast<int>(track.size()); ++j) {
+      const bool member = std::find(members.begin(), members.end(), j) != members.end();
+      const double distance = std::abs(track.roots[j] - root);
+      if (member) {
+        inside = std::max(inside, distance);
+      } else {
+        outside = std::min(outside, distance);
+      }
+    }
+  }
+  Track result;
+  if (!(outside > 3.0 * inside)) return std::nullopt;
+  if (!settle(problem, node, part_of(track.pair, track.roots, members), known, modes, result, counts))
+    return std::nullopt;
+  return result;
+}
+
+void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
+          double reach, double accepted, RunCounts& counts) {
+  const StageTimer timer(counts.modes_seconds);
+  std::vector<Track> tracks;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    Track& track = node.tracks[i];
+    std::vector<Track> parts;
+    if (track.size() > 1) {
+      auto members = groups(track, h, reach);
+      const bool comparable =
+          left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
+      if (members.size() == 1 && comparable) {
+        const double share = track.size() == 2 ? parting_error : bystander_error;
+        // What they would be on the next step, which may be longer.
+        const double growth = std::pow(std::abs(h / last_step), 2.0 * problem.order + 2.0);
+        members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
+                                     share * accepted);
+      }
+      if (members.size() > 1) parts = parts_of(problem, node, track, members, counts);
+    }
+    if (parts.empty()) {
+      tracks.push_back(std::move(track));
+    } else {
+      std::move(parts.begin(), parts.end(), std::back_inserter(tracks));
+    }
+  }
+  node.tracks = std::move(tracks);
+}
+
+bool prefers_other_chart(const Track& track, double h) {
+  if (track.size() != 1 || track.functions(0, 0) == 0.0) return false;
+  const ComplexVector here = track.functions.row(0).transpose();
+  const ComplexVector there = reciprocal_series(here);
+  const auto tail = [h](const ComplexVector& series) {
+    const Eigen::Index last = series.size() - 1;
+    return std::abs(series[last]) * std::pow(std::abs(h), static_cast<double>(last)) / std::abs(series[0]);
+  };
+  // The eigenvalue must move by a good part of itself, or the charts do not differ.
+  return std::abs(here[1] * h) > 0.2 * std::abs(here[0]) && tail(there) < 0.2 * tail(here);
+}
+
+bool change_chart(const PathProblem& problem, PathNode& node, std::size_t index, RunCounts& counts) {
+  Track& track = node.tracks[index];
+  if (track.size() != 1 || track.roots[0] == 0.0) return false;
+  Track other;
+  if (!settle(problem, node, in_other_chart(track.pair), track.roots.cwiseInverse(), track.modes, other,
+              counts))
+    return false;
+  other.arriving = track.arriving;
+  track = std::move(other);
+  return true;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,58 @@
+#include "continuation/shared_basis.hpp"
+
+#include <Eigen/LU>
+
+namespace eigentrail {
+
+std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical) {
+  if (node.basis.is_identity) return physical;
+  std::vector<ComplexMatrix> result;
+  for (const ComplexMatrix& V : physical)
+    result.emplace_back(node.basis.T[0].transpose().cast<Complex>() * V);
+  return result;
+}
+
+/// Z S and S^-1 Lambda S with S = (W0^H Z + W1^H Z Lambda)^-1.
+void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda) {
+  const std::size_t count = Z.size();
+  const Eigen::Index n = Z[0].rows();
+  const Eigen::Index k = Z[0].cols();
+  const auto product = [count](const std::vector<ComplexMatrix>& A, const std::vector<ComplexMatrix>& B) {
+    std::vector<ComplexMatrix> C(count, ComplexMatrix::Zero(A[0].rows(), B[0].cols()));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; i + j < count; ++j) C[i + j] += A[i] * B[j];
+    }
+    return C;
+  };
+  const std::vector<ComplexMatrix> ZL = product(Z, Lambda);
+  std::vector<ComplexMatrix> N(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    N[i] = W.topRows(n).adjoint() * Z[i] + W.bottomRows(n).adjoint() * ZL[i];
+  }
+  const Eigen::PartialPivLU<ComplexMatrix> lu(N[0]);
+  std::vector<ComplexMatrix> S{lu.inverse()};
+  for (std::size_t i = 1; i < count; ++i) {
+    ComplexMatrix sum = ComplexMatrix::Zero(k, k);
+    for (std::size_t j = 1; j <= i; ++j) sum += N[j] * S[i - j];
+    S.emplace_back(-lu.solve(sum));
+  }
+  Z = product(Z, S);
+  Lambda = product(N, product(Lambda, S));
+}
+
+DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_t index) {
+  const Track& a = left.tracks[index];
+  const Track& b = right.tracks[index];
+  DenseBlock block;
+  block.chart = a.pair.chart;
+  block.left = a.functions;
+  block.right = b.functions;
+  if (a.size() <= 2) return block;
+  std::vector<ComplexMatrix> Z = in_basis_of(left, b.series.Z);
+  std::vector<ComplexMatrix> Lambda = b.series.Lambda;
+  fix_basis(a.pair.W, Z, Lambda);
+  block.right = block_functions(Lambda);
+  return block;
+}
+
+}  // namespace eigentrail

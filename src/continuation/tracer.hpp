@@ -1,0 +1,138 @@
+// The state of a trace and its stages. The public function trace() builds one and returns its result.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "continuation/meetings.hpp"
+#include "continuation/regrouping.hpp"
+#include "continuation/reparametrize.hpp"
+#include "eigentrail/continuation/step_control.hpp"
+#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+
+namespace eigentrail {
+
+class Tracer {
+ public:
+  Tracer(const Model& model, const TraceOptions& options, const TraceObserver& observer, BasisChoice basis);
+
+  TraceResult run();
+
+ private:
+  /// Why a step was not taken, and which track is to blame (-1: none in particular).
+  struct Trouble {
+    enum class Kind {
+      none,
+      no_equilibrium,
+      mode_lost,
+      inaccurate,
+      mismatch,
+      merged,
+      uncertified
+    } kind = Kind::none;
+    int track = -1;
+    double error = 0.0;  ///< estimated error / accepted error, infinite when not known
+    std::string reason;
+    explicit operator bool() const { return kind != Kind::none; }
+  };
+
+  // tracer_start.cpp: the first point.
+  bool start();
+  std::optional<std::vector<StartingMode>> starting_modes(const ReducedPencil& pencil);
+  bool start_tracks(PathPoint& point, const std::vector<StartingMode>& modes, std::optional<PathNode>& node);
+
+  // tracer.cpp: the loop.
+  void follow();
+  bool advance(StepControl& control);
+  Prediction predict(const PathNode& base, double h) const;
+  /// Computes and differentiates the point at distance h; the tracks' eigenvalues have their modes.
+  Trouble attempt(double h, std::optional<PathNode>& next);
+  Trouble judge(double h, const PathNode& next);
+  /// Estimated error of one track's dense output on the step, as a fraction of what is accepted.
+  double track_error(double h, const PathNode& next, std::size_t track) const;
+  Trouble measure_error(double h, const PathNode& next) const;
+  Trouble check_identity(const PathNode& next);
+  Trouble certify(double h, const PathNode& next);
+  /// Changes what is followed together so that the step may be tried again as it is.
+  bool remedy(const Trouble& trouble, double h, const std::optional<PathNode>& next);
+  std::vector<Partner> helpful_partners(double h, const PathNode& next, std::size_t track, double error,
+                                        std::vector<Partner> candidates) const;
+  /// Joins single modes at the end of the step that limit each other's accuracy.
+  void join_limiting_modes(double h, PathNode& next, double next_step);
+  bool turn_to_plane(double h);
+  void renew_plane();
+  PathScales path_scales();
+  bool accept(double h, PathNode next, double next_step);
+  bool give_up(const Trouble& trouble);
+  double remaining() const;
+  double longest_allowed_step() const;
+  bool reached_end(const PathNode& node) const;
+
+  // tracer_labels.cpp: which eigenvalue is which mode.
+  void label_arrival(double h, PathNode& next) const;
+  void label_departure(double h, PathNode& next, const std::vector<Meeting>& meetings);
+  void settle_real_block(Track& track);
+  int partner_of(int mode);
+  PathStep make_step(double h, const PathNode& next) const;
+  std::vector<ModeState> mode_states(const PathNode& node) const;
+
+  // tracer_events.cpp: special points.
+  /// Shortens the step so that it ends on the first meeting inside it.
+  bool land_on_meeting(double& h, std::optional<PathNode>& next);
+  void record_meetings_at_start();
+  void find_simultaneous_meetings(double h, const PathNode& next, std::vector<Meeting>& meetings);
+  enum class Approach { reached, nothing, failed };
+  Approach approach_meeting(const ExpectedMeeting& expected, double excluded, double& h,
+                            std::optional<PathNode>& next, Meeting& meeting, int& retrackings);
+  Meeting meeting_at(const PathNode& point, std::size_t track, double reach);
+  bool land_on_end(double& h, std::optional<PathNode>& next);
+  void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
+  void look_beside(const PathNode& point, std::size_t track, const Meeting& meeting);
+  std::optional<PathNode> probe(const PathNode& base, double h);
+  void record_veering(const PathNode& base, Complex root, const std::vector<int>& modes);
+  void add_event(Event event);
+  void add_static_event(const PathNode& node, Event event);
+  void find_events(double h, const PathNode& next);
+  void find_axis_crossings(double h, const PathNode& next);
+  void locate_axis_crossing(double h, const PathNode& next, std::size_t track, std::size_t member, double t,
+                            bool pair);
+  void record_axis_crossing(const PathNode& point, double offset, Complex s, std::size_t track,
+                            std::size_t member, bool pair, int retrackings);
+  void find_distant_veerings(double h, const PathNode& next);
+  void record_distant_veering(double h, const PathNode& next, std::size_t i, std::size_t j, Complex t);
+  void find_folds(double h, const PathNode& next);
+  double veering_width() const;
+
+  // tracer_completeness.cpp
+  void complete(PathNode& node);
+
+  bool emit(const PathNode& node, const PathStep* step);
+  bool stop(TraceStatus status, const std::string& message);
+  std::string at_parameter(double p) const;
+  double range() const { return std::abs(options_.to - options_.from); }
+
+  const TraceOptions& options_;
+  const TraceObserver& observer_;
+  PathProblem problem_;
+  TraceResult result_;
+  double direction_ = 1.0;  ///< sign of steps in the path's coordinate
+  PathNode node_;           ///< the last accepted point
+  std::optional<PathPlane> plane_;
+  std::vector<bool> certified_;     ///< per track of the step at hand
+  double uncertified_below_ = 0.0;  ///< steps shorter than this are taken without certificate
+  bool follows_all_ = false;
+  std::map<int, int> partners_;  ///< modes that shared a real block: who comes back when a pair parts again
+  double part_reach_ = 3.0;      ///< steps: blocks part when their meetings are farther than this
+  double excluded_ = 0.0;        ///< share of the next step in which meetings are already known
+  std::map<int, Complex> last_value_;  ///< of every mode, where its real part was last told from zero
+  double next_checkpoint_ = 0.0;
+  int merges_at_node_ = 0;
+  double largest_position_ = 0.0;  ///< |x| on the path so far
+  double turned_step_ =
+      0.0;  ///< length of the next step in a coordinate that has just changed; 0: it has not
+  double longest_step_ = 0.0;  ///< of late
+};
+
+}  // namespace eigentrail

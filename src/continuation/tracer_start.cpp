@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "continuation/regrouping.hpp"
+#include "continuation/starting_tracks.hpp"
+#include "continuation/tracer.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double reference_share = 1e-3;  ///< s_ref / median |s| at the start
+constexpr double infinity_share = 1e4;    ///< s_max / largest |s| at the start
+/// A start that moves by more than this, relatively, was no eigenvalue of its own.
+constexpr double largest_drift = 1e-2;
+
+}  // namespace
+
+bool Tracer::start() {
+  RunCounts& counts = result_.counts;
+  const Vector guess = problem_.model.initial_guess(parameters_at(problem_, options_.from));
+  PathPoint point = reduce_at(problem_, options_.from, {guess, Vector()}, Matrix(), counts);
+  if (point.status != PointStatus::computed) return stop(TraceStatus::no_equilibrium, point.message);
+  result_.n_independent = point.pencil.size();
+  const auto modes = starting_modes(point.pencil);
+  if (!modes) return false;
+  std::optional<PathNode> node;
+  if (!start_tracks(point, *modes, node)) return false;
+  observer_.started({problem_.s_ref, result_.n_available, result_.n_modes});
+  node_ = std::move(*node);
+  record_meetings_at_start();
+  return emit(node_, nullptr);
+}
+
+/// All modes by ascending |s|, how many of them are followed, and the magnitudes that count as zero and
+/// infinite.
+std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPencil& pencil) {
+  const StageTimer timer(result_.counts.modes_seconds);
+  Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  ++result_.counts.spectra;
+  result_.n_infinite = spectrum.n_infinite;
+  result_.n_available = static_cast<int>(spectrum.modes.size());
+  const std::string where = " at " + at_parameter(options_.from);
+  if (spectrum.status == SpectrumStatus::singular_pencil) {
+    stop(TraceStatus::singular_pencil,
+         "the pencil is singular" + where +
+             ": every number is an eigenvalue. A freedom "
+             "without mass, damping and stiffness causes this; remove or constrain it");
+    return std::nullopt;
+  }
+  if (spectrum.status != SpectrumStatus::complete) {
+    stop(TraceStatus::no_modes, "LAPACK's QZ did not converge" + where);
+    return std::nullopt;
+  }
+  auto& modes = spectrum.modes;
+  if (modes.empty()) {
+    stop(TraceStatus::no_modes, "there are no modes to follow" + where +
+                                    (result_.n_independent == 0 ? ": the constraints leave no freedom" : ""));
+    return std::nullopt;
+  }
+  result_.n_modes = std::min(options_.modes.value_or(result_.n_available), result_.n_available);
+  result_.n_columns = result_.n_modes;
+  // Infinite eigenvalues are not followed: the checksum would miss them.
+  follows_all_ = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
+  const double median = std::abs(modes[static_cast<std::size_t>(result_.n_modes) / 2].s);
+  // A median of rounding (rigid-body modes) measures nothing; the pencil's own scale does.
+  problem_.s_ref = options_.reference.value_or(reference_share * std::max(median, 1e-6 * spectrum.scale));
+  problem_.s_max = infinity_share * std::max(std::abs(modes.back().s), problem_.s_ref);
+  result_.s_ref = problem_.s_ref;
+  return std::move(modes);
+}
+
+bool Tracer::start_tracks(PathPoint& point, const std::vector<StartingMode>& modes,
+                          std::optional<PathNode>& node) {
+  const auto groups = starting_groups(point.pencil, modes, result_.n_modes, problem_.s_ref);
+  for (const StartingGroup& group : groups) {
+    const StageTimer timer(result_.counts.modes_seconds);
+    point.pairs.push_back(correct_pair(PencilAtPoint(point.pencil), group.pair, problem_.s_ref,
+                                       problem_.corrector, result_.counts.modes));
+    const InvariantPair& pair = point.pairs.back();
+    const double moved = std::abs(pair.Lambda.trace() - group.roots.sum()) / static_cast<double>(pair.size());
+    const double scale = std::max(group.roots.cwiseAbs().maxCoeff(), problem_.s_ref);
+    if (pair.status == PairStatus::converged && moved < largest_drift * scale) continue;
+    std::ostringstream message;
+    message << "the corrector did not converge to the mode" << (group.roots.size() > 1 ? "s" : "")
+            << " at s =";
+    for (const Complex s : group.roots)
+      message << ' ' << s.real() << (s.imag() < 0 ? " - " : " + ") << std::abs(s.imag()) << 'j';
+    message << " at " << at_parameter(options_.from) << "; begin the trace elsewhere, or follow fewer modes";
+    return stop(TraceStatus::multiple_mode, message.str());
+  }
+  node = differentiate_point(problem_, point, result_.counts);
+  if (!node) return stop(TraceStatus::multiple_mode, "a series at the start is not finite");
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Track& track = node->tracks[i];
+    track.modes = groups[i].modes;
+    track.roots = in_order_of(groups[i].roots, track.roots);
+    if (track.pair.is_real && track.size() > 1) settle_real_block(track);
+    track.arriving = track.modes;
+  }
+  return true;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,135 @@
+#include "eigentrail/modes/regroup.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+/// Swaps the diagonal entries i and i + 1 of the triangular T by a unitary rotation (Golub & Van Loan 2013,
+/// Sect. 7.6.2).
+void swap_neighbours(ComplexMatrix& T, ComplexMatrix& U, Eigen::Index i) {
+  Eigen::JacobiRotation<Complex> rotation;
+  rotation.makeGivens(T(i, i + 1), T(i + 1, i + 1) - T(i, i));
+  T.applyOnTheLeft(i, i + 1, rotation.adjoint());
+  T.applyOnTheRight(i, i + 1, rotation);
+  U.applyOnTheRight(i, i + 1, rotation);
+  T(i + 1, i) = 0.0;
+}
+
+bool closed_under_conjugation(const ComplexVector& eigenvalues, const std::vector<int>& part) {
+  const auto contains = [&](Complex s) {
+    return std::any_of(part.begin(), part.end(), [&](int i) { return eigenvalues[i] == s; });
+  };
+  return std::all_of(part.begin(), part.end(), [&](int i) { return contains(std::conj(eigenvalues[i])); });
+}
+
+}  // namespace
+
+InvariantPair with_conjugate(const InvariantPair& upper) {
+  InvariantPair pair;
+  pair.chart = upper.chart;
+  pair.is_real = true;
+  const Eigen::Index n = upper.Z.rows();
+  const Eigen::Index k = upper.size();
+  ComplexMatrix Z = upper.Z;
+  for (Eigen::Index j = 0; j < k && k == 1; ++j) {
+    // A phase that makes the real part as large as can be keeps the two columns apart.
+    const Complex square = (Z.col(j).transpose() * Z.col(j))(0, 0);
+    if (std::abs(square) > 0.0) Z.col(j) *= std::conj(std::sqrt(square / std::abs(square)));
+  }
+  // (a + i b) (R + i S) = (a R - b S) + i (a S + b R).
+  const Matrix R = upper.Lambda.real();
+  const Matrix S = upper.Lambda.imag();
+  pair.Z = ComplexMatrix::Zero(n, 2 * k);
+  pair.Z.leftCols(k) = Z.real().cast<Complex>();
+  pair.Z.rightCols(k) = Z.imag().cast<Complex>();
+  pair.Lambda = ComplexMatrix::Zero(2 * k, 2 * k);
+  pair.Lambda.topLeftCorner(k, k) = R.cast<Complex>();
+  pair.Lambda.topRightCorner(k, k) = S.cast<Complex>();
+  pair.Lambda.bottomLeftCorner(k, k) = -S.cast<Complex>();
+  pair.Lambda.bottomRightCorner(k, k) = R.cast<Complex>();
+  if (k > 1) return pair;
+  // Near the real axis Im z is small like Im s (and zero for a single freedom): scaled up, [Z; Z Lambda]
+  // keeps two independent columns.
+  const double size =
+      std::max(pair.Z.col(1).norm(), std::abs(S(0, 0)) / std::max(upper.Lambda.norm(), 1e-300));
+  if (size > 0.0) {
+    pair.Z.col(1) /= size;
+    pair.Lambda(0, 1) /= size;
+    pair.Lambda(1, 0) *= size;
+  }
+  return pair;
+}
+
+InvariantPair join_pairs(const std::vector<const InvariantPair*>& parts, bool make_real) {
+  std::vector<InvariantPair> blocks;
+  for (const InvariantPair* part : parts) {
+    const bool expand = make_real && !part->is_real;
+    blocks.push_back(expand ? with_conjugate(*part) : *part);
+  }
+  InvariantPair joined;
+  joined.chart = parts.front()->chart;
+  joined.is_real = make_real;
+  Eigen::Index k = 0;
+  for (const InvariantPair& block : blocks) k += block.size();
+  joined.Z.resize(parts.front()->Z.rows(), k);
+  joined.Lambda = ComplexMatrix::Zero(k, k);
+  Eigen::Index at = 0;
+  for (const InvariantPair& block : blocks) {
+    joined.Z.middleCols(at, block.size()) = block.Z;
+    joined.Lambda.block(at, at, block.size(), block.size()) = block.Lambda;
+    at += block.size();
+  }
+  return joined;
+}
+
+ComplexVector pair_eigenvalues(const InvariantPair& pair) {
+  if (pair.size() == 1) return pair.Lambda.col(0);
+  if (!pair.is_real) return Eigen::ComplexEigenSolver<ComplexMatrix>(pair.Lambda, false).eigenvalues();
+  return Eigen::EigenSolver<Matrix>(pair.Lambda.real(), false).eigenvalues();
+}
+
+InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalues,
+                      const std::vector<int>& part) {
+  const Eigen::ComplexSchur<ComplexMatrix> schur(pair.Lambda);
+  ComplexMatrix T = schur.matrixT();
+  ComplexMatrix U = schur.matrixU();
+  const Eigen::Index k = pair.size();
+  for (std::size_t target = 0; target < part.size(); ++target) {
+    const Complex wanted = eigenvalues[part[target]];
+    Eigen::Index nearest = static_cast<Eigen::Index>(target);
+    for (Eigen::Index i = nearest + 1; i < k; ++i) {
+      if (std::abs(T(i, i) - wanted) < std::abs(T(nearest, nearest) - wanted)) nearest = i;
+    }
+    for (Eigen::Index i = nearest; i > static_cast<Eigen::Index>(target); --i) swap_neighbours(T, U, i - 1);
+  }
+  const auto size = static_cast<Eigen::Index>(part.size());
+  InvariantPair result;
+  result.chart = pair.chart;
+  result.is_real = pair.is_real && closed_under_conjugation(eigenvalues, part);
+  ComplexMatrix basis = U.leftCols(size);
+  result.Lambda = T.topLeftCorner(size, size);
+  if (result.is_real) {
+    Matrix parts(k, 2 * size);
+    parts << basis.real(), basis.imag();
+    const Eigen::ColPivHouseholderQR<Matrix> qr(parts);
+    const Matrix real_basis = qr.householderQ() * Matrix::Identity(k, size);
+    basis = real_basis.cast<Complex>();
+    result.Lambda = (real_basis.transpose() * pair.Lambda.real() * real_basis).cast<Complex>();
+  }
+  result.Z = pair.Z * basis;
+  return result;
+}
+
+InvariantPair in_other_chart(const InvariantPair& pair) {
+  InvariantPair other = pair;
+  other.chart = pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite;
+  other.Lambda = pair.Lambda.inverse();
+  other.factors.reset();
+  return other;
+}
+
+}  // namespace eigentrail

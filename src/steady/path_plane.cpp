@@ -1,0 +1,166 @@
+#include "eigentrail/steady/path_plane.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+constexpr double rounding = 1e-14;
+constexpr double rounding_floor = 1e-9;
+constexpr int most_corrections = 30;
+
+/// Derivative of the steady equations with respect to the traced parameter alone.
+EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vector& lambda,
+                                const Vector& parameters, int traced, Vector& force, Vector& constraint,
+                                EvaluationCounts& counts) {
+  Path path{VectorSeries::Zero(parameters.size(), 2), x, lambda};
+  path.parameters.col(0) = parameters;
+  path.parameters(traced, 1) = 1.0;
+  SteadyResidual residual;
+  if (auto fault = model.residual(path, 1, residual, counts)) return fault;
+  force = residual.force.col(1);
+  constraint = residual.constraint.col(1);
+  return {};
+}
+
+/// [K A^T f; A 0 g; c.x 0 c.p] through the null space of A, as in KktFactorization.
+class BorderedKkt {
+ public:
+  BorderedKkt(const Linearization& linearization, const ConstraintFactorization& constraints,
+              const Vector& force, const Vector& constraint, const PathPlane& plane)
+      : K_(linearization.K[0]), constraints_(constraints), force_(force), plane_(plane) {
+    const Matrix& Q2 = constraints.null_basis();
+    const Eigen::Index f = Q2.cols();
+    follow_ = -constraints.pseudo_inverse_times(constraint);
+    Matrix B(f + 1, f + 1);
+    B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
+    B.topRightCorner(f, 1) = Q2.transpose() * (force + K_ * follow_);
+    B.bottomLeftCorner(1, f) = plane.x.transpose() * Q2;
+    B(f, f) = plane.p + plane.x.dot(follow_);
+    // Rows and columns of different units are brought to one magnitude.
+    const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
+    rows_ = B.rowwise().norm().unaryExpr(inverse);
+    B = rows_.asDiagonal() * B;
+    columns_ = B.colwise().norm().transpose().unaryExpr(inverse);
+    lu_.compute(B * columns_.asDiagonal());
+  }
+
+  void solve(const Vector& r, const Vector& g, double distance, Vector& dx, Vector& dl, double& dp) const {
+    const Matrix& Q2 = constraints_.null_basis();
+    dx = constraints_.pseudo_inverse_times(g);
+    Vector right(Q2.cols() + 1);
+    right << Q2.transpose() * (r - K_ * dx), distance - plane_.x.dot(dx);
+    const Vector solution = columns_.cwiseProduct(lu_.solve(rows_.cwiseProduct(right)));
+    dp = solution[Q2.cols()];
+    dx += Q2 * solution.head(Q2.cols()) + dp * follow_;
+    dl = constraints_.transposed_pseudo_inverse_times(r - K_ * dx - dp * force_);
+  }
+
+ private:
+  const Matrix& K_;
+  const ConstraintFactorization& constraints_;
+  Vector force_, follow_, rows_, columns_;
+  PathPlane plane_;
+  Eigen::FullPivLU<Matrix> lu_;
+};
+
+double positive(double value) {
+  return value > 0.0 && std::isfinite(value) ? value : 1.0;
+}
+
+}  // namespace
+
+Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
+                                 const Vector& x, const Vector& lambda, const SteadyOptions& options,
+                                 double& p, EvaluationCounts& counts) {
+  Equilibrium result;
+  result.x = x;
+  result.lambda = lambda;
+  result.report.message = "the correction across the path did not converge";
+  const double target = plane(x, p);
+  const double length = positive(x.lpNorm<Eigen::Infinity>());
+  double last = INFINITY;
+  SteadyResidual residual;
+  Vector force, constraint, dx, dl;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    parameters[traced] = p;
+    const Path path{parameters, result.x, result.lambda};
+    if (model.residual(path, 0, residual, counts) || model.linearize(path, 0, result.linearization, counts) ||
+        parameter_slope(model, result.x, result.lambda, parameters, traced, force, constraint, counts)) {
+      result.status = SteadyStatus::not_finite;
+      return result;
+    }
+    result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0]);
+    ++result.report.factorizations;
+    const BorderedKkt system(result.linearization, result.kkt.constraints(), force, constraint, plane);
+    double dp = 0.0;
+    system.solve(-residual.force.col(0), -residual.constraint.col(0), target - plane(result.x, p), dx, dl,
+                 dp);
+    result.x += dx;
+    result.lambda += dl;
+    p += dp;
+    ++result.report.iterations;
+    // The multipliers and p are judged by the forces that they change.
+    const double scale = positive(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
+    const Vector reaction = result.linearization.A[0].transpose() * dl + force * dp;
+    const double size =
+        std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
+    if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
+    if (size <= rounding || (size > 0.5 * last && size < rounding_floor)) {
+      result.status = SteadyStatus::converged;
+      result.report.message.clear();
+      return result;
+    }
+    last = size;
+  }
+  return result;
+}
+
+EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model& model,
+                                             const Equilibrium& equilibrium, const Vector& parameters,
+                                             int traced, int order, Path& path, EvaluationCounts& counts) {
+  path.parameters = VectorSeries::Zero(parameters.size(), order + 1);
+  path.parameters.col(0) = parameters;
+  path.x = VectorSeries::Zero(model.n_coordinates(), order + 1);
+  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.x.col(0) = equilibrium.x;
+  path.lambda.col(0) = equilibrium.lambda;
+  Vector force, constraint, dx, dl;
+  if (auto fault = parameter_slope(model, equilibrium.x, equilibrium.lambda, parameters, traced, force,
+                                   constraint, counts))
+    return fault;
+  const BorderedKkt system(equilibrium.linearization, equilibrium.kkt.constraints(), force, constraint,
+                           plane);
+  SteadyResidual residual;
+  for (int k = 1; k <= order; ++k) {
+    if (auto fault = model.residual(path, k, residual, counts)) return fault;
+    double dp = 0.0;
+    system.solve(-residual.force.col(k), -residual.constraint.col(k), k == 1 ? 1.0 : 0.0, dx, dl, dp);
+    path.x.col(k) = dx;
+    path.lambda.col(k) = dl;
+    path.parameters(traced, k) = dp;
+  }
+  return {};
+}
+
+double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
+                                 const Linearization& linearization, const Matrix& tangent_basis,
+                                 EvaluationCounts& counts) {
+  Vector force, constraint;
+  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
+                      constraint, counts))
+    return 1.0;
+  const Matrix& K = linearization.K[0];
+  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
+  const Vector change = force + K * follow;
+  const Vector tangential = tangent_basis.transpose() * change;
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis, Eigen::ComputeFullU);
+  const Vector kernel = svd.matrixU().col(tangential.size() - 1);
+  const double length = change.norm();
+  return length > 0.0 ? std::abs(kernel.dot(tangential)) / length : 0.0;
+}
+
+}  // namespace eigentrail

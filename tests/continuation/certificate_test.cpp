@@ -1,0 +1,265 @@
+// The certificate closes where a block is continued and stays open where modes are exchanged; modal
+// assurance, which is what is used without it, passes such an exchange.
+#include "eigentrail/continuation/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "eigentrail/modes/matching.hpp"
+#include "eigentrail/modes/regroup.hpp"
+#include "support/families.hpp"
+#include "support/scenes.hpp"
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// K = [[4 + p, eps], [eps, 4 - p]]: s^2 = -(4 +- sqrt(p^2 + eps^2)), a veering at p = 0.
+Setting veering(double eps) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
+       << "K = [ [[4, " << eps << "], [" << eps << ", 4]], [[1, 0], [0, -1]] ]\n";
+  return make_setting(text.str());
+}
+
+/// Rows of constant matrices that do not commute: three modes that all turn.
+Setting smooth_family() {
+  return make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\n"
+      "M = [ [[2, 0.1, 0], [0.1, 1, 0], [0, 0, 1.5]] ]\n"
+      "C = [ [[0.1, 0.3, 0], [-0.3, 0.2, 0.1], [0, -0.1, 0.1]] ]\n"
+      "K = [ [[3, 0.5, 0.2], [0.4, 9, -0.3], [0.1, 0.2, 20]], [[1, 0.3, 0], [0.2, -1, 0.4], [0.5, 0, 2]] "
+      "]\n");
+}
+
+/// Two points with the same blocks: predicted from the left one by its series and corrected, as a trace does.
+class Step {
+ public:
+  /// From all modes at `from`, by themselves.
+  Step(Setting setting, double from, double to) : setting_(std::move(setting)), problem_(setting_.problem()) {
+    const PathPoint point = point_from_guess(problem_, from, counts);
+    left = differentiate_point(problem_, point, counts).value();
+    go_to(to);
+  }
+
+  /// The first two modes as one block from here on.
+  void join(double to) {
+    const InvariantPair both = join_pairs({&left.tracks[0].pair, &left.tracks[1].pair}, false);
+    InvariantPair pair = correct_pair(PencilAtPoint(left.pencil), both, problem_.s_ref, {}, counts.modes);
+    if (pair.status != PairStatus::converged) throw std::runtime_error("the block did not converge");
+    left.tracks.erase(left.tracks.begin(), left.tracks.begin() + 2);
+    left.tracks.insert(left.tracks.begin(), differentiate_track(problem_, left, std::move(pair), counts));
+    go_to(to);
+  }
+
+  void go_to(double to) {
+    length = to - left.p;
+    Prediction prediction;
+    prediction.p = to;
+    prediction.equilibrium = {evaluate_series(left.path.x, length), evaluate_series(left.path.lambda, length),
+                              true};
+    for (const Track& track : left.tracks) {
+      InvariantPair pair;
+      pair.chart = track.pair.chart;
+      pair.is_real = track.pair.is_real;
+      pair.Z = ComplexMatrix::Zero(track.series.Z[0].rows(), track.size());
+      pair.Lambda = ComplexMatrix::Zero(track.size(), track.size());
+      for (std::size_t k = track.series.Z.size(); k-- > 0;) {
+        pair.Z = pair.Z * length + track.series.Z[k];
+        pair.Lambda = pair.Lambda * length + track.series.Lambda[k];
+      }
+      prediction.pairs.push_back(pair);
+    }
+    const PathPoint point = compute_point(problem_, prediction, left.basis.T[0], counts);
+    if (point.status != PointStatus::computed) throw std::runtime_error(point.message);
+    right = differentiate_point(problem_, point, counts).value();
+  }
+
+  /// Distance of a track from all other eigenvalues, conjugates included.
+  double gap(std::size_t track) const {
+    double nearest = INFINITY;
+    for (const Complex s : left.tracks[track].roots) {
+      nearest = std::min(nearest, 2.0 * std::abs(s.imag()));
+      for (std::size_t other = 0; other < left.tracks.size(); ++other) {
+        if (other == track) continue;
+        for (const Complex t : left.tracks[other].roots)
+          nearest = std::min({nearest, std::abs(s - t), std::abs(s - std::conj(t))});
+      }
+    }
+    return nearest;
+  }
+
+  bool certified(std::size_t track) {
+    return certify_step(StepPencil(left, right, length), left.tracks[track], right.tracks[track], gap(track),
+                        counts);
+  }
+
+  PathNode left, right;
+  double length = 0.0;
+  RunCounts counts;
+
+ private:
+  Setting setting_;  // owns the model that the problem refers to
+  PathProblem problem_;
+};
+
+TEST(Certificate, ClosesOnASmoothStepOfSingleModes) {
+  Step step(smooth_family(), 0.2, 0.4);
+  ASSERT_EQ(step.left.tracks.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(step.certified(i)) << "mode " << i;
+  EXPECT_GE(step.counts.certificate_factorizations, 3U);
+  EXPECT_LE(step.counts.certificate_factorizations, 3U * 15U) << "halved three times at most";
+}
+
+TEST(Certificate, ClosesOnASmoothStepOfABlock) {
+  Step step(smooth_family(), 0.2, 0.4);
+  step.join(0.4);
+  ASSERT_EQ(step.left.tracks[0].size(), 2);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "track " << i;
+}
+
+TEST(Certificate, StaysOpenWhereTheEndIsAnotherMode) {
+  Step step(smooth_family(), 0.2, 0.4);
+  std::swap(step.right.tracks[0], step.right.tracks[1]);
+  EXPECT_FALSE(step.certified(0));
+  EXPECT_FALSE(step.certified(1));
+  EXPECT_TRUE(step.certified(2));
+}
+
+struct NarrowVeering {
+  double eps, from, to;
+};
+
+class CertificateAtVeering : public testing::TestWithParam<NarrowVeering> {
+ protected:
+  /// Upper or lower of the two at p, in closed form.
+  Complex mode(double p, double sign) const {
+    return {0.0, std::sqrt(4.0 + sign * std::hypot(p, GetParam().eps))};
+  }
+  Step step{veering(GetParam().eps), GetParam().from, GetParam().to};
+};
+
+TEST_P(CertificateAtVeering, StaysOpenForSinglesThatAreExchangedAndModalAssurancePasses) {
+  const auto [eps, from, to] = GetParam();
+  ASSERT_LT(std::abs(step.left.s(0, 0) - mode(from, -1.0)), 1e-12);
+  // Each has gone straight on, to the other side of the veering: that is the other mode.
+  ASSERT_LT(std::abs(step.right.s(0, 0) - mode(to, 1.0)), 1e-12) << "the step did not exchange the modes";
+  ASSERT_LT(std::abs(step.right.s(1, 0) - mode(to, -1.0)), 1e-12) << "the step did not exchange the modes";
+  EXPECT_FALSE(step.certified(0));
+  EXPECT_FALSE(step.certified(1));
+  // The rival sees the shapes that it expects.
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Matrix assurance = modal_assurance(step.left.tracks[i].series.Z[0],
+                                             step.right.tracks[i].series.Z[0], Matrix::Identity(2, 2));
+    EXPECT_GT(assurance(0, 0), 0.99) << "mode " << i;
+  }
+}
+
+TEST_P(CertificateAtVeering, ClosesForTheBlock) {
+  step.join(GetParam().to);
+  ASSERT_EQ(step.left.tracks.size(), 1U);
+  ASSERT_EQ(step.left.tracks[0].size(), 2);
+  EXPECT_TRUE(step.certified(0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, CertificateAtVeering,
+                         testing::Values(NarrowVeering{1e-2, -0.3, 0.3}, NarrowVeering{1e-3, -0.3, 0.3},
+                                         NarrowVeering{1e-3, -0.23, 0.4}, NarrowVeering{1e-3, -0.4, 0.11},
+                                         NarrowVeering{1e-6, -0.3, 0.3}, NarrowVeering{1e-6, -0.317, 0.211},
+                                         NarrowVeering{1e-9, -0.3, 0.2}, NarrowVeering{1e-12, -0.1, 0.2}));
+
+TEST(Certificate, ClosesForSinglesOnAStepThatResolvesTheVeering) {
+  for (const double p : {-0.5, -0.2, -0.1, -0.05, 0.0, 0.05, 0.1}) {
+    Step step(veering(0.2), p, p + 0.05);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "mode " << i << " at " << p;
+  }
+}
+
+TEST(Certificate, StaysOpenForSinglesAcrossAnExceptionalPointAndClosesForTheBlock) {
+  // K = [[1, p], [-p, 2]]: both modes coalesce at p = 1/2 and go on as a growing and a decaying oscillation.
+  const auto setting = [] {
+    return make_setting(
+        "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
+        "K = [ [[1, 0], [0, 2]], [[0, 1], [-1, 0]] ]\n");
+  };
+  Step step(setting(), 0.3, 0.4);
+  EXPECT_TRUE(step.certified(0) && step.certified(1)) << "before the point";
+  step.join(0.6);
+  EXPECT_TRUE(step.certified(0));
+  // Singles that arrive behind the point, whichever they are.
+  Step singles(setting(), 0.3, 0.4);
+  const Step behind(setting(), 0.6, 0.61);
+  singles.right = behind.left;
+  singles.length = 0.3;
+  EXPECT_FALSE(singles.certified(0));
+  EXPECT_FALSE(singles.certified(1));
+}
+
+/// mu = 1/s of p s^2 + 3 s + 2 = 0 passes zero with the mass.
+TEST(Certificate, ClosesInTheReciprocalChartWhereTheMassIsSingular) {
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0.1\nto = 1\n[matrix_family]\nM = [ [[0]], [[1]] ]\nC = [ [[3]] ]\n"
+      "K = [ [[2]] ]\n");
+  PathProblem problem = setting.problem();
+  RunCounts counts;
+  PathPoint point = point_from_guess(problem, 0.1, counts);
+  const bool first = std::abs(point.pairs[0].eigenvalue()) > std::abs(point.pairs[1].eigenvalue());
+  point.pairs = {in_other_chart(point.pairs[first ? 0 : 1])};
+  point.pairs[0] =
+      correct_pair(PencilAtPoint(point.pencil, Chart::reciprocal), point.pairs[0], 1e-3, {}, counts.modes);
+  const PathNode left = differentiate_point(problem, point, counts).value();
+  Prediction prediction;
+  prediction.p = -0.1;
+  prediction.equilibrium = {Vector(left.path.x.col(0)), Vector(), true};
+  prediction.pairs = {point.pairs[0]};
+  prediction.pairs[0].Lambda(0, 0) = 0.033;
+  const PathPoint behind = compute_point(problem, prediction, left.basis.T[0], counts);
+  ASSERT_EQ(behind.status, PointStatus::computed) << behind.message;
+  const PathNode right = differentiate_point(problem, behind, counts).value();
+  EXPECT_LT(left.s(0, 0).real(), 0.0);
+  EXPECT_GT(right.s(0, 0).real(), 0.0);
+  EXPECT_TRUE(certify_step(StepPencil(left, right, -0.2), left.tracks[0], right.tracks[0], 1.43, counts));
+}
+
+TEST(StepPencil, HasTheEigenvaluesOfThePathBetweenItsPoints) {
+  // The tangent basis turns along the path: the pencils agree up to a change of basis.
+  Step step(scene_setting("rotating_mass"), 100.0, 90.0);
+  const StepPencil pencil(step.left, step.right, step.length);
+  const Setting setting = scene_setting("rotating_mass");
+  RunCounts counts;
+  for (const double t : {0.0, 0.3, 0.5, 1.0}) {
+    const StepPencil::Matrices m = pencil.at(t);
+    std::vector<Complex> expected;
+    for (const InvariantPair& pair : point_from_guess(setting.problem(), 100.0 - 10.0 * t, counts).pairs) {
+      expected.push_back(pair.eigenvalue());
+      expected.push_back(std::conj(pair.eigenvalue()));
+    }
+    EXPECT_LT(matched_distance(expected, quadratic_eigenvalues(m.M, m.C, m.K)), 1e-9) << "t = " << t;
+  }
+}
+
+TEST(Certificate, ClosesWhereTheTangentBasisTurns) {
+  Step step(scene_setting("rotating_mass"), 100.0, 90.0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "mode " << i;
+  step.join(90.0);
+  EXPECT_TRUE(step.certified(0)) << "as a block";
+}
+
+TEST(Certificate, EveryStepOfATraceThatClaimsItHasTheModesOfTheClosedForm) {
+  // Veerings of every width: where a step is marked as certified, the modes keep their order.
+  for (const double eps : {1e-1, 1e-2, 1e-4, 1e-6}) {
+    const RecordedTrace recorded = record_trace(veering(eps));
+    ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+    for (std::size_t i = 0; i < recorded.steps.size(); ++i) {
+      for (const DenseBlock& block : recorded.steps[i].blocks) EXPECT_TRUE(block.certified) << "eps " << eps;
+      const ComplexVector s = recorded.eigenvalues_of_node(i + 1);
+      EXPECT_LE(s[0].imag(), s[1].imag()) << "eps " << eps << " at " << recorded.nodes[i + 1].p;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,134 @@
+#include "eigentrail/core/chebyshev.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+// Roots of unit size from coefficients of unit size, a few hundred roundings.
+constexpr double tolerance = 1e-12;
+
+/// The polynomial with these roots at t.
+Complex polynomial(const std::vector<Complex>& roots, double t) {
+  Complex value = 1.0;
+  for (const Complex root : roots) value *= t - root;
+  return value;
+}
+
+/// Distance from `root` to the nearest of `found`.
+double distance(Complex root, const std::vector<Complex>& found) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Complex t : found) nearest = std::min(nearest, std::abs(t - root));
+  return nearest;
+}
+
+struct RootsCase {
+  std::string name;
+  std::vector<Complex> roots;
+};
+
+class ChebyshevRoots : public testing::TestWithParam<RootsCase> {};
+
+TEST_P(ChebyshevRoots, OfAPolynomialAreAllFound) {
+  const std::vector<Complex>& roots = GetParam().roots;
+  const auto f = [&](double t) { return polynomial(roots, t); };
+  const auto found = roots_near_unit_interval(f, static_cast<int>(roots.size()));
+  EXPECT_LT(matched_distance(roots, found), tolerance);
+}
+
+TEST_P(ChebyshevRoots, AreStillFoundWhenTheDegreeIsHigherThanNeeded) {
+  const std::vector<Complex>& roots = GetParam().roots;
+  const auto f = [&](double t) { return polynomial(roots, t); };
+  const auto found = roots_near_unit_interval(f, static_cast<int>(roots.size()) + 4);
+  for (const Complex root : roots) EXPECT_LT(distance(root, found), 100.0 * tolerance) << root;
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, ChebyshevRoots,
+                         testing::Values(RootsCase{"OneInside", {0.3}}, RootsCase{"AtTheEnds", {1e-3, 1.0}},
+                                         RootsCase{"RealAndInside", {0.1, 0.25, 0.5, 0.77, 0.9}},
+                                         RootsCase{
+                                             "BesideTheInterval",
+                                             {Complex(0.4, 0.1), Complex(0.4, -0.1), Complex(0.7, 1e-3)}},
+                                         RootsCase{"NotConjugate", {Complex(0.2, 0.3), Complex(0.8, 0.1)}},
+                                         RootsCase{"OneFarAway", {0.5, Complex(-3.0, 2.0)}}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(ChebyshevRoots, OfASmoothFunctionConvergeWithTheDegree) {
+  // cos(9 t) vanishes at pi/18, pi/6, 5 pi/18.
+  const auto error = [](int degree) {
+    const auto found = roots_near_unit_interval([](double t) { return Complex(std::cos(9.0 * t)); }, degree);
+    double worst = 0.0;
+    for (const double k : {1.0, 3.0, 5.0})
+      worst = std::max(worst, distance(k * std::numbers::pi / 18.0, found));
+    return worst;
+  };
+  EXPECT_GT(error(8), 1e-6);
+  EXPECT_LT(error(16), 1e-8);
+  EXPECT_LT(error(24), tolerance);
+}
+
+TEST(ChebyshevRoots, DoubleOnesKeepHalfTheDigits) {
+  const auto found = roots_near_unit_interval([](double t) { return Complex((t - 0.6) * (t - 0.6)); }, 9);
+  int near = 0;
+  for (const Complex t : found) near += std::abs(t - 0.6) < 1e-6 ? 1 : 0;
+  EXPECT_EQ(near, 2);
+}
+
+TEST(ChebyshevRoots, DoNotDependOnTheSizeOfTheFunction) {
+  const std::vector<Complex> roots{0.2, Complex(0.5, 0.05), 0.8};
+  for (const double size : {1e-200, 1e-12, 1e200}) {
+    const auto f = [&](double t) { return size * polynomial(roots, t); };
+    EXPECT_LT(matched_distance(roots, roots_near_unit_interval(f, 3)), tolerance) << "size " << size;
+  }
+}
+
+TEST(ChebyshevRoots, OfAConstantOrNothingAreNone) {
+  EXPECT_TRUE(roots_near_unit_interval([](double) { return Complex(0.0); }, 6).empty());
+  EXPECT_TRUE(roots_near_unit_interval([](double) { return Complex(0.3, -2.0); }, 6).empty());
+}
+
+TEST(ChebyshevRoots, OfWhatIsNotFiniteAreNone) {
+  const auto f = [](double t) { return Complex(t > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 1.0); };
+  EXPECT_TRUE(roots_near_unit_interval(f, 6).empty());
+}
+
+/// Coefficients of the polynomial with these roots, lowest power first.
+ComplexVector coefficients(const std::vector<Complex>& roots) {
+  ComplexVector c = ComplexVector::Ones(1);
+  for (const Complex root : roots) {
+    ComplexVector next = ComplexVector::Zero(c.size() + 1);
+    next.tail(c.size()) += c;
+    next.head(c.size()) -= root * c;
+    c = next;
+  }
+  return c;
+}
+
+TEST(PolynomialRoots, AreAllFound) {
+  const std::vector<Complex> roots{Complex(0.5, 2.0), -1.0, Complex(0.3, -0.4), 2.0, 1e-3};
+  EXPECT_LT(matched_distance(roots, polynomial_roots(coefficients(roots))), 100.0 * tolerance);
+  EXPECT_LT(matched_distance(roots, polynomial_roots(1e100 * coefficients(roots))), 100.0 * tolerance);
+}
+
+TEST(PolynomialRoots, LeadingZerosLowerTheDegree) {
+  ComplexVector c = ComplexVector::Zero(6);
+  c.head(3) = coefficients({Complex(2.0), Complex(0.0, 3.0)});
+  c[4] = 1e-18;
+  EXPECT_LT(matched_distance({Complex(2.0), Complex(0.0, 3.0)}, polynomial_roots(c)), tolerance);
+}
+
+TEST(PolynomialRoots, OfAConstantOrNothingAreNone) {
+  EXPECT_TRUE(polynomial_roots(ComplexVector::Zero(4)).empty());
+  EXPECT_TRUE(polynomial_roots(ComplexVector::Ones(1)).empty());
+  EXPECT_TRUE(polynomial_roots(ComplexVector{{1.0, std::numeric_limits<double>::quiet_NaN()}}).empty());
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,98 @@
+#include "hard_cases/family.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace eigentrail::test {
+namespace {
+
+WideComplexMatrix evaluate(const MatrixSeries& series, Eigen::Index n, WideComplex p) {
+  WideComplexMatrix value = WideComplexMatrix::Zero(n, n);
+  for (std::size_t k = series.size(); k-- > 0;) value = value * p + series[k].cast<WideComplex>();
+  return value;
+}
+
+}  // namespace
+
+Matrix rows(std::initializer_list<std::initializer_list<double>> values) {
+  return Matrix(values);
+}
+
+Matrix diagonal(std::initializer_list<double> values) {
+  Vector entries(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), entries.begin());
+  return entries.asDiagonal();
+}
+
+Matrix quarter_turn() {
+  return rows({{0, -1}, {1, 0}});
+}
+
+std::string matrices_text(const MatrixSeries& series) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[";
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    text << (k == 0 ? " [" : ",\n      [");
+    for (Eigen::Index r = 0; r < series[k].rows(); ++r) {
+      text << (r == 0 ? "[" : ", [");
+      for (Eigen::Index c = 0; c < series[k].cols(); ++c) text << (c == 0 ? "" : ", ") << series[k](r, c);
+      text << "]";
+    }
+    text << "]";
+  }
+  text << " ]";
+  return text.str();
+}
+
+std::string family_scene(double from, double to, const std::string& matrices) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[trace]\nparameter = \"p\"\nfrom = " << from << "\nto = " << to << "\n\n[matrix_family]\n"
+       << matrices;
+  return text.str();
+}
+
+WidePencil evaluate(const Family& family, WideComplex p) {
+  const Eigen::Index n = family.M[0].rows();
+  return {evaluate(family.M, n, p), evaluate(family.C, n, p), evaluate(family.K, n, p)};
+}
+
+HardCase family_case(const std::string& name, const std::string& source, double from, double to,
+                     const Family& family, std::vector<SpecialPoint> special) {
+  std::string matrices = "M = " + matrices_text(family.M) + "\n";
+  if (!family.C.empty()) matrices += "C = " + matrices_text(family.C) + "\n";
+  matrices += "K = " + matrices_text(family.K) + "\n";
+  return expression_case(
+      name, source, from, to, family_scene(from, to, matrices),
+      [family](WideComplex p) { return evaluate(family, p); }, std::move(special));
+}
+
+HardCase expression_case(const std::string& name, const std::string& source, double from, double to,
+                         const std::string& scene, const std::function<WidePencil(WideComplex)>& pencil,
+                         std::vector<SpecialPoint> special) {
+  HardCase result;
+  result.name = name;
+  result.scene = scene;
+  result.from = from;
+  result.to = to;
+  result.spectrum = [pencil](double p) { return Spectra{eigenvalues(pencil(p))}; };
+  result.special = std::move(special);
+  result.source = source;
+  result.pencil = [pencil](WideComplex p, int) { return pencil(p); };
+  return result;
+}
+
+void set_spectrum(HardCase& hard_case, const std::function<std::vector<Complex>(Wide)>& closed_form) {
+  hard_case.spectrum = [closed_form](double p) { return Spectra{closed_form(p)}; };
+}
+
+void set_branches(HardCase& hard_case, std::vector<std::function<WideComplex(Wide)>> branches) {
+  hard_case.has_branches = true;
+  for (auto& branch : branches) {
+    hard_case.branches.emplace_back([branch = std::move(branch)](double p) { return narrow(branch(p)); });
+  }
+}
+
+}  // namespace eigentrail::test

@@ -1,0 +1,45 @@
+// Families of matrices, polynomial in the parameter: scene text and pencil from one set of coefficients.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hard_cases/catalogue.hpp"
+
+namespace eigentrail::test {
+
+/// Coefficients of powers of p, lowest first; C may be empty.
+struct Family {
+  MatrixSeries M, C, K;
+};
+
+/// Real matrix from rows, for families written by hand.
+Matrix rows(std::initializer_list<std::initializer_list<double>> values);
+Matrix diagonal(std::initializer_list<double> values);
+/// {{0, -1}, {1, 0}}.
+Matrix quarter_turn();
+
+/// Text of a TOML list of matrices with 17 significant digits.
+std::string matrices_text(const MatrixSeries& series);
+
+/// "[trace] ... [matrix_family]" with the parameter p; `matrices` are the lines "M = ...".
+std::string family_scene(double from, double to, const std::string& matrices);
+
+WidePencil evaluate(const Family& family, WideComplex p);
+
+/// A case with scene and pencil of the family, and the spectrum from that pencil.
+HardCase family_case(const std::string& name, const std::string& source, double from, double to,
+                     const Family& family, std::vector<SpecialPoint> special);
+
+/// A case with the given matrices as expressions; `pencil` must be the same.
+HardCase expression_case(const std::string& name, const std::string& source, double from, double to,
+                         const std::string& scene, const std::function<WidePencil(WideComplex)>& pencil,
+                         std::vector<SpecialPoint> special);
+
+/// Replaces the spectrum by a closed form.
+void set_spectrum(HardCase& hard_case, const std::function<std::vector<Complex>(Wide)>& closed_form);
+
+/// Gives the case analytic branches.
+void set_branches(HardCase& hard_case, std::vector<std::function<WideComplex(Wide)>> branches);
+
+}  // namespace eigentrail::test

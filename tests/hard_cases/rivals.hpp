@@ -1,0 +1,61 @@
+// What users do today: a full spectrum by QZ at equally spaced parameters, labels carried from one to the
+// next.
+#pragma once
+
+#include <vector>
+
+#include "hard_cases/catalogue.hpp"
+#include "hard_cases/reference_labels.hpp"
+
+namespace eigentrail::test {
+
+enum class Carrier {
+  nearest,     ///< every track takes the eigenvalue nearest to its last one, also one that another took
+  assignment,  ///< one to one with the least sum of distances
+  assurance    ///< one to one with the largest sum of modal assurance criteria
+};
+
+/// Eigenvalues in the order of the labels. All 2 n of them are carried: the number of pairs changes on the
+/// way.
+struct LabelledLoci {
+  std::vector<double> p;
+  std::vector<std::vector<Complex>> s;  ///< s[k][label] at p[k]; an infinite eigenvalue has no finite parts
+  bool complete = true;                 ///< false: stopped where the equilibrium could not be found
+};
+
+/// Spectra with physical vectors at equally spaced parameters, by LAPACK's dggev on the unscaled companion
+/// pencil.
+struct GridSpectra {
+  struct Point {
+    double p;
+    std::vector<Complex> s;
+    ComplexMatrix vectors;  ///< columns: v = T z, unit length
+    Matrix mass;            ///< weight of the modal assurance criterion
+  };
+  std::vector<Point> points;
+  bool complete = true;
+};
+
+/// `n_points` >= 2 from one end of the case's range to the other. The reduced pencils are the library's, each
+/// equilibrium solved from the one before; ends early where there is none.
+GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points);
+
+/// Carries the labels. One O(n^3) assignment per point.
+LabelledLoci carry_labels(const GridSpectra& spectra, Carrier carrier);
+
+struct WrongLabels {
+  int tracks = 0;        ///< modes followed, summed over the stretches between coincidences
+  int wrong_tracks = 0;  ///< of them, those that are on another mode somewhere
+  int points = 0;        ///< pairs of mode and parameter compared
+  int wrong_points = 0;  ///< of them, those on another mode
+};
+
+/// Compares loci with the case's analytic branches, which run through crossings, or where it has none with
+/// its reference labels, stretch by stretch. Conjugates are the same mode. A label counts as wrong where
+/// another mode is at least twice as close to it as its own and the two modes are apart.
+WrongLabels count_wrong_labels(const HardCase& hard_case, const LabelledLoci& loci);
+
+/// The same with reference labels that are already there.
+WrongLabels count_wrong_labels(const std::vector<LabelledStretch>& reference, const LabelledLoci& loci);
+
+}  // namespace eigentrail::test

@@ -1,0 +1,53 @@
+// One hard case traced with one setting, and everything that is checked about it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hard_cases/catalogue.hpp"
+#include "hard_cases/reference_labels.hpp"
+
+namespace eigentrail::test {
+
+struct RunSetting {
+  double tolerance = 1e-6;
+  bool reversed = false;    ///< from the other end of the range
+  double first_step = 0.0;  ///< share of the range; 0: chosen by the program
+  int order = 3;
+};
+
+struct CaseReport {
+  bool completed = false;
+  std::string message;
+  int nodes = 0;
+  double lu_per_mode_step = 0.0;
+  double worst_error = 0.0;  ///< over the tolerance, in the smooth functions of blocks
+  double worst_at = 0.0;     ///< parameter
+  int expected_events = 0;
+  int found_events = 0;
+  std::vector<std::string> missing, invented;
+  double uncertified_share = 0.0;  ///< of modes times steps
+  int labels = 0;                  ///< certified labels compared
+  int wrong_labels = 0;            ///< of them, on another mode
+
+  bool passed() const {
+    return completed && worst_error <= 4.0 && missing.empty() && invented.empty() && wrong_labels == 0;
+  }
+};
+
+/// Reference data of a case that all its runs share: computing it costs more than the runs.
+struct CaseReference {
+  struct Sample {
+    double p;
+    Spectra spectra;
+  };
+  const HardCase* hard_case = nullptr;
+  std::vector<Sample>
+      samples;  ///< random parameters, and 1e-3 ... 1e-10 of the range beside every special point
+  std::vector<LabelledStretch> labels;
+};
+CaseReference make_reference(const HardCase& hard_case, int random_samples);
+
+CaseReport run_case(const CaseReference& reference, const RunSetting& setting);
+
+}  // namespace eigentrail::test

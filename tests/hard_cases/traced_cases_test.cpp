@@ -1,0 +1,76 @@
+// Every hard case traced: accuracy everywhere, special points, labels. The full table with all first steps is
+// printed by hard_case_table; here each case runs at three tolerances in both directions.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "hard_cases/run_case.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// Cases of which something does not hold yet. They run all the same, and the test fails when one of them
+/// starts to pass, so that it is taken off the list. docs/hard_cases.md says what is missing.
+const std::map<std::string, std::string>& open_cases() {
+  static const std::map<std::string, std::string> cases{
+      {"H14_ground_resonance_damped",
+       "two veerings in one long step of a block of three are missed at tolerance 1e-4"},
+      {"H19_pair_through_zero",
+       "the pair crosses the imaginary axis where it is defective: no flutter event"},
+      {"C03_fold_in_tangential_force", "eigenvalues 1e-10 of the range beside the fold"},
+      {"C04_spring_pendulum_to_pitchfork", "the path ends in the branch point"},
+      {"C04_spring_pendulum_beyond_pitchfork", "the path touches the branch point and runs back"},
+      {"C05_pushed_pendulum", "eigenvalues 1e-10 of the range beside the fold"},
+      {"C06_von_mises_truss", "stalls between two folds at tolerance 1e-6"},
+      {"C07_second_rod_1em8", "KINSOL finds no isolated equilibrium at some lengths"},
+      {"whirl_through_zero", "a pair that passes zero without coalescing is called a collision"},
+      {"free_chain", "a freedom that is free throughout joins blocks that do not converge"},
+      {"near_exceptional_1em8", "flutter located to 1e-9 only: its slope is 2e-8"},
+      {"rotor_12", "wide veerings among twelve modes are missed"},
+      {"triple_crossing", "three modes and a fourth cross at one point"},
+      {"two_veerings_same_pair", "four labels in the second of two veerings at tolerance 1e-8"},
+      {"two_veerings_two_partners", "two veerings in one step of a block of three"},
+  };
+  return cases;
+}
+
+class TracedCase : public testing::TestWithParam<HardCase> {};
+
+std::string problems(const CaseReport& report) {
+  std::string text;
+  if (!report.completed) text += "ended early: " + report.message + "; ";
+  if (report.worst_error > 4.0)
+    text += "error " + std::to_string(report.worst_error) + " tolerances at " +
+            std::to_string(report.worst_at) + "; ";
+  if (report.wrong_labels > 0) text += std::to_string(report.wrong_labels) + " wrong labels; ";
+  for (const std::string& event : report.missing) text += "missing " + event + "; ";
+  for (const std::string& event : report.invented) text += "invented " + event + "; ";
+  return text;
+}
+
+TEST_P(TracedCase, MatchesItsReference) {
+  const CaseReference reference = make_reference(GetParam(), 50);
+  std::string found;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    for (const bool reversed : {false, true}) {
+      const CaseReport report = run_case(reference, {tolerance, reversed});
+      if (!report.passed()) {
+        found += "tolerance " + std::to_string(tolerance) + (reversed ? " down: " : " up: ") +
+                 problems(report) + "\n";
+      }
+    }
+  }
+  const auto open = open_cases().find(GetParam().name);
+  if (open == open_cases().end()) {
+    EXPECT_TRUE(found.empty()) << found;
+  } else {
+    EXPECT_FALSE(found.empty()) << "passes now; take it off the list of open cases: " << open->second;
+    std::printf("open: %s\n%s", open->second.c_str(), found.c_str());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TracedCase, testing::ValuesIn(hard_cases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,372 @@
+#include "eigentrail/modes/invariant_pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+#include "support/families.hpp"
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double tolerance = 1e-12;
+constexpr double rounding = 1e-14;  // backward errors, and what a smooth function of the pencil keeps
+constexpr double s_ref = 1e-3;
+
+ReducedPencil single(double m, double c, double k) {
+  return {{Matrix{{m}}}, {Matrix{{c}}}, {Matrix{{k}}}};
+}
+
+InvariantPair start_at(Complex s, const ComplexVector& z) {
+  InvariantPair start;
+  start.is_real = s.imag() == 0.0 && z.imag().isZero(0.0);
+  start.Z = z;
+  start.Lambda = ComplexMatrix::Constant(1, 1, s);
+  return start;
+}
+
+InvariantPair correct_mode(const PencilAtPoint& point, Complex s, const ComplexVector& z,
+                           ModeCounts& counts) {
+  return correct_pair(point, start_at(s, z), s_ref, {}, counts);
+}
+
+/// |W0^H Z + W1^H Z Lambda - I|.
+double normalization_defect(const InvariantPair& pair, const ComplexMatrix& Z, const ComplexMatrix& Lambda) {
+  const Eigen::Index n = Z.rows();
+  return (pair.W.topRows(n).adjoint() * Z + pair.W.bottomRows(n).adjoint() * Z * Lambda -
+          ComplexMatrix::Identity(Z.cols(), Z.cols()))
+      .norm();
+}
+
+std::vector<Complex> eigenvalues(const InvariantPair& pair) {
+  const ComplexVector values = pair_eigenvalues(pair);
+  return {values.begin(), values.end()};
+}
+
+TEST(InvariantPair, SingleFreedomEqualsTheClosedForm) {
+  const ReducedPencil pencil = single(2.0, 0.4, 50.0);
+  const PencilAtPoint point(pencil);
+  ModeCounts counts;
+  const InvariantPair pair = correct_mode(point, {-0.2, 4.7}, ComplexVector::Ones(1), counts);
+  ASSERT_EQ(pair.status, PairStatus::converged);
+  const Complex expected(-0.1, std::sqrt(25.0 - 0.01));
+  EXPECT_LT(std::abs(pair.eigenvalue() - expected), tolerance * std::abs(expected));
+}
+
+TEST(InvariantPair, RealRootStaysExactlyReal) {
+  const ReducedPencil pencil = single(1.0, 3.0, 1.0);
+  const PencilAtPoint point(pencil);
+  ModeCounts counts;
+  const InvariantPair pair = correct_mode(point, -0.4, ComplexVector::Ones(1), counts);
+  ASSERT_EQ(pair.status, PairStatus::converged);
+  EXPECT_NEAR(pair.eigenvalue().real(), (-3.0 + std::sqrt(5.0)) / 2.0, tolerance);
+  EXPECT_EQ(pair.eigenvalue().imag(), 0.0);
+  EXPECT_TRUE(pair.Z.imag().isZero(0.0));
+}
+
+class PairOfFamily : public testing::TestWithParam<unsigned> {
+ protected:
+  /// The modes at the start, by LAPACK.
+  std::vector<StartingMode> modes() const {
+    return compute_spectrum(start.M[0], start.C[0], start.K[0]).modes;
+  }
+
+  ReducedPencil family = random_family(6, GetParam());
+  ReducedPencil start = at(family, 0.0);
+  ModeCounts counts;
+};
+
+TEST_P(PairOfFamily, CorrectsAPerturbedModeWithOneFactorization) {
+  const PencilAtPoint point(start);
+  for (const StartingMode& exact : modes()) {
+    ModeCounts one;
+    ComplexVector z = exact.z;
+    z += 1e-4 * ComplexVector::Ones(6);
+    const InvariantPair pair = correct_mode(point, exact.s * Complex(1.0, 1e-4), z, one);
+    ASSERT_EQ(pair.status, PairStatus::converged);
+    EXPECT_LT(std::abs(pair.eigenvalue() - exact.s), tolerance * std::abs(exact.s));
+    EXPECT_EQ(one.factorizations, 1U);
+    EXPECT_LT(pair.backward_error, 1e-15);
+    EXPECT_LT(normalization_defect(pair, pair.Z, pair.Lambda), rounding);
+  }
+}
+
+/// A residual r moves the eigenvalue by y^H r, where y is the left vector: y^H P(s) = 0.
+TEST_P(PairOfFamily, ResidualsMoveTheEigenvalueByTheLeftVector) {
+  const PencilAtPoint point(start);
+  for (const StartingMode& exact : modes()) {
+    const InvariantPair near = correct_mode(point, exact.s * 1.001, exact.z, counts);
+    const InvariantPair pair = correct_mode(point, near.eigenvalue(), near.Z, counts);  // factors at the pair
+    Eigen::RowVectorXcd left(6);
+    ComplexMatrix dZ, dLambda;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      pair.factors->solve(ComplexVector::Unit(6, i), ComplexMatrix::Zero(1, 1), dZ, dLambda);
+      left[i] = dLambda(0, 0);
+    }
+    const double scale = left.norm() * point.magnitude(std::abs(pair.eigenvalue()));
+    EXPECT_LT((left * point.matrix(pair.eigenvalue())).norm(), 1e-13 * scale);
+    EXPECT_NEAR(pair.factors->sensitivity(), left.norm(), tolerance * left.norm());
+  }
+}
+
+/// Sensitivities of order q predict the eigenpair ahead up to h^(q+1).
+TEST_P(PairOfFamily, SeriesOfAModeHaveTheirOrder) {
+  const PencilAtPoint point(start);
+  for (const StartingMode& exact : modes()) {
+    const InvariantPair pair = correct_mode(point, exact.s, exact.z, counts);
+    const PairSeries series = differentiate_pair(family, pair, 4, counts);
+    const auto miss = [&](int order, double h) {
+      const ReducedPencil ahead = at(family, h);
+      Complex s = 0.0;
+      ComplexVector z = ComplexVector::Zero(6);
+      for (std::size_t k = static_cast<std::size_t>(order) + 1; k-- > 0;) {
+        s = s * h + series.Lambda[k](0, 0);
+        z = z * h + series.Z[k];
+      }
+      const InvariantPair corrected = correct_mode(PencilAtPoint(ahead), s, z, counts);
+      const Complex gauge = pair.W.col(0).head(6).dot(corrected.Z.col(0)) +
+                            corrected.eigenvalue() * pair.W.col(0).tail(6).dot(corrected.Z.col(0));
+      return std::abs(corrected.eigenvalue() - s) + (corrected.Z / gauge - z).norm();
+    };
+    const Complex growth = series.Lambda[1](0, 0) / pair.eigenvalue();
+    for (int order = 1; order <= 4; ++order) {
+      const double h = 0.02 / (1.0 + std::abs(growth) * 10.0);
+      EXPECT_NEAR(std::log2(miss(order, h) / miss(order, h / 2)), order + 1.0, 0.4) << "order " << order;
+    }
+  }
+}
+
+TEST_P(PairOfFamily, FirstDerivativeEqualsTheLeftRightQuotient) {
+  const PencilAtPoint point(start);
+  for (const StartingMode& exact : modes()) {
+    const InvariantPair pair = correct_mode(point, exact.s, exact.z, counts);
+    const Complex s = pair.eigenvalue();
+    const ComplexVector y =
+        Eigen::JacobiSVD<ComplexMatrix>(point.matrix(s), Eigen::ComputeFullU).matrixU().col(5);
+    const ComplexMatrix dP =
+        s * s * family.M[1].cast<Complex>() + s * family.C[1].cast<Complex>() + family.K[1].cast<Complex>();
+    const ComplexVector z = pair.Z;
+    const ComplexVector slope = 2.0 * s * (start.M[0] * z) + start.C[0] * z;
+    const Complex expected = -y.dot(dP * z) / y.dot(slope);
+    const Complex found = differentiate_pair(family, pair, 1, counts).Lambda[1](0, 0);
+    EXPECT_LT(std::abs(found - expected), 1e-11 * std::abs(expected));
+  }
+}
+
+TEST_P(PairOfFamily, ConditionNumberBoundsThePerturbation) {
+  const PencilAtPoint point(start);
+  std::mt19937_64 engine(GetParam() + 100);
+  for (const StartingMode& exact : modes()) {
+    const InvariantPair pair = correct_mode(point, exact.s, exact.z, counts);
+    const double epsilon = 1e-7;
+    double worst = 0.0;
+    for (int trial = 0; trial < 20; ++trial) {
+      const auto perturbed = [&](const Matrix& B) {
+        const Matrix E = random_matrix(6, 6, engine);
+        return Matrix(B + epsilon * B.norm() / E.norm() * E);
+      };
+      const ReducedPencil near{{perturbed(start.M[0])}, {perturbed(start.C[0])}, {perturbed(start.K[0])}};
+      const Complex moved = correct_mode(PencilAtPoint(near), pair.eigenvalue(), pair.Z, counts).eigenvalue();
+      worst = std::max(worst, std::abs(moved - pair.eigenvalue()) / std::abs(pair.eigenvalue()) / epsilon);
+    }
+    EXPECT_LT(worst, 1.01 * pair.condition);
+    EXPECT_GT(worst, 0.01 * pair.condition) << "a bound that is never approached says nothing";
+  }
+}
+
+/// The lowest k modes as one block, started from their vectors.
+InvariantPair block_of(const std::vector<StartingMode>& modes, std::size_t k) {
+  InvariantPair start;
+  start.Z.resize(modes[0].z.size(), static_cast<Eigen::Index>(k));
+  start.Lambda = ComplexMatrix::Zero(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
+  for (std::size_t i = 0; i < k; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    start.Z.col(at) = modes[i].z;
+    start.Lambda(at, at) = modes[i].s;
+  }
+  return start;
+}
+
+TEST_P(PairOfFamily, BlocksOfTwoAndThreeHoldTheEigenvaluesOfTheirModes) {
+  const PencilAtPoint point(start);
+  const auto exact = modes();
+  for (std::size_t k = 2; k <= 3; ++k) {
+    ModeCounts one;
+    InvariantPair near = block_of(exact, k);
+    near.Z.array() += 1e-4;
+    near.Lambda *= Complex(1.0, 1e-4);
+    const InvariantPair pair = correct_pair(point, near, s_ref, {}, one);
+    ASSERT_EQ(pair.status, PairStatus::converged);
+    EXPECT_LT(pair.backward_error, rounding);
+    EXPECT_LT(normalization_defect(pair, pair.Z, pair.Lambda), rounding);
+    std::vector<Complex> expected;
+    for (std::size_t i = 0; i < k; ++i) expected.push_back(exact[i].s);
+    EXPECT_LT(matched_distance(expected, eigenvalues(pair)), 10.0 * tolerance);
+    EXPECT_EQ(one.factorizations, k) << "one per column";
+  }
+}
+
+TEST_P(PairOfFamily, ConditionNumberBoundsThePerturbationOfABlock) {
+  // The mean of a block's eigenvalues moves by no more than the trace of the change of Lambda allows.
+  const PencilAtPoint point(start);
+  const InvariantPair pair = correct_pair(point, block_of(modes(), 2), s_ref, {}, counts);
+  ASSERT_EQ(pair.status, PairStatus::converged);
+  std::mt19937_64 engine(GetParam() + 200);
+  const double epsilon = 1e-7;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto perturbed = [&](const Matrix& B) {
+      const Matrix E = random_matrix(6, 6, engine);
+      return Matrix(B + epsilon * B.norm() / E.norm() * E);
+    };
+    const ReducedPencil near{{perturbed(start.M[0])}, {perturbed(start.C[0])}, {perturbed(start.K[0])}};
+    const InvariantPair moved = correct_pair(PencilAtPoint(near), pair, s_ref, {}, counts);
+    const double size = pair.Lambda.norm() / std::sqrt(2.0);
+    const double mean = std::abs((moved.Lambda - pair.Lambda).trace()) / 2.0;
+    EXPECT_LT(mean / size / epsilon, 1.01 * pair.condition);
+  }
+}
+
+/// Truncated series of order q satisfy the equations ahead up to h^(q+1): the residual needs no second
+/// solution.
+TEST_P(PairOfFamily, SeriesOfABlockHaveTheirOrder) {
+  const PencilAtPoint point(start);
+  for (std::size_t k = 2; k <= 3; ++k) {
+    const InvariantPair pair = correct_pair(point, block_of(modes(), k), s_ref, {}, counts);
+    ASSERT_EQ(pair.status, PairStatus::converged);
+    const PairSeries series = differentiate_pair(family, pair, 4, counts);
+    const auto miss = [&](int order, double h) {
+      ComplexMatrix Z = ComplexMatrix::Zero(pair.Z.rows(), pair.size());
+      ComplexMatrix Lambda = ComplexMatrix::Zero(pair.size(), pair.size());
+      for (std::size_t i = static_cast<std::size_t>(order) + 1; i-- > 0;) {
+        Z = Z * h + series.Z[i];
+        Lambda = Lambda * h + series.Lambda[i];
+      }
+      const ReducedPencil ahead = at(family, h);
+      return PencilAtPoint(ahead).residual(Z, Lambda).norm() + normalization_defect(pair, Z, Lambda);
+    };
+    const double h = 0.02 / (1.0 + 10.0 * series.Lambda[1].norm() / pair.Lambda.norm());
+    for (int order = 1; order <= 4; ++order) {
+      EXPECT_NEAR(std::log2(miss(order, h) / miss(order, h / 2)), order + 1.0, 0.4)
+          << "order " << order << " of a block of " << k;
+    }
+  }
+}
+
+/// A conjugate pair as a real block: real all through, and the eigenvalues of the pair.
+TEST_P(PairOfFamily, ConjugatePairIsARealBlock) {
+  const PencilAtPoint point(start);
+  for (const StartingMode& mode : modes()) {
+    if (mode.s.imag() == 0.0) continue;
+    const InvariantPair pair =
+        correct_pair(point, with_conjugate(start_at(mode.s * 1.001, mode.z)), s_ref, {}, counts);
+    ASSERT_EQ(pair.status, PairStatus::converged);
+    EXPECT_TRUE(pair.is_real);
+    EXPECT_TRUE(pair.Z.imag().isZero(0.0));
+    EXPECT_TRUE(pair.Lambda.imag().isZero(0.0));
+    EXPECT_LT(pair.backward_error, rounding);
+    EXPECT_LT(matched_distance({mode.s, std::conj(mode.s)}, eigenvalues(pair)), tolerance);
+    const PairSeries series = differentiate_pair(family, pair, 4, counts);
+    for (std::size_t k = 0; k <= 4; ++k) {
+      EXPECT_TRUE(series.Z[k].imag().isZero(0.0)) << "order " << k;
+      EXPECT_TRUE(series.Lambda[k].imag().isZero(0.0)) << "order " << k;
+    }
+    // tau = Re s and delta = -(Im s)^2 as power series, from the mode by itself.
+    const InvariantPair upper = correct_mode(point, mode.s, mode.z, counts);
+    const PairSeries alone = differentiate_pair(family, upper, 4, counts);
+    ComplexVector s(5), conjugate(5);
+    for (Eigen::Index k = 0; k <= 4; ++k) s[k] = alone.Lambda[static_cast<std::size_t>(k)](0, 0);
+    conjugate = s.conjugate();
+    const ComplexVector half = 0.5 * (s - conjugate);
+    const ComplexMatrix functions = block_functions(series.Lambda);
+    const ComplexVector delta = multiply_series(half, half);
+    for (Eigen::Index k = 0; k <= 4; ++k) {
+      const double scale = s.cwiseAbs().maxCoeff();
+      EXPECT_LT(std::abs(functions(0, k) - 0.5 * (s[k] + conjugate[k])), tolerance * scale) << "order " << k;
+      EXPECT_LT(std::abs(functions(1, k) - delta[k]), tolerance * scale * scale) << "order " << k;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, PairOfFamily, testing::Range(1U, 6U));
+
+/// s^2 + 3 s + k = 0: a root near zero, from starts that are off by as much as counts as zero.
+class SmallEigenvalue : public testing::TestWithParam<double> {};
+
+TEST_P(SmallEigenvalue, IsReachedFromEveryStartThatCountsAsZero) {
+  const double k = GetParam();
+  const ReducedPencil pencil = single(1.0, 3.0, k);
+  const double expected = -2.0 * k / (3.0 + std::sqrt(9.0 - 4.0 * k));
+  for (const double s : {-s_ref, -1e-6, -1e-9, -1e-12, -1e-17, 0.0, 1e-17, 1e-12, 1e-9, 1e-6, s_ref}) {
+    ModeCounts counts;
+    const InvariantPair pair = correct_mode(PencilAtPoint(pencil), s, ComplexVector::Ones(1), counts);
+    EXPECT_EQ(pair.status, PairStatus::converged) << "from " << s;
+    EXPECT_NEAR(pair.eigenvalue().real(), expected, 1e-13 * s_ref) << "from " << s;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stiffness, SmallEigenvalue, testing::Values(0.0, 1e-12, 1e-9, 1e-6, 1e-3));
+
+TEST(InvariantPair, RigidBodyModeIsReachedFromItsRounding) {
+  const ReducedPencil pencil{
+      {Matrix::Identity(2, 2)}, {Matrix{{1.0, 0.2}, {0.2, 2.0}}}, {Matrix{{1.0, -1.0}, {-1.0, 1.0}}}};
+  for (const double s : {-1e-6, -1e-9, -1e-12, -1e-15, -1e-17, 0.0, 1e-17, 1e-12}) {
+    ModeCounts counts;
+    const InvariantPair pair = correct_mode(PencilAtPoint(pencil), s, ComplexVector::Ones(2), counts);
+    ASSERT_EQ(pair.status, PairStatus::converged) << "from " << s;
+    EXPECT_NEAR(pair.eigenvalue().real(), 0.0, 1e-13 * s_ref) << "from " << s;
+    EXPECT_LT(std::abs(pair.Z(0, 0) / pair.Z(1, 0) - 1.0), tolerance) << "from " << s;
+  }
+}
+
+TEST(InvariantPair, NormalizationKeepsTheEigenvaluesAndBalancesTheHalves) {
+  std::mt19937_64 engine(7);
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    ComplexMatrix Z(5, 3), Lambda(3, 3), W;
+    Z.real() = random_matrix(5, 3, engine);
+    Z.imag() = random_matrix(5, 3, engine);
+    Lambda.real() = size * random_matrix(3, 3, engine);
+    Lambda.imag() = size * random_matrix(3, 3, engine);
+    const ComplexMatrix old_Z = Z;
+    const ComplexVector before = Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda).eigenvalues();
+    normalize_pair(Z, Lambda, W, s_ref);
+    const ComplexVector after = Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda).eigenvalues();
+    EXPECT_LT(matched_distance({before.begin(), before.end()}, {after.begin(), after.end()}), tolerance);
+    const ComplexMatrix unit = W.topRows(5).adjoint() * Z + W.bottomRows(5).adjoint() * Z * Lambda;
+    EXPECT_LT((unit - ComplexMatrix::Identity(3, 3)).norm(), rounding * 10) << "size " << size;
+    // The columns still span the same space.
+    const ComplexMatrix projected = old_Z * old_Z.colPivHouseholderQr().solve(Z);
+    EXPECT_LT((projected - Z).norm(), tolerance * Z.norm());
+  }
+}
+
+TEST(InvariantPair, FarGuessIsReportedNotReturnedAsConverged) {
+  const ReducedPencil start = at(random_family(6, 1), 0.0);
+  ModeCounts counts;
+  CorrectorOptions options;
+  options.max_iterations = 3;
+  const InvariantPair mode = correct_pair(
+      PencilAtPoint(start), start_at({50.0, 90.0}, ComplexVector::Ones(6)), s_ref, options, counts);
+  EXPECT_NE(mode.status, PairStatus::converged);
+  InvariantPair block;
+  block.Z = ComplexMatrix::Identity(6, 2);
+  block.Lambda = Complex(50.0, 90.0) * ComplexMatrix::Identity(2, 2);
+  EXPECT_NE(correct_pair(PencilAtPoint(start), block, s_ref, options, counts).status, PairStatus::converged);
+}
+
+TEST(InvariantPair, DependentColumnsAreSingular) {
+  const ReducedPencil start = at(random_family(6, 1), 0.0);
+  InvariantPair block;
+  block.Z = ComplexMatrix::Ones(6, 2);
+  block.Lambda = Complex(0.0, 1.0) * ComplexMatrix::Identity(2, 2);
+  ModeCounts counts;
+  EXPECT_NE(correct_pair(PencilAtPoint(start), block, s_ref, {}, counts).status, PairStatus::converged);
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,241 @@
+#include "eigentrail/modes/invariants.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+// Some ten roundings of terms of the size of the result.
+constexpr double rounding = 1e-14;
+
+ComplexMatrix random_block(Eigen::Index k, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  return ComplexMatrix::NullaryExpr(k, k, [&] { return Complex(normal(engine), normal(engine)); });
+}
+
+/// A block with these eigenvalues, in a basis that is neither orthogonal nor close to singular.
+ComplexMatrix block_with(const ComplexVector& eigenvalues, unsigned seed) {
+  const Eigen::Index k = eigenvalues.size();
+  const ComplexMatrix S = 2.0 * ComplexMatrix::Identity(k, k) + 0.3 * random_block(k, seed);
+  return S * eigenvalues.asDiagonal() * S.inverse();
+}
+
+ComplexVector functions_of(const ComplexMatrix& Lambda) {
+  return block_functions({Lambda}).col(0);
+}
+
+std::vector<Complex> list(const ComplexVector& values) {
+  return {values.begin(), values.end()};
+}
+
+const ComplexVector three{{Complex(-0.1, 3.0), Complex(-0.2, 3.4), Complex(0.05, 2.5)}};
+
+class Blocks : public testing::TestWithParam<Eigen::Index> {
+ protected:
+  Eigen::Index k = GetParam();
+  ComplexVector eigenvalues = (ComplexVector(4) << three, Complex(-0.3, 4.0)).finished().head(k);
+  ComplexVector functions = functions_of(block_with(eigenvalues, 3));
+};
+
+TEST_P(Blocks, RootsOfTheFunctionsAreTheEigenvalues) {
+  EXPECT_EQ(functions.size(), k <= 2 ? k : k * k);
+  EXPECT_EQ(block_size(functions.size()), k);
+  EXPECT_LT(matched_distance(list(eigenvalues), list(block_roots(functions))), 10.0 * rounding);
+}
+
+TEST_P(Blocks, MeanIsThatOfTheEigenvalues) {
+  EXPECT_LT(std::abs(block_mean(functions) - eigenvalues.mean()), 10.0 * rounding);
+}
+
+TEST_P(Blocks, DiscriminantIsTheProductOfSquaredDistances) {
+  if (k == 1) return;
+  Complex product = 1.0;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) product *= std::pow(eigenvalues[i] - eigenvalues[j], 2);
+  }
+  EXPECT_LT(std::abs(block_discriminant(functions, k) - product), 1e-11 * std::abs(product));
+}
+
+TEST_P(Blocks, RootErrorBoundsWhatErrorsOfTheFunctionsDo) {
+  std::mt19937_64 engine(11);
+  std::uniform_real_distribution<double> angle(0.0, 2.0 * M_PI);
+  const Vector errors = Vector::LinSpaced(functions.size(), 1e-9, 3e-9);
+  const double bound = root_error(functions, errors, 0.0);
+  double worst = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    ComplexVector moved = functions;
+    for (Eigen::Index i = 0; i < moved.size(); ++i) moved[i] += std::polar(errors[i], angle(engine));
+    const ComplexVector roots = in_order_of(eigenvalues, block_roots(moved));
+    worst = std::max(worst, (roots - eigenvalues).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LE(worst, 1.001 * bound);
+  EXPECT_GT(worst, 0.05 * bound) << "a bound that is never approached says nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Blocks, testing::Range(Eigen::Index{1}, Eigen::Index{5}));
+
+TEST(BlockFunctions, OfTwoDoNotDependOnTheBasis) {
+  const ComplexVector eigenvalues{{Complex(-0.1, 3.0), Complex(-0.2, 3.4)}};
+  const ComplexVector first = functions_of(block_with(eigenvalues, 1));
+  const ComplexVector second = functions_of(block_with(eigenvalues, 2));
+  EXPECT_LT((first - second).norm(), 10.0 * rounding);
+  EXPECT_LT(std::abs(first[0] - Complex(-0.15, 3.2)), 10.0 * rounding);
+  EXPECT_LT(std::abs(first[1] - std::pow(Complex(0.05, -0.2), 2)), 10.0 * rounding);
+}
+
+TEST(BlockFunctions, OfTwoKeepTheirDigitsWhereTheEigenvaluesMeet) {
+  // tau +- 1e-9: delta = 1e-18 comes out to nine digits, as far as Lambda is known; tau^2 - det has none of
+  // them.
+  ComplexMatrix Lambda(2, 2);
+  Lambda << Complex(0.0, 7.0), 1e-9, 1e-9, Complex(0.0, 7.0);
+  const ComplexVector functions = functions_of(Lambda);
+  EXPECT_LT(std::abs(functions[1] - 1e-18), 1e-9 * 1e-18);
+  const Complex rival = functions[0] * functions[0] - Lambda.determinant();
+  EXPECT_GT(std::abs(rival - 1e-18), 0.5e-18) << "the rival did not lose";
+}
+
+TEST(BlockFunctions, OfThreeKeepTheDigitsOfEigenvaluesThatCoincide) {
+  // Two coincide without being defective. The characteristic polynomial tells them to half the digits only.
+  const ComplexVector eigenvalues{{Complex(0.0, 3.0), Complex(0.0, 3.0), Complex(0.0, 3.4)}};
+  const ComplexMatrix Lambda = block_with(eigenvalues, 5);
+  const ComplexVector roots = in_order_of(eigenvalues, block_roots(functions_of(Lambda)));
+  EXPECT_LT((roots - eigenvalues).cwiseAbs().maxCoeff(), 1e-13);
+  const Complex a = Lambda.trace();
+  const Complex b = 0.5 * (a * a - (Lambda * Lambda).trace());
+  const Complex c = Lambda.determinant();
+  ComplexMatrix companion(3, 3);
+  companion << a, -b, c, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+  const ComplexVector rival = in_order_of(eigenvalues, block_roots(companion.reshaped()));
+  EXPECT_GT((rival - eigenvalues).cwiseAbs().maxCoeff(), 1e-9) << "the rival did not lose";
+}
+
+TEST(BlockFunctions, SeriesFollowTheBlock) {
+  // Lambda(h) = L0 + h L1 + h^2 L2: functions of the series are the series of the functions.
+  for (Eigen::Index k = 1; k <= 3; ++k) {
+    const std::vector<ComplexMatrix> Lambda{block_with(three.head(k), 7), random_block(k, 8),
+                                            random_block(k, 9)};
+    const ComplexMatrix series = block_functions(Lambda);
+    ASSERT_EQ(series.cols(), 3);
+    const auto miss = [&](double h) {
+      const ComplexVector exact = functions_of(Lambda[0] + h * Lambda[1] + h * h * Lambda[2]);
+      return (evaluate_series(series, h) - exact).norm();
+    };
+    if (k == 2) {
+      EXPECT_NEAR(std::log2(miss(0.02) / miss(0.01)), 3.0, 0.1);
+    } else {
+      EXPECT_LT(miss(0.3), 10.0 * rounding) << "linear in Lambda";
+    }
+  }
+}
+
+TEST(BlockRoots, OfRealFunctionsAreExactlyRealOrConjugate) {
+  const ComplexVector oscillating{{Complex(-0.3), Complex(-2.0)}};
+  const ComplexVector pair = block_roots(oscillating);
+  EXPECT_EQ(pair[0], std::conj(pair[1]));
+  EXPECT_EQ(pair[0].real(), -0.3);
+  const ComplexVector overdamped = block_roots(ComplexVector{{Complex(-0.3), Complex(0.04)}});
+  EXPECT_EQ(overdamped.imag().norm(), 0.0);
+  ComplexMatrix real(3, 3);
+  real << 0.0, 1.0, 0.0, -2.0, -0.1, 0.5, 0.1, 0.0, -1.0;
+  const ComplexVector roots = block_roots(real.reshaped());
+  Complex sum = 0.0;
+  int upper = 0;
+  for (const Complex root : roots) {
+    sum += root;
+    upper += root.imag() > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(upper, 1);
+  EXPECT_EQ(sum.imag(), 0.0) << "conjugates to the last bit";
+}
+
+TEST(BlockDiscriminant, OfAllVanishesWhereTwoCoincideAndThatOfTheDistinctOnesDoesNot) {
+  const ComplexVector eigenvalues{{Complex(0.0, 3.0), Complex(0.0, 3.0), Complex(0.0, 3.4)}};
+  const ComplexVector functions = functions_of(block_with(eigenvalues, 5));
+  EXPECT_LT(std::abs(block_discriminant(functions, 3)), 1e-14);
+  // Sum over the choices of two: two of them have the distance 0.4, one has zero.
+  EXPECT_LT(std::abs(block_discriminant(functions, 2) - 2.0 * std::pow(Complex(0.0, 0.4), 2)), 1e-13);
+}
+
+TEST(RootError, NearAMeetingCountsTheLeastGap) {
+  const ComplexVector meeting{{Complex(0.0, 3.0), Complex(0.0)}};
+  const Vector errors{{1e-9, 1e-9}};
+  EXPECT_DOUBLE_EQ(root_error(meeting, errors, 0.2), 1e-9 + 1e-9 / 0.2);
+}
+
+TEST(RootSeries, OfABlockOfOneIsItself) {
+  ComplexMatrix functions(1, 4);
+  functions << Complex(0.0, 3.0), 0.5, Complex(0.1, 0.2), -0.3;
+  EXPECT_EQ(root_series(functions, functions(0, 0)), functions.row(0).transpose());
+}
+
+/// Eigenvalues that are known series a_i(h), in a basis that turns with h.
+class RootsOfBlocks : public testing::TestWithParam<Eigen::Index> {};
+
+TEST_P(RootsOfBlocks, AreTheSeriesTheBlockWasMadeOf) {
+  constexpr Eigen::Index count = 6;
+  const Eigen::Index k = GetParam();
+  const ComplexMatrix exact = random_block(count, 4).topRows(k) + 3.0 * random_block(count, 40).topRows(k);
+  // Lambda(h) = S(h) diag(a(h)) S(h)^-1 with S = S0 + h S1 as series.
+  const ComplexMatrix S0 = 2.0 * ComplexMatrix::Identity(k, k) + 0.3 * random_block(k, 5);
+  const ComplexMatrix S1 = 0.3 * random_block(k, 6);
+  std::vector<ComplexMatrix> inverse{S0.inverse()};
+  for (Eigen::Index j = 1; j < count; ++j) inverse.emplace_back(-inverse[0] * S1 * inverse.back());
+  std::vector<ComplexMatrix> Lambda(count, ComplexMatrix::Zero(k, k));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ComplexMatrix D = exact.col(static_cast<Eigen::Index>(i)).asDiagonal();
+    for (std::size_t j = 0; i + j < count; ++j) {
+      Lambda[i + j] += S0 * D * inverse[j];
+      if (i + j + 1 < count) Lambda[i + j + 1] += S1 * D * inverse[j];
+    }
+  }
+  const ComplexMatrix functions = block_functions(Lambda);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const ComplexVector series = root_series(functions, exact(i, 0));
+    ASSERT_EQ(series.size(), count);
+    EXPECT_LT((series - exact.row(i).transpose()).norm(), 1e-11 * exact.row(i).norm()) << "root " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, RootsOfBlocks, testing::Values(2, 3, 4));
+
+TEST(RootSeries, OfADoubleRootIsEmpty) {
+  ComplexMatrix functions = ComplexMatrix::Zero(2, 4);
+  functions(0, 0) = Complex(0.0, 3.0);
+  functions(1, 1) = 1.0;
+  EXPECT_EQ(root_series(functions, Complex(0.0, 3.0)).size(), 0);
+}
+
+TEST(InOrderOf, TakesTheLeastTotalDistanceNotTheNearest) {
+  // The nearest of the first would leave the second far.
+  const ComplexVector from{{Complex(0.0), Complex(1.0)}};
+  const ComplexVector to{{Complex(0.9), Complex(0.6)}};
+  const ComplexVector ordered = in_order_of(from, to);
+  EXPECT_EQ(ordered[0], Complex(0.6));
+  EXPECT_EQ(ordered[1], Complex(0.9));
+  const ComplexVector turned{{three[2], three[0], three[1]}};
+  EXPECT_EQ(in_order_of(three, turned), three);
+}
+
+TEST(LeastGap, IsThatOfTheClosestTwo) {
+  EXPECT_DOUBLE_EQ(least_gap(ComplexVector{{Complex(0.0), Complex(0.0, 3.0), Complex(0.1, 3.0)}}), 0.1);
+  EXPECT_EQ(least_gap(ComplexVector{{Complex(1.0)}}), INFINITY);
+}
+
+TEST(SeriesOfVectors, ReciprocalTimesItselfIsOne) {
+  const ComplexVector series = random_block(6, 2).col(0);
+  const ComplexVector one = multiply_series(series, reciprocal_series(series));
+  EXPECT_LT((one - ComplexVector::Unit(6, 0)).norm(), 1e-12);
+  // 1 / (1 - h) = 1 + h + h^2 + ...
+  EXPECT_LT((reciprocal_series(ComplexVector{{1.0, -1.0, 0.0, 0.0}}) - ComplexVector::Ones(4)).norm(),
+            rounding);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
