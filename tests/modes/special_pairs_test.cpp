@@ -158,6 +158,58 @@ TEST(ExceptionalPoint, BlockOfThreeConvergesToRoundingAtATripleOne) {
   EXPECT_NEAR(std::log2(miss(0.08) / miss(0.04)), 5.0, 0.5);
 }
 
+/// Series of tau and delta at a point where both eigenvalues are zero or nearly so.
+ComplexMatrix functions_near_zero(const ReducedPencil& family, const InvariantPair& start, int order) {
+  const ReducedPencil pencil = at(family, 0.0);
+  ModeCounts counts;
+  const InvariantPair pair = correct_pair(PencilAtPoint(pencil), start, s_ref, {}, counts);
+  EXPECT_EQ(pair.status, PairStatus::converged);
+  return block_functions(differentiate_pair(family, pair, order, counts).Lambda);
+}
+
+/// s^2 = -(k + p): a pair comes down to zero and parts into a growing and a decaying mode. tau = 0, delta =
+/// -(k + p).
+TEST(PairAtZero, OfOneFreedomKeepsTheDigitsOfItsSeries) {
+  for (const double k : {0.0, 1e-16, 1e-12, 1e-9, 1e-6, -1e-9}) {
+    const ReducedPencil family{{Matrix{{1.0}}}, {Matrix{{0.0}}}, {Matrix{{k}}, Matrix{{1.0}}}};
+    InvariantPair start;
+    start.is_real = true;
+    start.Z = ComplexMatrix::Zero(1, 2);
+    start.Z(0, 0) = 1.0;
+    start.Lambda = ComplexMatrix::Zero(2, 2);
+    start.Lambda(0, 1) = 1.0;
+    const ComplexMatrix functions = functions_near_zero(family, start, 5);
+    for (Eigen::Index i = 0; i <= 5; ++i) {
+      const double delta = i == 0 ? -k : i == 1 ? -1.0 : 0.0;
+      EXPECT_LT(std::abs(functions(0, i)), tolerance) << "tau, order " << i << ", k = " << k;
+      EXPECT_LT(std::abs(functions(1, i) - delta), tolerance) << "delta, order " << i << ", k = " << k;
+    }
+  }
+}
+
+/// A whirl in a frame that turns at w = 5 + h, its natural frequency: s = +-j (5 - w), two vectors at a
+/// double zero. tau = 0, delta = -h^2.
+TEST(PairAtZero, OfAWhirlKeepsTheDigitsOfItsSeries) {
+  const Matrix I = Matrix::Identity(2, 2);
+  const Matrix J{{0.0, -1.0}, {1.0, 0.0}};
+  for (const double h : {0.0, 1e-12, 1e-9, 1e-6}) {
+    const double w = 5.0 + h;
+    const ReducedPencil family{{I}, {2.0 * w * J, 2.0 * J}, {(25.0 - w * w) * I, -2.0 * w * I, -1.0 * I}};
+    for (const double offset : {0.0, 1e-15, 1e-9}) {
+      InvariantPair start;
+      start.is_real = true;
+      start.Z = I.cast<Complex>();
+      start.Lambda = (offset * J).cast<Complex>();
+      const ComplexMatrix functions = functions_near_zero(family, start, 5);
+      const double delta[] = {-h * h, -2.0 * h, -1.0, 0.0, 0.0, 0.0};
+      for (Eigen::Index i = 0; i <= 5; ++i) {
+        EXPECT_LT(std::abs(functions(0, i)), tolerance) << "tau, order " << i << ", h = " << h;
+        EXPECT_LT(std::abs(functions(1, i) - delta[i]), tolerance) << "delta, order " << i << ", h = " << h;
+      }
+    }
+  }
+}
+
 /// p s^2 + 3 s + 2 = 0: one root goes to infinity like -3 / p. mu = 1/s solves 2 mu^2 + 3 mu + p = 0.
 TEST(ReciprocalChart, FollowsAnEigenvalueThroughInfinityWhereTheMassIsSingular) {
   constexpr int order = 4;
