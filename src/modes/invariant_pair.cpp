@@ -98,8 +98,10 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const ComplexMatrix CZ = multiply(C_, Z_);
   const ComplexMatrix WZ = W_.bottomRows(n).adjoint() * Z_;
   // The border gets the size of the terms of P, not of their sum, which vanishes at an eigenvalue when n = 1.
-  const double size = std::max(
-      pencil.magnitude(T_.diagonal().cwiseAbs().maxCoeff()) / std::sqrt(static_cast<double>(n)), 1e-300);
+  const double terms = pencil.magnitude(T_.diagonal().cwiseAbs().maxCoeff());
+  // Where every term vanishes (a zero eigenvalue without stiffness) the matrices themselves give the scale.
+  const double whole = pencil.norm_M + pencil.norm_C + pencil.norm_K;
+  const double size = std::max((terms > 0.0 ? terms : whole) / std::sqrt(static_cast<double>(n)), 1e-300);
   const ComplexMatrix slope = 2.0 * MZ * T_ + CZ;
   slope_scale_ = slope.norm() > 0.0 ? size / slope.norm() : size;
   border_scale_ = size;
