@@ -169,7 +169,6 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
   node.pencil = reduce(node.linearization, node.basis, order);
-  node.stiffness_condition = point.equilibrium.kkt.reciprocal_condition();
   for (const InvariantPair& pair : point.pairs) {
     node.tracks.push_back(differentiate_track(problem, node, pair, counts));
     if (!is_finite(node.tracks.back())) return std::nullopt;

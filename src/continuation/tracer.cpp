@@ -25,9 +25,10 @@ constexpr double least_relative_gap = 0.1;
 /// Near a fold eigenvalues vary like the root of the distance in p: p must be known so much better, in units
 /// of tolerance times range.
 constexpr double parameter_accuracy = 1e-5;
-constexpr double smallest_step = 1e-11;    ///< of the range
-constexpr double uncertified_step = 1e-6;  ///< of the range: shorter ones are taken without certificate
-constexpr double join_reach = 1.0;         ///< steps: meetings nearer than this join modes into a block
+constexpr double smallest_step = 1e-11;     ///< of the range
+constexpr double uncertified_step = 1e-6;   ///< of the range: shorter ones are taken without certificate
+constexpr double uncertified_error = 30.0;  ///< shortens a step without certificate as much as this error
+constexpr double join_reach = 1.0;          ///< steps: meetings nearer than this join modes into a block
 /// Single modes whose error is this share of what is accepted limit the step.
 constexpr double limiting_error = 0.1;
 constexpr double better_chart = 0.3;  ///< the same for the other chart, which costs nothing more
@@ -113,41 +114,28 @@ void Tracer::follow() {
   }
 }
 
-bool Tracer::reached_end(const PathNode& node) const {
-  if (!plane_) return node.p == options_.to;
-  const double heading = coefficient(node.path.parameters, problem_.traced, 1);
-  const bool outward = heading * (options_.to - options_.from) > 0.0;
-  return node.p == options_.to || (node.p == options_.from && !outward);
-}
-
-double Tracer::remaining() const {
-  return plane_ ? std::numeric_limits<double>::max() : std::abs(options_.to - node_.p);
-}
-
 bool Tracer::advance(StepControl& control) {
   const double length = control.propose(std::min(remaining(), longest_allowed_step()));
   double h = direction_ * length;
   std::optional<PathNode> next;
+  double error = 0.0;
   Trouble trouble = attempt(h, next);
-  if (!trouble) trouble = judge(h, *next);
+  if (!trouble) trouble = judge(h, *next, error);
   if (trouble) {
     if (remedy(trouble, h, next)) return true;
     if (trouble.kind == Trouble::Kind::uncertified && length <= uncertified_below_) {
       trouble = {};  // taken as it is, and marked
     } else {
-      const double error = trouble.kind == Trouble::Kind::uncertified ? 30.0 : trouble.error;
-      control.reject(length, error);
+      control.reject(length, trouble.kind == Trouble::Kind::uncertified ? uncertified_error : trouble.error);
       return control.exhausted() ? give_up(trouble) : true;
     }
   }
-  const double error = measure_error(h, *next).error;
   if (!land_on_end(h, next) || !land_on_meeting(h, next)) {
     control.reject(length, INFINITY);
     return control.exhausted() ? give_up(trouble) : true;
   }
   control.accept(length, error);
-  if (!accept(h, std::move(*next), control.step())) return false;
-  return true;
+  return accept(h, std::move(*next), control.step());
 }
 
 /// More than one meeting may hide in a long step of a large block.
@@ -193,9 +181,11 @@ Tracer::Trouble Tracer::attempt(double h, std::optional<PathNode>& next) {
   return {};
 }
 
-Tracer::Trouble Tracer::judge(double h, const PathNode& next) {
+Tracer::Trouble Tracer::judge(double h, const PathNode& next, double& error) {
   certified_.assign(node_.tracks.size(), false);
-  if (Trouble trouble = measure_error(h, next); trouble.error > 1.0) return trouble;
+  const Trouble inaccuracy = measure_error(h, next);
+  error = inaccuracy.error;
+  if (error > 1.0) return inaccuracy;
   if (Trouble trouble = check_identity(next)) return trouble;
   return options_.certify ? certify(h, next) : Trouble{};
 }
@@ -239,8 +229,9 @@ Tracer::Trouble Tracer::measure_error(double h, const PathNode& next) const {
   return worst;
 }
 
-/// The partners with which a track on the step to `next` would be more accurate as a block, at `worth` times
-/// its error; empty when nobody helps. The nearest alone, or with those after it.
+/// The partners with which a track on the step to `next`, whose error is `error`, would be so much more
+/// accurate as a block that it is worth its while; empty when nobody helps. The nearest alone, or with those
+/// after it.
 std::vector<Partner> Tracer::helpful_partners(double h, const PathNode& next, std::size_t track, double error,
                                               std::vector<Partner> candidates) const {
   const Track& there = next.tracks[track];
@@ -283,8 +274,8 @@ void Tracer::join_limiting_modes(double h, PathNode& next, double next_step) {
   }
 }
 
-/// Modes may not arrive at the same eigenpair, and without a certificate their shapes must fit the
-/// prediction.
+/// Modes may not arrive at the same eigenpair, and without a certificate their shapes must resemble those at
+/// the beginning of the step.
 Tracer::Trouble Tracer::check_identity(const PathNode& next) {
   const StageTimer timer(result_.counts.matching_seconds);
   const Matrix& mass = next.linearization.M[0];
@@ -382,35 +373,6 @@ bool Tracer::remedy(const Trouble& trouble, double h, const std::optional<PathNo
   if (!join(problem_, node_, track, partners, result_.counts)) return false;
   ++result_.regroupings.joined;
   return true;
-}
-
-/// One length for the whole path: the largest position so far, which may pass zero later.
-PathScales Tracer::path_scales() {
-  largest_position_ = std::max(largest_position_, node_.path.x.col(0).norm());
-  return {largest_position_ > 0.0 ? largest_position_ : 1.0, range()};
-}
-
-/// Where the equilibrium's series falls faster along the path than in p, the path is bending back: a fold.
-bool Tracer::turn_to_plane(double h) {
-  if (plane_ || problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return false;
-  const auto plane = plane_along(node_.path, problem_.traced, path_scales(), direction_);
-  PathNode turned = node_;
-  reparametrize(turned, plane, problem_.traced);
-  if (!falls_faster(turned.path, node_.path, problem_.traced, path_scales(), h)) return false;
-  plane_ = plane;
-  direction_ = 1.0;
-  turned_step_ = std::abs(h / coefficient(turned.path.parameters, problem_.traced, 1));
-  node_ = std::move(turned);
-  ++result_.regroupings.planes;
-  return true;
-}
-
-/// A plane that the path meets at a slant is replaced by one across it.
-void Tracer::renew_plane() {
-  if (!plane_ || slant(*plane_, node_.path, problem_.traced, path_scales()) > 0.7) return;
-  plane_ = plane_along(node_.path, problem_.traced, path_scales(), 1.0);
-  reparametrize(node_, *plane_, problem_.traced);
-  ++result_.regroupings.planes;
 }
 
 bool Tracer::accept(double h, PathNode next, double next_step) {

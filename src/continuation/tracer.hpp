@@ -49,7 +49,8 @@ class Tracer {
   Prediction predict(const PathNode& base, double h) const;
   /// Computes and differentiates the point at distance h; the tracks' eigenvalues have their modes.
   Trouble attempt(double h, std::optional<PathNode>& next);
-  Trouble judge(double h, const PathNode& next);
+  /// `error` is that of the dense output, as a fraction of what is accepted.
+  Trouble judge(double h, const PathNode& next, double& error);
   /// Estimated error of one track's dense output on the step, as a fraction of what is accepted.
   double track_error(double h, const PathNode& next, std::size_t track) const;
   Trouble measure_error(double h, const PathNode& next) const;
@@ -61,14 +62,10 @@ class Tracer {
                                         std::vector<Partner> candidates) const;
   /// Joins single modes at the end of the step that limit each other's accuracy.
   void join_limiting_modes(double h, PathNode& next, double next_step);
-  bool turn_to_plane(double h);
-  void renew_plane();
-  PathScales path_scales();
   bool accept(double h, PathNode next, double next_step);
   bool give_up(const Trouble& trouble);
   double remaining() const;
   double longest_allowed_step() const;
-  bool reached_end(const PathNode& node) const;
 
   // tracer_labels.cpp: which eigenvalue is which mode.
   void label_arrival(double h, PathNode& next) const;
@@ -87,23 +84,32 @@ class Tracer {
   Approach approach_meeting(const ExpectedMeeting& expected, double excluded, double& h,
                             std::optional<PathNode>& next, Meeting& meeting, int& retrackings);
   Meeting meeting_at(const PathNode& point, std::size_t track, double reach);
-  bool land_on_end(double& h, std::optional<PathNode>& next);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
   void look_beside(const PathNode& point, std::size_t track, const Meeting& meeting);
   std::optional<PathNode> probe(const PathNode& base, double h);
   void record_veering(const PathNode& base, Complex root, const std::vector<int>& modes);
   void add_event(Event event);
-  void add_static_event(const PathNode& node, Event event);
   void find_events(double h, const PathNode& next);
+  void find_distant_veerings(double h, const PathNode& next);
+  void record_distant_veering(double h, const PathNode& next, std::size_t i, std::size_t j, Complex t);
+  double veering_width() const;
+
+  // tracer_axis.cpp: flutter and divergence.
   void find_axis_crossings(double h, const PathNode& next);
   void locate_axis_crossing(double h, const PathNode& next, std::size_t track, std::size_t member, double t,
                             bool pair);
   void record_axis_crossing(const PathNode& point, double offset, Complex s, std::size_t track,
                             std::size_t member, bool pair, int retrackings);
-  void find_distant_veerings(double h, const PathNode& next);
-  void record_distant_veering(double h, const PathNode& next, std::size_t i, std::size_t j, Complex t);
+
+  // tracer_folds.cpp: where the equilibrium path bends back or meets another one.
+  bool turn_to_plane(double h);
+  void renew_plane();
+  PathScales path_scales();
+  bool reached_end(const PathNode& node) const;
+  bool land_on_end(double& h, std::optional<PathNode>& next);
   void find_folds(double h, const PathNode& next);
-  double veering_width() const;
+  void add_static_event(const PathNode& node, Event event);
+  void note_branch_point(double p);
 
   // tracer_completeness.cpp
   void complete(PathNode& node);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "continuation/event_tools.hpp"
 #include "continuation/shared_basis.hpp"
 #include "continuation/tracer.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
@@ -11,81 +12,17 @@
 namespace eigentrail {
 namespace {
 
-/// Books the factorizations between construction and destruction under events.
-class EventWork {
- public:
-  explicit EventWork(RunCounts& counts) : counts_(counts), before_(counts.modes.factorizations) {}
-  ~EventWork() {
-    counts_.event_factorizations += counts_.modes.factorizations - before_;
-    counts_.modes.factorizations = before_;
-  }
-  EventWork(const EventWork&) = delete;
-  EventWork& operator=(const EventWork&) = delete;
-
- private:
-  RunCounts& counts_;
-  std::uint64_t before_;
-};
-
 /// Exceptional points farther from the real axis than this share of the range are no veering.
 constexpr double widest_veering = 0.01 * (1.0 + 1e-9);
 /// Multiple roots of an interpolant may lie this share of the step off the axis.
 constexpr double looked_into = 0.2;
 constexpr double narrow = 1e-3;  ///< of a step: veerings up to this half-width get a point of their own
-constexpr int most_retrackings = 8;
-constexpr double settled = 1e-13;  ///< of the range: a special point is located when it moves by less
-/// Real parts below this, relatively, are zero: an undamped system does not flutter by rounding.
-constexpr double vanishing_damping = 1e-9;
-constexpr int samples_per_step = 24;
-/// Share of the parameter's force in the kernel of a singular stiffness below which another path crosses.
-constexpr double branch_point_share = 1e-3;
-
-std::vector<int> sorted_modes(const std::vector<int>& modes) {
-  std::vector<int> result;
-  for (const int mode : modes) {
-    if (mode >= 0 && std::find(result.begin(), result.end(), mode) == result.end()) result.push_back(mode);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-/// A point with some of its tracks only: what an event needs.
-PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks) {
-  PathNode base = node;
-  base.tracks.clear();
-  for (const std::size_t i : tracks) base.tracks.push_back(node.tracks[i]);
-  return base;
-}
 
 }  // namespace
 
 double Tracer::veering_width() const {
   const double speed = plane_ ? std::abs(coefficient(node_.path.parameters, problem_.traced, 1)) : 1.0;
   return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
-}
-
-/// In the path's own coordinate the end of the range lies where p says so.
-bool Tracer::land_on_end(double& h, std::optional<PathNode>& next) {
-  if (!plane_) return true;
-  for (const double end : {options_.to, options_.from}) {
-    const double side = end == options_.to ? options_.to - options_.from : options_.from - options_.to;
-    if ((next->p - end) * side <= 0.0 || next->p == end) continue;
-    // Newton for p(h) = end from inside the step.
-    double distance = h * (end - node_.p) / (next->p - node_.p);
-    for (int i = 0; i < most_retrackings; ++i) {
-      if (attempt(distance, next)) return false;
-      const double miss = end - next->p;
-      if (std::abs(miss) <= 1e-14 * std::max(range(), std::abs(end))) {
-        next->p = end;
-        h = distance;
-        return true;
-      }
-      distance += miss / coefficient(next->path.parameters, problem_.traced, 1);
-      if (!(distance > 0.0 && distance <= 1.5 * h)) return false;
-    }
-    return false;
-  }
-  return true;
 }
 
 /// The trace may begin on a special point.
@@ -383,28 +320,6 @@ void Tracer::record_veering(const PathNode& base, Complex root, const std::vecto
   add_event(std::move(event));
 }
 
-/// An eigenvalue at zero is where the equilibrium is not isolated: the path turns back, or another one
-/// crosses.
-void Tracer::add_static_event(const PathNode& node, Event event) {
-  const bool moves = !problem_.structure.known_equilibrium;
-  const double scale = std::max(problem_.s_ref, 1e-300);
-  const bool zero = std::abs(event.s) <= 1e-2 * scale;
-  if (!moves || !zero || (event.kind != EventKind::collision && event.kind != EventKind::divergence)) {
-    return add_event(std::move(event));
-  }
-  const double share =
-      kernel_share_of_parameter(problem_.model, node.path, problem_.traced, node.linearization,
-                                node.basis.T[0], result_.counts.evaluations);
-  if (share > branch_point_share) return;  // the fold is an event of its own
-  event.kind = EventKind::pitchfork;
-  event.puiseux = 0.0;
-  event.s = 0.0;
-  event.modes.clear();
-  result_.notes.push_back("another equilibrium path crosses at " + at_parameter(event.p) +
-                          "; the trace stays on its own");
-  add_event(std::move(event));
-}
-
 /// A special point that two steps have seen is one.
 void Tracer::add_event(Event event) {
   const double same = event.kind == EventKind::veering ? 1e-7 : 1e-9;
@@ -424,132 +339,6 @@ void Tracer::find_events(double h, const PathNode& next) {
   find_axis_crossings(h, next);
   find_distant_veerings(h, next);
   find_folds(h, next);
-  std::stable_sort(result_.events.begin(), result_.events.end(),
-                   [](const Event& a, const Event& b) { return a.node < b.node; });
-}
-
-namespace {
-
-/// Where the real part of an eigenvalue, of the sign of `before` at t = from, changes sign on the dense
-/// output.
-double sign_change(const DenseBlock& block, double length, ComplexVector roots, Eigen::Index member,
-                   double from, double to, double before) {
-  constexpr int halvings = 30;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (from + to);
-    const ComplexVector there = follow_roots(block, length, roots, from, middle);
-    if (there[member].real() * before > 0.0) {
-      from = middle;
-      roots = there;
-    } else {
-      to = middle;
-    }
-  }
-  return 0.5 * (from + to);
-}
-
-}  // namespace
-
-/// Real parts that change sign from one sample to the next, or from the last step to this one.
-void Tracer::find_axis_crossings(double h, const PathNode& next) {
-  for (std::size_t i = 0; i < next.tracks.size(); ++i) {
-    const Track& track = node_.tracks[i];
-    const DenseBlock block = block_on_step(node_, next, i);
-    const bool departs = track.departure.has_value();
-    ComplexVector roots = departs ? track.departure->roots : track.roots;
-    double last = departs ? track.departure->distance / h : 0.0;
-    if (last > 0.5) continue;
-    for (int k = 1; k <= samples_per_step; ++k) {
-      const double t = static_cast<double>(k) / samples_per_step;
-      const ComplexVector roots_before = roots;
-      roots = follow_roots(block, h, roots, last, t);
-      for (Eigen::Index member = 0; member < track.size(); ++member) {
-        const int mode = track.modes[static_cast<std::size_t>(member)];
-        if (mode < 0) continue;
-        const Complex s = roots[member];
-        // Undamped modes stay on the axis but for rounding.
-        if (std::abs(s.real()) <=
-            vanishing_damping * std::max(std::abs(s), problem_.reference(track.pair.chart)))
-          continue;
-        const auto before = last_value_.find(mode);
-        const bool crossed = before != last_value_.end() && before->second.real() * s.real() < 0.0;
-        if (crossed) {
-          const double a = before->second.real();
-          const bool pair = before->second.imag() != 0.0 && s.imag() != 0.0;
-          const double guess = sign_change(block, h, roots_before, member, last, t, a);
-          locate_axis_crossing(h, next, i, static_cast<std::size_t>(member), guess, pair);
-        }
-        last_value_[mode] = s;
-      }
-      last = t;
-    }
-  }
-}
-
-/// Newton for Re s = 0 with the mode tracked anew at every guess.
-void Tracer::locate_axis_crossing(double h, const PathNode& next, std::size_t index, std::size_t member,
-                                  double t, bool pair) {
-  const Track& track = node_.tracks[index];
-  const DenseBlock block = block_on_step(node_, next, index);
-  const bool departs = track.departure.has_value();
-  const ComplexVector start = departs ? track.departure->roots : track.roots;
-  const double from = departs ? track.departure->distance / h : 0.0;
-  const PathNode base = with_tracks(node_, {index});
-  double distance = t * h;
-  double last_move = 0.0;
-  for (int i = 1; i <= most_retrackings; ++i) {
-    const double position = std::clamp(distance / h, from, 1.0);
-    const Complex expected = follow_roots(block, h, start, from, position)[static_cast<Eigen::Index>(member)];
-    const std::optional<PathNode> point = probe(base, distance);
-    if (!point) break;
-    const Track& there = point->tracks.front();
-    Eigen::Index nearest = 0;
-    (there.roots.array() - expected).abs().minCoeff(&nearest);
-    const Complex s = there.roots[nearest];
-    const ComplexVector series = root_series(there.functions, s);
-    const bool meets =
-        series.size() < 2 || (there.roots.size() > 1 && least_gap(there.roots) <= 1e-7 * last_move);
-    const bool at_zero = std::abs(s.real()) <= 1e-6 * problem_.reference(track.pair.chart);
-    if (meets && (i > 1 || at_zero)) {
-      // Newton has led to a double root, where derivatives of one eigenvalue end.
-      record_axis_crossing(*point, 0.0, s, index, member, pair, i);
-      break;
-    }
-    // A mode that stays on the axis crosses it by rounding only.
-    if (series.size() < 2 || std::abs(series[1].real()) <= vanishing_damping * std::abs(series[1])) break;
-    const double move = -s.real() / series[1].real();
-    distance += move;
-    last_move = std::abs(series[1] * move);
-    if (distance / h < -0.5 || distance / h > 1.5) break;
-    const bool on_step = distance / h > -1e-4 && distance / h <= 1.0 + 1e-4;
-    if (std::abs(move) > 1e-3 * settled * range() && std::abs(move) > 1e-12 * std::abs(h) &&
-        i < most_retrackings)
-      continue;
-    if (!on_step) break;
-    record_axis_crossing(*point, move, s + series[1] * move, index, member, pair, i);
-    break;
-  }
-}
-
-void Tracer::record_axis_crossing(const PathNode& point, double offset, Complex s, std::size_t index,
-                                  std::size_t member, bool pair, int retrackings) {
-  const Track& track = node_.tracks[index];
-  Event event;
-  event.kind = pair ? EventKind::flutter : EventKind::divergence;
-  event.p = point.p + offset * coefficient(point.path.parameters, problem_.traced, 1);
-  event.s = pair ? chart_value(Complex(0.0, std::abs(s.imag())), track.pair.chart) : Complex(0.0);
-  event.modes = {track.modes[member]};
-  event.retrackings = retrackings;
-  event.node = result_.nodes;
-  // Modes that coalesce leave the imaginary axis, or pass it, at their meeting: one point, one event. In the
-  // reciprocal chart zero is infinity.
-  const bool met = std::any_of(result_.events.begin(), result_.events.end(), [&](const Event& other) {
-    // Around a triple one the roots are known to the cube root of the error only.
-    const double near = (other.modes.size() > 2 ? 1e-4 : 1e-6) * range();
-    return other.kind == EventKind::collision && (!pair || other.modes.size() > 1) &&
-           std::abs(other.p - event.p) <= near;
-  });
-  if (!met && (pair || track.pair.chart == Chart::finite)) add_static_event(point, std::move(event));
 }
 
 /// Two single modes with an exceptional point beside the step, expected at t.
@@ -601,45 +390,6 @@ void Tracer::find_distant_veerings(double h, const PathNode& next) {
         record_distant_veering(h, next, i, j, t);
       }
     }
-  }
-}
-
-void Tracer::find_folds(double h, const PathNode& next) {
-  if (!plane_) return;
-  const double before = coefficient(node_.path.parameters, problem_.traced, 1);
-  const double behind = coefficient(next.path.parameters, problem_.traced, 1);
-  if (!(before * behind < 0.0)) return;
-  double distance = h * before / (before - behind);
-  for (int i = 1; i <= most_retrackings; ++i) {
-    const std::optional<PathNode> point = probe(node_, distance);
-    if (!point) break;
-    const auto& p = point->path.parameters;
-    const double move = -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
-    if (!std::isfinite(move)) break;
-    distance += move;
-    if (std::abs(move) > 1e-9 && i < most_retrackings) continue;
-    const double share =
-        kernel_share_of_parameter(problem_.model, point->path, problem_.traced, point->linearization,
-                                  point->basis.T[0], result_.counts.evaluations);
-    Event event;
-    event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
-    if (event.kind == EventKind::pitchfork)
-      result_.notes.push_back("another equilibrium path crosses at " + at_parameter(point->p) +
-                              "; the trace stays on its own");
-    event.p = point->p + 0.5 * move * coefficient(p, problem_.traced, 1);
-    event.retrackings = i;
-    event.node = result_.nodes;
-    // The eigenvalue that vanishes with the tangent stiffness.
-    double least = INFINITY;
-    for (std::size_t k = 0; k < point->tracks.size(); ++k) {
-      const Track& track = point->tracks[k];
-      const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
-      if (size >= least) continue;
-      least = size;
-      event.modes = sorted_modes(node_.tracks[k].modes);
-    }
-    add_event(std::move(event));
-    break;
   }
 }
 

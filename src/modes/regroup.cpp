@@ -35,10 +35,10 @@ InvariantPair with_conjugate(const InvariantPair& upper) {
   const Eigen::Index n = upper.Z.rows();
   const Eigen::Index k = upper.size();
   ComplexMatrix Z = upper.Z;
-  for (Eigen::Index j = 0; j < k && k == 1; ++j) {
+  if (k == 1) {
     // A phase that makes the real part as large as can be keeps the two columns apart.
-    const Complex square = (Z.col(j).transpose() * Z.col(j))(0, 0);
-    if (std::abs(square) > 0.0) Z.col(j) *= std::conj(std::sqrt(square / std::abs(square)));
+    const Complex square = (Z.transpose() * Z)(0, 0);
+    if (std::abs(square) > 0.0) Z *= std::conj(std::sqrt(square / std::abs(square)));
   }
   // (a + i b) (R + i S) = (a R - b S) + i (a S + b R).
   const Matrix R = upper.Lambda.real();

@@ -43,7 +43,6 @@ struct PathNode {
   Linearization linearization;       ///< series
   TangentBasis basis;                ///< series
   ReducedPencil pencil;              ///< series
-  double stiffness_condition = 1.0;  ///< reciprocal condition of the tangent stiffness; 0: not known
 
   /// Coefficient k of the eigenvalue of a track of one mode.
   Complex s(std::size_t track, Eigen::Index k) const { return tracks[track].functions(0, k); }

@@ -1,0 +1,23 @@
+#include "continuation/event_tools.hpp"
+
+#include <algorithm>
+
+namespace eigentrail {
+
+std::vector<int> sorted_modes(const std::vector<int>& modes) {
+  std::vector<int> result;
+  for (const int mode : modes) {
+    if (mode >= 0 && std::find(result.begin(), result.end(), mode) == result.end()) result.push_back(mode);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks) {
+  PathNode base = node;
+  base.tracks.clear();
+  for (const std::size_t i : tracks) base.tracks.push_back(node.tracks[i]);
+  return base;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,143 @@
+// Where the equilibrium path bends back or meets another one.
+#include <array>
+#include <cmath>
+
+#include "continuation/event_tools.hpp"
+#include "continuation/tracer.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Share of the parameter's force in the kernel of a singular stiffness below which another path crosses.
+constexpr double branch_point_share = 1e-3;
+
+}  // namespace
+
+bool Tracer::reached_end(const PathNode& node) const {
+  if (!plane_) return node.p == options_.to;
+  const double heading = coefficient(node.path.parameters, problem_.traced, 1);
+  const bool outward = heading * (options_.to - options_.from) > 0.0;
+  return node.p == options_.to || (node.p == options_.from && !outward);
+}
+
+double Tracer::remaining() const {
+  return plane_ ? std::numeric_limits<double>::max() : std::abs(options_.to - node_.p);
+}
+
+/// One length for the whole path: the largest position so far, which may pass zero later.
+PathScales Tracer::path_scales() {
+  largest_position_ = std::max(largest_position_, node_.path.x.col(0).norm());
+  return {largest_position_ > 0.0 ? largest_position_ : 1.0, range()};
+}
+
+/// Where the equilibrium's series falls faster along the path than in p, the path is bending back: a fold.
+bool Tracer::turn_to_plane(double h) {
+  if (plane_ || problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return false;
+  const auto plane = plane_along(node_.path, problem_.traced, path_scales(), direction_);
+  PathNode turned = node_;
+  reparametrize(turned, plane, problem_.traced);
+  if (!falls_faster(turned.path, node_.path, problem_.traced, path_scales(), h)) return false;
+  plane_ = plane;
+  direction_ = 1.0;
+  turned_step_ = std::abs(h / coefficient(turned.path.parameters, problem_.traced, 1));
+  node_ = std::move(turned);
+  ++result_.regroupings.planes;
+  return true;
+}
+
+/// A plane that the path meets at a slant is replaced by one across it.
+void Tracer::renew_plane() {
+  if (!plane_ || slant(*plane_, node_.path, problem_.traced, path_scales()) > 0.7) return;
+  plane_ = plane_along(node_.path, problem_.traced, path_scales(), 1.0);
+  reparametrize(node_, *plane_, problem_.traced);
+  ++result_.regroupings.planes;
+}
+
+/// In the path's own coordinate the end of the range lies where p says so.
+bool Tracer::land_on_end(double& h, std::optional<PathNode>& next) {
+  if (!plane_) return true;
+  for (const double end : {options_.to, options_.from}) {
+    const double side = end == options_.to ? options_.to - options_.from : options_.from - options_.to;
+    if ((next->p - end) * side <= 0.0 || next->p == end) continue;
+    // Newton for p(h) = end from inside the step.
+    double distance = h * (end - node_.p) / (next->p - node_.p);
+    for (int i = 0; i < most_retrackings; ++i) {
+      if (attempt(distance, next)) return false;
+      const double miss = end - next->p;
+      if (std::abs(miss) <= 1e-14 * std::max(range(), std::abs(end))) {
+        next->p = end;
+        h = distance;
+        return true;
+      }
+      distance += miss / coefficient(next->path.parameters, problem_.traced, 1);
+      if (!(distance > 0.0 && distance <= 1.5 * h)) return false;
+    }
+    return false;
+  }
+  return true;
+}
+
+/// An eigenvalue at zero is where the equilibrium is not isolated: the path turns back, or another one
+/// crosses.
+void Tracer::add_static_event(const PathNode& node, Event event) {
+  const bool moves = !problem_.structure.known_equilibrium;
+  const double scale = std::max(problem_.s_ref, 1e-300);
+  const bool zero = std::abs(event.s) <= 1e-2 * scale;
+  if (!moves || !zero || (event.kind != EventKind::collision && event.kind != EventKind::divergence)) {
+    return add_event(std::move(event));
+  }
+  const double share =
+      kernel_share_of_parameter(problem_.model, node.path, problem_.traced, node.linearization,
+                                node.basis.T[0], result_.counts.evaluations);
+  if (share > branch_point_share) return;  // the fold is an event of its own
+  event.kind = EventKind::pitchfork;
+  event.puiseux = 0.0;
+  event.s = 0.0;
+  event.modes.clear();
+  note_branch_point(event.p);
+  add_event(std::move(event));
+}
+
+void Tracer::note_branch_point(double p) {
+  result_.notes.push_back("another equilibrium path crosses at " + at_parameter(p) +
+                          "; the trace stays on its own");
+}
+
+void Tracer::find_folds(double h, const PathNode& next) {
+  if (!plane_) return;
+  const double before = coefficient(node_.path.parameters, problem_.traced, 1);
+  const double behind = coefficient(next.path.parameters, problem_.traced, 1);
+  if (!(before * behind < 0.0)) return;
+  double distance = h * before / (before - behind);
+  for (int i = 1; i <= most_retrackings; ++i) {
+    const std::optional<PathNode> point = probe(node_, distance);
+    if (!point) break;
+    const auto& p = point->path.parameters;
+    const double move = -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
+    if (!std::isfinite(move)) break;
+    distance += move;
+    if (std::abs(move) > 1e-9 && i < most_retrackings) continue;
+    const double share =
+        kernel_share_of_parameter(problem_.model, point->path, problem_.traced, point->linearization,
+                                  point->basis.T[0], result_.counts.evaluations);
+    Event event;
+    event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
+    if (event.kind == EventKind::pitchfork) note_branch_point(point->p);
+    event.p = point->p + 0.5 * move * coefficient(p, problem_.traced, 1);
+    event.retrackings = i;
+    event.node = result_.nodes;
+    // The eigenvalue that vanishes with the tangent stiffness.
+    double least = INFINITY;
+    for (std::size_t k = 0; k < point->tracks.size(); ++k) {
+      const Track& track = point->tracks[k];
+      const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
+      if (size >= least) continue;
+      least = size;
+      event.modes = sorted_modes(node_.tracks[k].modes);
+    }
+    add_event(std::move(event));
+    break;
+  }
+}
+
+}  // namespace eigentrail
