@@ -1,6 +1,7 @@
 #include "continuation/event_tools.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace eigentrail {
 
@@ -10,6 +11,12 @@ std::vector<int> sorted_modes(const std::vector<int>& modes) {
     if (mode >= 0 && std::find(result.begin(), result.end(), mode) == result.end()) result.push_back(mode);
   }
   std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> result;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
   return result;
 }
 

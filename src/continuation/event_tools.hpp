@@ -30,6 +30,9 @@ class EventWork {
 /// The modes among members of a block, ascending, each once.
 std::vector<int> sorted_modes(const std::vector<int>& modes);
 
+/// Elements of either, ascending; both are ascending.
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
+
 /// A point with some of its tracks only: what an event needs.
 PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks);
 

@@ -1,74 +1,50 @@
 #include "continuation/meetings.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
-#include "continuation/shared_basis.hpp"
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr double vanishing = 1e-13;  ///< a discriminant below this fraction of its natural size is zero
-constexpr int degree_of_large_blocks = 24;
-constexpr double beside = 0.05;  ///< of a step: how far off its ends a meeting is looked into
+/// The eigenvalues with these indices as a block of their own; empty when it cannot be told from the others.
+std::vector<ComplexMatrix> part_of_track(const Track& track, const std::vector<int>& members) {
+  std::vector<Complex> roots;
+  for (const int i : members) roots.push_back(track.roots[i]);
+  return part_series(track.series.Lambda, roots);
+}
 
-/// The number of eigenvalues of the block that are distinct somewhere among the sampled functions.
-Eigen::Index distinct_eigenvalues(const std::vector<ComplexVector>& samples, double scale) {
-  for (Eigen::Index r = samples.front().size(); r > 1; --r) {
-    const double size = std::pow(scale, static_cast<double>(r * (r - 1)));
-    for (const ComplexVector& functions : samples) {
-      if (std::abs(block_discriminant(functions, r)) > vanishing * size) return r;
-    }
+std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> members;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(members));
+  return members;
+}
+
+/// The eigenvalues that lie about as close to the two as these to each other.
+std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members) {
+  constexpr double as_close = 3.0;
+  double inside = 0.0;
+  for (const int i : members) {
+    for (const int j : members) inside = std::max(inside, std::abs(roots[i] - roots[j]));
   }
-  return 1;
-}
-
-/// A pair that nears the real axis and turns back meets nothing.
-bool pair_stays_apart(const Track& track, const HermiteInterpolant& functions, Complex t, double length,
-                      double width) {
-  return track.pair.is_real && track.size() == 2 && functions(0.5)[1].real() < 0.0 &&
-         std::abs(t.imag() * length) > 1e-3 * width;
-}
-
-}  // namespace
-
-std::vector<ExpectedMeeting> expected_meetings(const PathNode& left, const PathNode& right, double length,
-                                               double width) {
-  std::vector<ExpectedMeeting> meetings;
-  for (std::size_t i = 0; i < left.tracks.size(); ++i) {
-    const Track& track = left.tracks[i];
-    if (track.size() < 2) continue;
-    const DenseBlock block = block_on_step(left, right, i);
-    const HermiteInterpolant functions(length, block.left, block.right);
-    std::vector<ComplexVector> samples;
-    for (const double t : {0.0, 0.13, 0.37, 0.61, 0.83, 1.0}) samples.push_back(functions(t));
-    const Eigen::Index distinct = distinct_eigenvalues(samples, track.pair.Lambda.norm());
-    if (distinct < 2) continue;
-    const int degree =
-        track.size() == 2 ? 2 * static_cast<int>(track.functions.cols()) - 1 : degree_of_large_blocks;
-    const auto discriminant = [&](double t) { return block_discriminant(functions(t), distinct); };
-    for (const Complex t : roots_near_unit_interval(discriminant, degree)) {
-      // Double roots of the interpolant are off by the root of its error.
-      const bool near_step = t.real() > -beside && t.real() < 1.0 + beside;
-      if (!near_step || std::abs(t.imag() * length) > width) continue;
-      if (pair_stays_apart(track, functions, t, length, width)) continue;
-      meetings.push_back({i, std::clamp(t.real(), 1e-3, 1.0) * length});
-    }
+  std::vector<int> all = members;
+  for (int k = 0; k < static_cast<int>(roots.size()); ++k) {
+    if (std::find(members.begin(), members.end(), k) != members.end()) continue;
+    const bool close = std::any_of(members.begin(), members.end(), [&](int i) {
+      return std::abs(roots[i] - roots[k]) <= as_close * inside;
+    });
+    if (close) all.push_back(k);
   }
-  std::sort(meetings.begin(), meetings.end(), [](const ExpectedMeeting& a, const ExpectedMeeting& b) {
-    return std::abs(a.distance) < std::abs(b.distance);
-  });
-  return meetings;
+  std::sort(all.begin(), all.end());
+  return all;
 }
-
-namespace {
 
 /// Roots of a series by magnitude. A companion matrix tells small roots to rounding of the large ones only;
 /// those near the point come from the first three coefficients, improved by Newton's method with all of them.
@@ -80,8 +56,8 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
                                 ? root_of_discriminant
                                 : -root_of_discriminant;
   const Complex sum = series[1] + same_sign;
-  if (sum == 0.0) return roots;
-  std::array<Complex, 2> near{-2.0 * series[0] / sum, -0.5 * sum / series[2]};
+  std::array<Complex, 2> near{0.0, 0.0};
+  if (sum != 0.0) near = {-2.0 * series[0] / sum, -0.5 * sum / series[2]};
   for (std::size_t i = 0; i < std::min<std::size_t>(2, roots.size()); ++i) {
     if (!(std::abs(near[i]) < 0.03 * std::abs(reach))) continue;
     for (int k = 0; k < 3; ++k) {
@@ -100,89 +76,12 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
   return roots;
 }
 
-/// Taylor coefficients of the discriminant from samples on a circle of radius `reach`.
-ComplexVector discriminant_series(const Track& track, Eigen::Index distinct, double reach) {
-  constexpr int samples = 32;
-  ComplexVector series = ComplexVector::Zero(12);
-  for (int i = 0; i < samples; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / samples;
-    const Complex h = reach * Complex(std::cos(angle), std::sin(angle));
-    ComplexVector functions = track.functions.col(track.functions.cols() - 1);
-    for (Eigen::Index k = track.functions.cols() - 2; k >= 0; --k)
-      functions = functions * h + track.functions.col(k);
-    const Complex value = block_discriminant(functions, distinct);
-    for (Eigen::Index k = 0; k < series.size(); ++k) {
-      const double turn = -angle * static_cast<double>(k);
-      series[k] += value * Complex(std::cos(turn), std::sin(turn)) /
-                   (samples * std::pow(reach, static_cast<double>(k)));
-    }
-  }
-  return series;
-}
-
-/// The eigenvalues of a block that lie together at the point: the closest two and who is about as close to
-/// them.
-std::vector<int> closest_members(const ComplexVector& roots) {
-  const Eigen::Index k = roots.size();
-  std::vector<int> members(static_cast<std::size_t>(k));
-  std::iota(members.begin(), members.end(), 0);
-  if (k == 2) return members;
-  const double gap = least_gap(roots);
-  const double reach = std::max(10.0 * gap, 1e-5 * roots.cwiseAbs().maxCoeff());
-  int centre = 0;
-  for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < i; ++j) {
-      if (std::abs(roots[i] - roots[j]) == gap) centre = i;
-    }
-  }
-  std::erase_if(members, [&](int i) { return std::abs(roots[i] - roots[centre]) > reach; });
-  return members;
-}
-
-/// det(Lambda - tau) at a distance from the point.
-Complex product_of_distances(const Track& track, double h) {
-  const ComplexVector functions = evaluate_series(track.functions, h);
-  ComplexMatrix N = functions.reshaped(track.size(), track.size());
-  N.diagonal().array() -= N.trace() / static_cast<double>(track.size());
-  return N.determinant();
-}
-
-/// c of s = s* + c h^(1/m) + ... where all m eigenvalues of the block meet; zero where only some of them do.
-Complex leading_coefficient(const Track& track, std::size_t meeting, double reach) {
-  if (static_cast<Eigen::Index>(meeting) != track.size()) return 0.0;
-  if (meeting == 2) return std::sqrt(track.functions(1, 1));
-  const double h = 1e-4 * reach;
-  const Complex slope = (product_of_distances(track, h) - product_of_distances(track, -h)) / (2.0 * h);
-  const double sign = meeting % 2 == 0 ? -1.0 : 1.0;
-  return std::pow(sign * slope, 1.0 / static_cast<double>(meeting));
-}
-
-/// Where all eigenvalues of a large block meet in one exceptional point the product of their distances from
-/// the mean has a simple root, told to full accuracy; the discriminant's is a multiple one.
-void sharpen(const Track& track, double reach, Meeting& meeting) {
-  if (track.size() < 3 || static_cast<Eigen::Index>(meeting.members.size()) != track.size()) return;
-  const double w = 1e-3 * std::abs(reach);
-  const Complex middle = product_of_distances(track, 0.0);
-  const Complex slope = (product_of_distances(track, w) - product_of_distances(track, -w)) / (2.0 * w);
-  const Complex curvature =
-      (product_of_distances(track, w) + product_of_distances(track, -w) - 2.0 * middle) / (w * w);
-  if (!(std::abs(slope) > std::abs(curvature) * w)) return;
-  const Complex root = -middle / slope;
-  // From afar the double root of the discriminant appears split: as far as it is, the two may disagree.
-  const double split = std::abs(Complex(meeting.offset, 0.0) - meeting.root);
-  if (std::abs(root - meeting.offset) > std::max(1e-3 * std::abs(reach), 3.0 * split)) return;
-  meeting.offset = root.real();
-  meeting.kind = EventKind::collision;
-  meeting.half_width = 0.0;
-}
-
 /// From the roots nearest to the point: one root on the axis, two that coincide there, or roots beside it.
 void classify(const std::vector<Complex>& roots, double resolution, double noise, bool defective,
               Meeting& meeting) {
   const Complex first = roots[0];
   const bool has_second =
       roots.size() > 1 && std::abs(roots[1]) <= 1e3 * std::max(std::abs(first), resolution);
-  meeting.root = first;
   meeting.offset = first.real();
   if (!has_second) {
     const bool on_axis = std::abs(first.imag()) <= noise;
@@ -209,54 +108,121 @@ void classify(const std::vector<Complex>& roots, double resolution, double noise
   }
 }
 
+
+ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
+  ComplexMatrix N = Lambda.back();
+  for (std::size_t j = Lambda.size() - 1; j-- > 0;) N = N * h + Lambda[j];
+  N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
+  return N;
+}
+
+/// What rounding leaves of a part of a block: of its Lambda, and of its slope.
+struct Rounding {
+  double lambda = 0.0;
+  double slope = 0.0;
+};
+
+/// Lambda is known to rounding times the condition of the block, which is normwise and overrates graded
+/// pencils.
+Rounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& part) {
+  constexpr double worst_condition = 100.0;
+  const double condition = std::clamp(track.pair.condition, 1.0, worst_condition);
+  return {4e-15 * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
+}
+
+/// All eigenvalues of a part in one point: their distances from the mean vanish together, linearly.
+std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, const Rounding& rounding,
+                                       double reach) {
+  constexpr double remainder = 1e-3;
+  const ComplexMatrix here = centred(part, 0.0);
+  const ComplexMatrix slope = (centred(part, 1e-3 * reach) - centred(part, -1e-3 * reach)) / (2e-3 * reach);
+  const double size = slope.squaredNorm();
+  if (!(size > 0.0)) return std::nullopt;
+  const double offset = -slope.cwiseProduct(here.conjugate()).sum().real() / size;
+  const double left = centred(part, offset).norm();
+  if (!(left <= remainder * here.norm() || left <= 10.0 * rounding.lambda)) return std::nullopt;
+  Meeting meeting;
+  meeting.found = true;
+  meeting.kind = EventKind::crossing;
+  meeting.offset = offset;
+  return meeting;
+}
+
+/// All eigenvalues of a part in one exceptional point: the product of their distances from the mean has a
+/// simple root there, while each of them varies like the m-th root of the distance.
+std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
+  const auto product = [&](double h) { return centred(part, h).determinant(); };
+  const auto radius = [&](double h) {
+    return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false).eigenvalues().cwiseAbs().maxCoeff();
+  };
+  const double width = 1e-3 * std::abs(reach);
+  const Complex slope = (product(width) - product(-width)) / (2.0 * width);
+  if (slope == 0.0) return std::nullopt;
+  const Complex root = -product(0.0) / slope;
+  const bool near = std::abs(root.imag()) <= 1e-3 * std::abs(reach) && std::abs(root) <= std::abs(reach);
+  if (!near || !(radius(root.real()) < 0.5 * radius(root.real() + width))) return std::nullopt;
+  Meeting meeting;
+  meeting.found = true;
+  meeting.kind = EventKind::collision;
+  meeting.offset = root.real();
+  const auto m = static_cast<double>(part[0].rows());
+  meeting.puiseux = std::pow((part[0].rows() % 2 == 0 ? -1.0 : 1.0) * slope, 1.0 / m);
+  return meeting;
+}
+
 }  // namespace
 
-Meeting nearest_meeting(const Track& track, double reach) {
-  Meeting meeting;
-  const double scale = track.pair.Lambda.norm();
-  ComplexVector series;
-  if (track.size() == 2) {
-    series = track.functions.row(1).transpose();
-  } else {
-    std::vector<ComplexVector> samples;
-    for (const double h : {-reach, -0.4 * reach, 0.6 * reach, reach}) {
-      samples.push_back(evaluate_series(track.functions, h));
-    }
-    const Eigen::Index distinct = distinct_eigenvalues(samples, scale);
-    if (distinct < 2) return meeting;
-    series = discriminant_series(track, distinct, reach);
+ComplexVector gap_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
+  const std::vector<int> members = both(a, b);
+  if (with_bystanders(track.roots, members).size() == members.size()) {
+    const std::vector<ComplexMatrix> part = part_of_track(track, members);
+    if (!part.empty()) return gap_series(part, static_cast<Eigen::Index>(a.size()));
   }
-  const std::vector<Complex> roots = roots_by_magnitude(series, reach);
+  // Apart from each other, they are told one by one.
+  const std::vector<ComplexMatrix> first = part_of_track(track, a);
+  const std::vector<ComplexMatrix> second = part_of_track(track, b);
+  if (first.empty() || second.empty()) return {};
+  return gap_series(mean_series(first), mean_series(second));
+}
+
+Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
+                        double reach) {
+  const std::vector<int> members = both(a, b);
+  const std::vector<int> cluster = with_bystanders(track.roots, members);
+  if (cluster.size() > members.size()) {
+    const std::vector<ComplexMatrix> part = part_of_track(track, cluster);
+    if (!part.empty()) {
+      auto meeting = common_crossing(part, rounding_of(track, part), reach);
+      if (!meeting) meeting = common_collision(part, reach);
+      if (meeting) {
+        meeting->members = cluster;
+        return *meeting;
+      }
+    }
+  }
+  Meeting meeting;
+  const ComplexVector gap = gap_of(track, a, b);
+  if (gap.size() == 0) return meeting;
+  const std::vector<Complex> roots = roots_by_magnitude(gap, reach);
   if (roots.empty() || std::abs(roots[0]) > 2.0 * std::abs(reach)) return meeting;
   meeting.found = true;
-  // Lambda is known to rounding times the condition of the block; what follows for the roots of the
-  // discriminant.
-  const ComplexMatrix centred =
-      track.pair.Lambda - track.roots.mean() * ComplexMatrix::Identity(track.size(), track.size());
-  // The condition is normwise and overrates graded pencils.
-  constexpr double worst_condition = 100.0;
-  const double rounding = 4e-15 * scale * std::clamp(track.pair.condition, 1.0, worst_condition);
-  const double slope = track.series.Lambda.size() > 1 ? track.series.Lambda[1].norm() : 1.0;
-  double resolution = slope > 0.0 ? rounding / slope : 0.0;
-  double noise = std::abs(series[1]) > 0.0
-                     ? 10.0 * rounding * std::max(centred.norm(), rounding) / std::abs(series[1])
-                     : 0.0;
-  // The discriminant of a defective block is known to rounding times its size: double roots to the root of
-  // that.
-  const double curvature = std::abs(series[2]);
-  const bool defective = centred.norm() > 1e-6 * std::max(scale, 1e-3 * slope * std::abs(reach));
-  if (track.size() == 2 && defective && curvature > 0.0) {
-    resolution = std::max(resolution, std::sqrt(4.0 * rounding * centred.norm() / curvature));
-  }
-  if (track.size() > 2) {
-    // A discriminant formed from power sums tells double roots by half the digits only.
-    resolution = std::max(resolution, 1e-7 * std::abs(reach));
-    noise = std::max(noise, 1e-7 * std::abs(reach));
-  }
+  meeting.members = members;
+  meeting.puiseux = std::sqrt(gap[1]);
+  const std::vector<ComplexMatrix> part = part_of_track(track, members);
+  const std::vector<ComplexMatrix>& Lambda = part.empty() ? track.series.Lambda : part;
+  const Rounding rounding = rounding_of(track, Lambda);
+  const double distance = centred(Lambda, 0.0).norm();
+  double resolution = rounding.slope > 0.0 ? rounding.lambda / rounding.slope : 0.0;
+  const double noise =
+      std::abs(gap[1]) > 0.0 ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
+                             : 0.0;
+  // The gap of a defective part is known to rounding times its size: double roots to the root of that.
+  const double curvature = std::abs(gap[2]);
+  const bool defective =
+      distance > 1e-6 * std::max(track.pair.Lambda.norm(), 1e-3 * rounding.slope * std::abs(reach));
+  if (defective && curvature > 0.0)
+    resolution = std::max(resolution, std::sqrt(4.0 * rounding.lambda * distance / curvature));
   classify(roots, resolution, noise, defective, meeting);
-  meeting.members = closest_members(track.roots);
-  meeting.puiseux = leading_coefficient(track, meeting.members.size(), reach);
-  if (centred.norm() > 1e-3 * scale) sharpen(track, reach, meeting);
   return meeting;
 }
 

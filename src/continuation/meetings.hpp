@@ -1,28 +1,31 @@
-// Where the eigenvalues of a block meet, or would meet beside the real parameter axis: roots of the block's
-// discriminant in the complex plane of the path's coordinate.
+// Where two eigenvalues meet, or would meet beside the real parameter axis: roots of ((s_a - s_b) / 2)^2 in
+// the complex plane of the path's coordinate. That function stays smooth where they meet.
 //
 //     simple root on the real axis      exceptional point: modes coalesce, s = tau +- sqrt(delta)
 //     double root on the real axis      crossing: the vectors stay apart
-//     root a + ib beside the axis       veering of half-width b
+//     root a + ib beside the axis       veering of half-width |b|
 #pragma once
 
 #include <optional>
 
+#include "continuation/strands.hpp"
 #include "eigentrail/continuation/event.hpp"
-#include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
 
-/// A meeting that is expected on a step.
+/// A meeting that is expected on a step, at `position` from the left end.
 struct ExpectedMeeting {
-  std::size_t track = 0;
-  double distance = 0.0;  ///< from the left end, signed, in the path's coordinate
+  Strand a, b;
+  Complex position;
 };
 
-/// Meetings on the step from `left` to `right` (the same tracks at both) or just beside it, in the order in
-/// which they are met, with the root at most `width` off the real axis.
-std::vector<ExpectedMeeting> expected_meetings(const PathNode& left, const PathNode& right, double length,
-                                               double width);
+/// Meetings on or close to the real axis of two eigenvalues that are followed in one block, in the order in
+/// which the step passes them.
+std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length);
+
+/// Meetings within `width` beside the step of any two eigenvalues, in no particular order.
+std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
+                                             double width);
 
 /// A meeting seen from a point beside or on it.
 struct Meeting {
@@ -30,12 +33,16 @@ struct Meeting {
   EventKind kind = EventKind::collision;  ///< collision, crossing or veering
   double offset = 0.0;                    ///< from the point, in the path's coordinate
   double half_width = 0.0;
-  Complex root;              ///< the discriminant's root that tells the half-width, relative to the point
   Complex puiseux;           ///< leading Puiseux coefficient in the path's coordinate
-  std::vector<int> members;  ///< indices of the roots of the block that meet
+  std::vector<int> members;  ///< indices of the roots of the block that meet, ascending
 };
 
-/// The meeting nearest to a point; `reach` bounds how far to look.
-Meeting nearest_meeting(const Track& track, double reach);
+/// The meeting of two strands of a block nearest to a point; others that are as close as the two are to each
+/// other may meet with them. `reach` bounds how far to look.
+Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
+                        double reach);
+
+/// ((s_a - s_b) / 2)^2 at a point; empty when the two cannot be told from the others there.
+ComplexVector gap_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b);
 
 }  // namespace eigentrail

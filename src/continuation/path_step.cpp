@@ -1,6 +1,7 @@
 #include "eigentrail/continuation/path_step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +41,26 @@ ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& blo
   return ordered;
 }
 
+/// The smallest distance of two roots in any of the sets, without those that coincide in all of them.
+double least_gap_of_distinct(const std::array<const ComplexVector*, 3>& sets) {
+  constexpr double coinciding = 1e-9;
+  const double scale = coinciding * sets[0]->cwiseAbs().maxCoeff();
+  double least = INFINITY;
+  for (Eigen::Index i = 0; i < sets[0]->size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      double smallest = INFINITY;
+      double largest = 0.0;
+      for (const ComplexVector* roots : sets) {
+        const double distance = std::abs((*roots)[i] - (*roots)[j]);
+        smallest = std::min(smallest, distance);
+        largest = std::max(largest, distance);
+      }
+      if (largest > scale) least = std::min(least, smallest);
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 Complex chart_value(Complex s, Chart chart) {
@@ -64,7 +85,7 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
     const ComplexVector ahead = in_order_of(middle, block_roots(functions(t + piece)));
     const double first = (middle - current).cwiseAbs().maxCoeff();
     const double second = (ahead - middle).cwiseAbs().maxCoeff();
-    const double gap = std::min({least_gap(ahead), least_gap(middle), least_gap(current)});
+    const double gap = least_gap_of_distinct({&current, &middle, &ahead});
     if (std::max(first, second) > largest_move * gap && std::abs(piece) > shortest) {
       piece *= 0.5;
       continue;
@@ -113,7 +134,8 @@ std::vector<double> step_positions(const PathStep& step, double p) {
                                        step.parameter.row(1).cast<Complex>());
   const int degree = 2 * static_cast<int>(step.parameter.cols()) - 1;
   std::vector<double> positions;
-  for (Complex t : roots_near_unit_interval([&](double u) { return interpolant(u)[0] - p; }, degree)) {
+  const ComplexVector miss = chebyshev_coefficients([&](double u) { return interpolant(u)[0] - p; }, degree);
+  for (Complex t : chebyshev_roots(miss)) {
     if (std::abs(t.imag()) > 1e-3 || t.real() < -0.1 || t.real() > 1.1) continue;
     // Newton's method removes what rounding in the matrix of a nearly straight path has left.
     for (int i = 0; i < 4; ++i) {

@@ -6,6 +6,7 @@
 
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -36,8 +37,7 @@ bool no_root_within(const ComplexVector& c, double r) {
 /// is the square of the radius that blocks extend around their means.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
                         double limit) {
-  const ComplexVector difference = 0.5 * (a - b);
-  ComplexVector delta = multiply_series(difference, difference);
+  ComplexVector delta = gap_series(a, b);
   delta[0] -= spread;
   if (no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;

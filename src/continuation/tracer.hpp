@@ -69,29 +69,34 @@ class Tracer {
 
   // tracer_labels.cpp: which eigenvalue is which mode.
   void label_arrival(double h, PathNode& next) const;
-  void label_departure(double h, PathNode& next, const std::vector<Meeting>& meetings);
+  void label_departure(double h, PathNode& next, const std::vector<bool>& coincide);
   void settle_real_block(Track& track);
   int partner_of(int mode);
   PathStep make_step(double h, const PathNode& next) const;
   std::vector<ModeState> mode_states(const PathNode& node) const;
 
   // tracer_events.cpp: special points.
+  void find_events(double h, const PathNode& next);
+  void add_event(Event event);
+  std::optional<PathNode> probe(const PathNode& base, double h);
+
+  // tracer_meetings.cpp: eigenvalues of one block that meet.
   /// Shortens the step so that it ends on the first meeting inside it.
   bool land_on_meeting(double& h, std::optional<PathNode>& next);
   void record_meetings_at_start();
-  void find_simultaneous_meetings(double h, const PathNode& next, std::vector<Meeting>& meetings);
   enum class Approach { reached, nothing, failed };
-  Approach approach_meeting(const ExpectedMeeting& expected, double excluded, double& h,
-                            std::optional<PathNode>& next, Meeting& meeting, int& retrackings);
-  Meeting meeting_at(const PathNode& point, std::size_t track, double reach);
+  Approach approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
+                            double& distance, int& retrackings);
+  void record_at(double distance, double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
+                 std::vector<bool>& coincide);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
-  void look_beside(const PathNode& point, std::size_t track, const Meeting& meeting);
-  std::optional<PathNode> probe(const PathNode& base, double h);
-  void record_veering(const PathNode& base, Complex root, const std::vector<int>& modes);
-  void add_event(Event event);
-  void find_events(double h, const PathNode& next);
-  void find_distant_veerings(double h, const PathNode& next);
-  void record_distant_veering(double h, const PathNode& next, std::size_t i, std::size_t j, Complex t);
+
+  // tracer_veerings.cpp: exceptional points beside the real axis.
+  void find_veerings(double h, const PathNode& next);
+  bool is_known_veering(Complex position, const std::vector<int>& modes) const;
+  std::optional<PathNode> as_one_block(const PathNode& node, const Strand& a, const Strand& b);
+  void record_veering(const PathNode& base, std::size_t count, Complex root, const std::vector<int>& modes);
+  bool has_jumped(const Track& from, const Track& to, double distance) const;
   double veering_width() const;
 
   // tracer_axis.cpp: flutter and divergence.
@@ -131,7 +136,6 @@ class Tracer {
   bool follows_all_ = false;
   std::map<int, int> partners_;  ///< modes that shared a real block: who comes back when a pair parts again
   double part_reach_ = 3.0;      ///< steps: blocks part when their meetings are farther than this
-  double excluded_ = 0.0;        ///< share of the next step in which meetings are already known
   std::map<int, Complex> last_value_;  ///< of every mode, where its real part was last told from zero
   double next_checkpoint_ = 0.0;
   int merges_at_node_ = 0;

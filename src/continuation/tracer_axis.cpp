@@ -5,6 +5,7 @@
 #include "continuation/event_tools.hpp"
 #include "continuation/shared_basis.hpp"
 #include "continuation/tracer.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {

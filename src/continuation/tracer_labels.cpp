@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "continuation/shared_basis.hpp"
+#include "continuation/strands.hpp"
 #include "continuation/tracer.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -19,19 +21,6 @@ ComplexVector roots_beside(const Track& track, double distance) {
   return block_roots(evaluate_series(track.functions, distance));
 }
 
-/// A departure whose distance fits into a step of length h.
-Track::Departure shortened(const Track& track, double h) {
-  Track::Departure departure = *track.departure;
-  if (std::abs(departure.distance) < 0.1 * std::abs(h)) return departure;
-  const double share = 0.01 * std::abs(h / departure.distance);
-  // Both roots and square roots only shrink towards the mean: their order is kept.
-  const ComplexVector mean = ComplexVector::Constant(track.size(), track.roots.mean());
-  departure.distance *= share;
-  departure.roots =
-      in_order_of(mean + share * (departure.roots - mean), roots_beside(track, departure.distance));
-  return departure;
-}
-
 }  // namespace
 
 /// Orders the eigenvalues of every block at the end of a step as they come from its beginning.
@@ -41,29 +30,23 @@ void Tracer::label_arrival(double h, PathNode& next) const {
     Track& right = next.tracks[i];
     right.modes = right.arriving = left.modes;
     if (right.size() == 1) continue;
-    ComplexVector start = left.roots;
     double from = 0.0;
-    if (left.departure) {
-      const Track::Departure departure = shortened(left, h);
-      start = departure.roots;
-      from = departure.distance / h;
-    }
+    const ComplexVector start = departing_roots(left, h, from);
     right.roots = in_order_of(follow_roots(block_on_step(node_, next, i), h, start, from, 1.0), right.roots);
   }
 }
 
-/// Behind a meeting the modes are ordered anew; elsewhere nothing changes.
-void Tracer::label_departure(double h, PathNode& next, const std::vector<Meeting>& meetings) {
+/// Where eigenvalues of a block coincide its modes are ordered anew; elsewhere nothing changes.
+void Tracer::label_departure(double h, PathNode& next, const std::vector<bool>& coincide) {
   for (std::size_t i = 0; i < next.tracks.size(); ++i) {
     Track& track = next.tracks[i];
     track.departure.reset();
-    if (!meetings[i].found || meetings[i].kind == EventKind::veering) continue;
+    if (!coincide[i]) continue;
     const DenseBlock block = block_on_step(node_, next, i);
     const double distance = glimpse * h;
-    const bool known = node_.tracks[i].departure.has_value();
-    const Track::Departure from =
-        known ? shortened(node_.tracks[i], h) : Track::Departure{0.0, node_.tracks[i].roots};
-    const ComplexVector before = follow_roots(block, h, from.roots, from.distance / h, 1.0 - glimpse);
+    double from = 0.0;
+    const ComplexVector start = departing_roots(node_.tracks[i], h, from);
+    const ComplexVector before = follow_roots(block, h, start, from, 1.0 - glimpse);
     const ComplexVector earlier = follow_roots(block, h, before, 1.0 - glimpse, 1.0 - 2.0 * glimpse);
     // Straight on through a crossing. At an exceptional point no order is the right one; this one is as good.
     const ComplexVector expected = before + 2.0 * (before - earlier);

@@ -62,7 +62,7 @@ std::vector<Complex> eigenvalues(const ComplexMatrix& matrix) {
 
 }  // namespace
 
-std::vector<Complex> roots_near_unit_interval(const std::function<Complex(double)>& f, int degree) {
+ComplexVector chebyshev_coefficients(const std::function<Complex(double)>& f, int degree) {
   const Eigen::Index count = degree + 1;
   ComplexVector coefficients = ComplexVector::Zero(count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -73,6 +73,10 @@ std::vector<Complex> roots_near_unit_interval(const std::function<Complex(double
   }
   coefficients *= 2.0 / static_cast<double>(count);
   coefficients[0] *= 0.5;
+  return coefficients;
+}
+
+std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients) {
   if (!coefficients.allFinite()) return {};
   const Eigen::Index top = significant(coefficients);
   if (top == 0) return {};

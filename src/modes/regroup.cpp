@@ -5,19 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modes/ordered_schur.hpp"
+
 namespace eigentrail {
 namespace {
-
-/// Swaps the diagonal entries i and i + 1 of the triangular T by a unitary rotation (Golub & Van Loan 2013,
-/// Sect. 7.6.2).
-void swap_neighbours(ComplexMatrix& T, ComplexMatrix& U, Eigen::Index i) {
-  Eigen::JacobiRotation<Complex> rotation;
-  rotation.makeGivens(T(i, i + 1), T(i + 1, i + 1) - T(i, i));
-  T.applyOnTheLeft(i, i + 1, rotation.adjoint());
-  T.applyOnTheRight(i, i + 1, rotation);
-  U.applyOnTheRight(i, i + 1, rotation);
-  T(i + 1, i) = 0.0;
-}
 
 bool closed_under_conjugation(const ComplexVector& eigenvalues, const std::vector<int>& part) {
   const auto contains = [&](Complex s) {
@@ -94,24 +85,16 @@ ComplexVector pair_eigenvalues(const InvariantPair& pair) {
 
 InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalues,
                       const std::vector<int>& part) {
-  const Eigen::ComplexSchur<ComplexMatrix> schur(pair.Lambda);
-  ComplexMatrix T = schur.matrixT();
-  ComplexMatrix U = schur.matrixU();
+  std::vector<Complex> leading;
+  for (const int i : part) leading.push_back(eigenvalues[i]);
+  const OrderedSchur schur = ordered_schur(pair.Lambda, leading);
   const Eigen::Index k = pair.size();
-  for (std::size_t target = 0; target < part.size(); ++target) {
-    const Complex wanted = eigenvalues[part[target]];
-    Eigen::Index nearest = static_cast<Eigen::Index>(target);
-    for (Eigen::Index i = nearest + 1; i < k; ++i) {
-      if (std::abs(T(i, i) - wanted) < std::abs(T(nearest, nearest) - wanted)) nearest = i;
-    }
-    for (Eigen::Index i = nearest; i > static_cast<Eigen::Index>(target); --i) swap_neighbours(T, U, i - 1);
-  }
   const auto size = static_cast<Eigen::Index>(part.size());
   InvariantPair result;
   result.chart = pair.chart;
   result.is_real = pair.is_real && closed_under_conjugation(eigenvalues, part);
-  ComplexMatrix basis = U.leftCols(size);
-  result.Lambda = T.topLeftCorner(size, size);
+  ComplexMatrix basis = schur.U.leftCols(size);
+  result.Lambda = schur.T.topLeftCorner(size, size);
   if (result.is_real) {
     Matrix parts(k, 2 * size);
     parts << basis.real(), basis.imag();

@@ -12,6 +12,10 @@
 namespace eigentrail::test {
 namespace {
 
+std::vector<Complex> roots_near_unit_interval(const std::function<Complex(double)>& f, int degree) {
+  return chebyshev_roots(chebyshev_coefficients(f, degree));
+}
+
 // Roots of unit size from coefficients of unit size, a few hundred roundings.
 constexpr double tolerance = 1e-12;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "eigentrail/modes/block_parts.hpp"
 #include "support/spectra.hpp"
 
 namespace eigentrail::test {
@@ -52,15 +53,6 @@ TEST_P(Blocks, RootsOfTheFunctionsAreTheEigenvalues) {
 
 TEST_P(Blocks, MeanIsThatOfTheEigenvalues) {
   EXPECT_LT(std::abs(block_mean(functions) - eigenvalues.mean()), 10.0 * rounding);
-}
-
-TEST_P(Blocks, DiscriminantIsTheProductOfSquaredDistances) {
-  if (k == 1) return;
-  Complex product = 1.0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) product *= std::pow(eigenvalues[i] - eigenvalues[j], 2);
-  }
-  EXPECT_LT(std::abs(block_discriminant(functions, k) - product), 1e-11 * std::abs(product));
 }
 
 TEST_P(Blocks, RootErrorBoundsWhatErrorsOfTheFunctionsDo) {
@@ -153,14 +145,6 @@ TEST(BlockRoots, OfRealFunctionsAreExactlyRealOrConjugate) {
   }
   EXPECT_EQ(upper, 1);
   EXPECT_EQ(sum.imag(), 0.0) << "conjugates to the last bit";
-}
-
-TEST(BlockDiscriminant, OfAllVanishesWhereTwoCoincideAndThatOfTheDistinctOnesDoesNot) {
-  const ComplexVector eigenvalues{{Complex(0.0, 3.0), Complex(0.0, 3.0), Complex(0.0, 3.4)}};
-  const ComplexVector functions = functions_of(block_with(eigenvalues, 5));
-  EXPECT_LT(std::abs(block_discriminant(functions, 3)), 1e-14);
-  // Sum over the choices of two: two of them have the distance 0.4, one has zero.
-  EXPECT_LT(std::abs(block_discriminant(functions, 2) - 2.0 * std::pow(Complex(0.0, 0.4), 2)), 1e-13);
 }
 
 TEST(RootError, NearAMeetingCountsTheLeastGap) {

@@ -31,6 +31,7 @@ struct Track {
     ComplexVector roots;    ///< in the order of `modes`
   };
   std::optional<Departure> departure;
+  std::vector<int> met;  ///< indices of the roots that meet at the point, or veer closely
 
   Eigen::Index size() const { return pair.size(); }
 };

@@ -28,22 +28,12 @@ ComplexVector block_roots(const ComplexVector& functions);
 /// Mean of the eigenvalues.
 Complex block_mean(const ComplexVector& functions);
 
-/// Subdiscriminant of `distinct` eigenvalues: the sum over all choices of that many of the product of (s_i -
-/// s_j)^2 over their pairs (e.g. Basu, Pollack & Roy 2006, Sect. 4.2). With distinct = k it vanishes where
-/// two of the block meet. Where some coincide throughout, the largest one that does not vanish throughout
-/// tells where the others meet them.
-Complex block_discriminant(const ComplexVector& functions, Eigen::Index distinct);
-
 /// How far errors of the functions move the eigenvalues, each at most; near a meeting the distance of the
 /// roots counts as no less than `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
 
 /// Roots of `to` in the order of `from`: the assignment with the least total distance.
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to);
-
-/// Series of the eigenvalue `root` of a block from the series of its functions, by Newton's method in series
-/// arithmetic. Empty when the root is not simple.
-ComplexVector root_series(const ComplexMatrix& functions, Complex root);
 
 /// Smallest distance between two of the values; infinite when there is one.
 double least_gap(const ComplexVector& roots);

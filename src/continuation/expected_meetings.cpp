@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "continuation/meetings.hpp"
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Double roots of an interpolant may lie this share of an interval off the axis, or off its ends.
+constexpr double looked_into = 0.1;
+constexpr double beside = 0.05;
+constexpr double smallest_piece = 1e-8;  ///< of a step
+constexpr double coinciding = 1e-9;
+
+bool stands_for_a_mode(const Track& track, const Strand& strand) {
+  return std::any_of(strand.members.begin(), strand.members.end(),
+                     [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
+}
+
+/// Real parts of the roots of a gap on [begin, end], near the axis. A gap that is not smooth there, because
+/// one of the two meets a third on the way, is looked at piece by piece.
+class RootsOnStep {
+ public:
+  /// Closer than `coinciding` throughout, the two are one.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double coinciding)
+      : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding) {}
+
+  std::vector<double> find() {
+    search(0.0, 1.0);
+    return roots_;
+  }
+
+ private:
+  static constexpr int degree = 12;
+  static constexpr double resolved = 1e-4;
+
+  Complex distance(double t) {
+    const ComplexVector& roots = sampler_(t);
+    return roots[a_] - roots[b_];
+  }
+
+  /// Far apart for what they move on the piece.
+  bool stay_apart(double begin, double end) {
+    constexpr double share = 3.0;
+    double least = INFINITY;
+    double moved = 0.0;
+    const Complex start = distance(begin);
+    for (int i = 0; i <= 4; ++i) {
+      const Complex d = distance(begin + (end - begin) * 0.25 * i);
+      least = std::min(least, std::abs(d));
+      moved = std::max(moved, std::abs(d - start));
+    }
+    return least > share * moved;
+  }
+
+  void search(double begin, double end) {
+    if (stay_apart(begin, end)) return;
+    const double length = end - begin;
+    if (length < smallest_piece) {
+      if (roots_.empty() || begin - roots_.back() > 10.0 * smallest_piece) roots_.push_back(begin);
+      return;
+    }
+    const auto gap = [&](double u) {
+      const Complex d = distance(begin + u * length);
+      return 0.25 * d * d;
+    };
+    const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
+    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= coinciding_) return;
+    if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
+      const double middle = begin + 0.5 * length;
+      search(begin, middle);
+      search(middle, end);
+      return;
+    }
+    for (const Complex root : chebyshev_roots(coefficients)) {
+      const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
+      if (on_piece && std::abs(root.imag()) <= looked_into) roots_.push_back(begin + root.real() * length);
+    }
+  }
+
+  StrandSampler& sampler_;
+  int a_, b_;
+  double coinciding_;
+  std::vector<double> roots_;
+};
+
+/// Whether both have just met at the left end: their gap's root there is known.
+bool have_just_met(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
+  const auto met = [&](int i) {
+    return std::find(track.met.begin(), track.met.end(), i) != track.met.end();
+  };
+  return met(a.front()) && met(b.front());
+}
+
+}  // namespace
+
+std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length) {
+  constexpr double behind_a_meeting = 1e-4;
+  std::vector<ExpectedMeeting> meetings;
+  for (std::size_t i = 0; i < left.tracks.size(); ++i) {
+    const Track& track = left.tracks[i];
+    if (track.size() < 2) continue;
+    StrandSampler sampler(left, right, i, length);
+    const std::vector<Strand> strands = strands_of(track, i, sampler);
+    for (std::size_t a = 0; a < strands.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
+        const double first = have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
+                          coinciding * track.pair.Lambda.norm());
+        for (const double t : roots.find()) {
+          if (t > first) meetings.push_back({strands[b], strands[a], std::min(t, 1.0) * length});
+        }
+      }
+    }
+  }
+  std::stable_sort(meetings.begin(), meetings.end(), [](const ExpectedMeeting& x, const ExpectedMeeting& y) {
+    return std::abs(x.position) < std::abs(y.position);
+  });
+  return meetings;
+}
+
+namespace {
+
+/// Mean of a strand at one end; empty when it cannot be told.
+ComplexVector strand_series(const Track& track, const Strand& strand) {
+  if (track.size() == 1) return track.functions.row(0).transpose();
+  std::vector<Complex> roots;
+  for (const int i : strand.members) roots.push_back(track.roots[i]);
+  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
+  return part.empty() ? ComplexVector() : mean_series(part);
+}
+
+ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
+  if (a.track == b.track) return gap_of(node.tracks[a.track], a.members, b.members);
+  const ComplexVector first = strand_series(node.tracks[a.track], a);
+  const ComplexVector second = strand_series(node.tracks[b.track], b);
+  return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
+}
+
+/// Whether sum_k c_k h^k has no root within r: the constant term outweighs all others.
+bool no_root_within(const ComplexVector& c, double r) {
+  double others = 0.0;
+  double power = 1.0;
+  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
+  return std::abs(c[0]) > others;
+}
+
+/// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
+std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
+                               double width) {
+  const double reach = std::abs(length) + 2.0 * width;
+  if (left.size() == 0 && right.size() == 0) return {};
+  if (left.size() == 0 || right.size() == 0) {
+    const ComplexVector& gap = left.size() == 0 ? right : left;
+    if (no_root_within(gap, reach)) return {};
+    std::vector<Complex> roots = polynomial_roots(gap);
+    for (Complex& root : roots) root += left.size() == 0 ? length : 0.0;
+    return roots;
+  }
+  if (no_root_within(left, reach) && no_root_within(right, reach)) return {};
+  const HermiteInterpolant gap(length, left.transpose(), right.transpose());
+  const int degree = 2 * static_cast<int>(left.size()) - 1;
+  std::vector<Complex> roots =
+      chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
+  for (Complex& root : roots) root *= length;
+  return roots;
+}
+
+}  // namespace
+
+std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
+                                             double width) {
+  constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
+  std::vector<Strand> strands;
+  for (std::size_t i = 0; i < left.tracks.size(); ++i) {
+    if (left.tracks[i].size() == 1) {
+      strands.push_back({i, {0}});
+      continue;
+    }
+    StrandSampler sampler(left, right, i, length);
+    for (Strand& strand : strands_of(left.tracks[i], i, sampler)) {
+      if (stands_for_a_mode(left.tracks[i], strand)) strands.push_back(std::move(strand));
+    }
+  }
+  std::vector<ExpectedMeeting> meetings;
+  for (std::size_t a = 0; a < strands.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (left.tracks[strands[a].track].pair.chart != left.tracks[strands[b].track].pair.chart) continue;
+      const ComplexVector at_left = gap_at(left, strands[b], strands[a]);
+      const ComplexVector at_right = gap_at(right, strands[b], strands[a]);
+      for (const Complex root : gap_roots(at_left, at_right, length, width)) {
+        const double t = root.real() / length;
+        if (t > -off_the_ends && t < 1.0 + off_the_ends && std::abs(root.imag()) <= 1.1 * width)
+          meetings.push_back({strands[b], strands[a], root});
+      }
+    }
+  }
+  return meetings;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,206 @@
+// Exceptional points beside the real parameter axis: two modes come close and part again.
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/event_tools.hpp"
+#include "continuation/tracer.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Exceptional points farther from the real axis than this share of the range are no veering.
+constexpr double widest_veering = 0.01 * (1.0 + 1e-9);
+
+/// Taylor coefficients of a smooth function at several points of the path's coordinate, and the polynomial
+/// that shares them all, in Newton's form.
+class PointwiseInterpolant {
+ public:
+  void add(double x, const ComplexVector& series) {
+    for (Eigen::Index k = 0; k < series.size(); ++k) {
+      x_.push_back(x);
+      table_.push_back(series);
+    }
+  }
+  /// Divided differences, confluent where points repeat.
+  void finish() {
+    const std::size_t n = x_.size();
+    std::vector<Complex> column(n);
+    for (std::size_t i = 0; i < n; ++i) column[i] = table_[i][0];
+    coefficients_.push_back(column[0]);
+    for (std::size_t order = 1; order < n; ++order) {
+      for (std::size_t i = 0; i + order < n; ++i) {
+        column[i] = x_[i + order] == x_[i] ? table_[i][static_cast<Eigen::Index>(order)]
+                                           : (column[i + 1] - column[i]) / (x_[i + order] - x_[i]);
+      }
+      coefficients_.push_back(column[0]);
+    }
+  }
+  Complex operator()(Complex x) const {
+    Complex value = 0.0;
+    for (std::size_t i = coefficients_.size(); i-- > 0;) value = value * (x - x_[i]) + coefficients_[i];
+    return value;
+  }
+
+ private:
+  std::vector<double> x_;
+  std::vector<ComplexVector> table_;
+  std::vector<Complex> coefficients_;
+};
+
+/// Whether a series, too, has its root about where the interpolant has: its terms still fall there, and
+/// cancel.
+bool confirms_root(const ComplexVector& series, Complex root) {
+  constexpr double share = 0.1;
+  double largest = 0.0;
+  Complex term = 0.0;
+  Complex sum = 0.0;
+  Complex power = 1.0;
+  for (const Complex coefficient : series) {
+    term = coefficient * power;
+    sum += term;
+    largest = std::max(largest, std::abs(term));
+    power *= root;
+  }
+  return std::abs(term) <= share * largest && std::abs(sum) <= share * largest;
+}
+
+Complex secant(const PointwiseInterpolant& f, Complex root, double width) {
+  Complex a = root + 1e-3 * width;
+  Complex fa = f(a);
+  for (int i = 0; i < 30; ++i) {
+    const Complex fr = f(root);
+    if (fr == fa) break;
+    const Complex next = root - fr * (root - a) / (fr - fa);
+    a = root;
+    fa = fr;
+    root = next;
+    if (std::abs(root - a) <= 1e-15 * width) break;
+  }
+  return root;
+}
+
+}  // namespace
+
+double Tracer::veering_width() const {
+  const double speed = plane_ ? std::abs(coefficient(node_.path.parameters, problem_.traced, 1)) : 1.0;
+  return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
+}
+
+/// A point whose only track is the two strands as one block.
+std::optional<PathNode> Tracer::as_one_block(const PathNode& node, const Strand& a, const Strand& b) {
+  const auto part = [&](std::size_t index, const std::vector<int>& members) -> std::optional<Track> {
+    const Track& track = node.tracks[index];
+    if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
+    return separate(problem_, node, track, members, result_.counts);
+  };
+  PathNode base = with_tracks(node, {});
+  const std::vector<Strand> strands = a.track == b.track
+                                          ? std::vector<Strand>{{a.track, united(a.members, b.members)}}
+                                          : std::vector<Strand>{a, b};
+  for (const Strand& strand : strands) {
+    std::optional<Track> track = part(strand.track, strand.members);
+    if (!track) return std::nullopt;
+    base.tracks.push_back(std::move(*track));
+  }
+  if (strands.size() == 2 && !join(problem_, base, 0, {{false, 1, 0.0}}, result_.counts)) return std::nullopt;
+  const std::size_t size = a.members.size() + b.members.size();
+  if (base.tracks.front().size() != static_cast<Eigen::Index>(size)) return std::nullopt;
+  return base;
+}
+
+void Tracer::find_veerings(double h, const PathNode& next) {
+  for (const ExpectedMeeting& expected : expected_beside(node_, next, h, veering_width())) {
+    std::vector<int> modes;
+    for (const Strand* strand : {&expected.a, &expected.b}) {
+      for (const int i : strand->members)
+        modes.push_back(node_.tracks[strand->track].modes[static_cast<std::size_t>(i)]);
+    }
+    modes = sorted_modes(modes);
+    // Meetings within a block have a point of their own.
+    const bool is_meeting =
+        expected.a.track == expected.b.track && std::abs(expected.position.imag()) <= 1e-6 * std::abs(h);
+    if (is_meeting || modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
+    const bool right = expected.position.real() / h > 0.5;
+    const PathNode& nearer = right ? next : node_;
+    const PathNode& farther = right ? node_ : next;
+    std::optional<PathNode> base = as_one_block(nearer, expected.a, expected.b);
+    if (base) {
+      record_veering(*base, expected.a.members.size(), expected.position - (right ? h : 0.0), modes);
+    } else if ((base = as_one_block(farther, expected.a, expected.b))) {
+      record_veering(*base, expected.a.members.size(), expected.position - (right ? 0.0 : h), modes);
+    }
+  }
+}
+
+bool Tracer::is_known_veering(Complex position, const std::vector<int>& modes) const {
+  constexpr double alike = 0.1;
+  const double speed = coefficient(node_.path.parameters, problem_.traced, 1);
+  const double p = node_.p + position.real() * speed;
+  const double half_width = std::abs(position.imag() * speed);
+  return std::any_of(result_.events.begin(), result_.events.end(), [&](const Event& event) {
+    const double slack = alike * event.half_width + 1e-6 * range();
+    return event.modes == modes && std::abs(event.p - p) <= slack &&
+           std::abs(event.half_width - half_width) <= slack;
+  });
+}
+
+/// A block that has jumped to other modes is not the one that began: its mean does not fit the series.
+bool Tracer::has_jumped(const Track& from, const Track& to, double distance) const {
+  const ComplexVector mean = mean_series(from.series.Lambda);
+  const Complex expected = evaluate_series(ComplexMatrix(mean.transpose()), distance)[0];
+  const Eigen::Index last = mean.size() - 1;
+  const double uncertain = std::abs(mean[last]) * std::pow(std::abs(distance), static_cast<double>(last));
+  const double drift = std::abs(mean_series(to.series.Lambda)[0] - expected);
+  return drift > 10.0 * uncertain + 1e-6 * std::max(std::abs(expected), problem_.s_ref);
+}
+
+/// The exceptional point of two modes beside the real axis. `base` holds them as one block, `count` of its
+/// eigenvalues being the one; `root` is where the point is expected, relative to it. The series at one point
+/// tells a near root well and a farther one poorly: points around it make it an interpolation.
+void Tracer::record_veering(const PathNode& base, std::size_t count, Complex root,
+                            const std::vector<int>& modes) {
+  constexpr int rounds = 5;
+  const double speed = std::abs(coefficient(base.path.parameters, problem_.traced, 1));
+  const double widest = 2.0 * widest_veering * range() / speed;
+  const double resolution = 1e-10 * range() / speed;
+  const auto gap_there = [&](const PathNode& node) {
+    return gap_series(node.tracks.front().series.Lambda, static_cast<Eigen::Index>(count));
+  };
+  Event event;
+  std::optional<PathNode> middle;
+  double position = 0.0;
+  bool is_settled = false;
+  for (int round = 0; round < rounds && !is_settled; ++round) {
+    const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
+    PointwiseInterpolant gap;
+    for (const double offset : {-1.0, 1.0, 0.0}) {
+      position = root.real() + offset * width;
+      middle = probe(base, position);
+      ++event.retrackings;
+      if (!middle) return;
+      gap.add(position, gap_there(*middle));
+    }
+    gap.finish();
+    if (has_jumped(base.tracks.front(), middle->tracks.front(), position)) return;
+    const Complex refined = secant(gap, root, width);
+    if (!(std::abs(refined.imag()) < widest && std::abs(refined - root) < 3.0 * widest)) return;
+    is_settled = std::abs(refined - root) <= resolution;
+    root = refined;
+  }
+  // Another exceptional point as near as this one spoils the series: then nothing can be told.
+  if (!is_settled || !confirms_root(gap_there(*middle), root - position)) return;
+  const double speed_there = coefficient(middle->path.parameters, problem_.traced, 1);
+  event.kind = EventKind::veering;
+  event.half_width = std::abs(root.imag() * speed_there);
+  if (event.half_width > widest_veering * range() || event.half_width < resolution) return;
+  event.p = middle->p + (root.real() - position) * speed_there;
+  const Track& there = middle->tracks.front();
+  event.s = chart_value(mean_series(there.series.Lambda)[0], there.pair.chart);
+  event.modes = modes;
+  event.node = result_.nodes;
+  add_event(std::move(event));
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,114 @@
+#include "eigentrail/modes/block_parts.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "eigentrail/modes/invariants.hpp"
+#include "modes/ordered_schur.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues closer than this, relatively, are not told apart.
+constexpr double same = 1e-13;
+
+/// D Y - Y A = R for upper triangular D and A.
+ComplexMatrix solve_sylvester(const ComplexMatrix& D, const ComplexMatrix& A, const ComplexMatrix& R) {
+  ComplexMatrix Y = R;
+  for (Eigen::Index j = 0; j < A.rows(); ++j) {
+    for (Eigen::Index i = 0; i < j; ++i) Y.col(j) += Y.col(i) * A(i, j);
+    ComplexMatrix shifted = D;
+    shifted.diagonal().array() -= A(j, j);
+    Y.col(j) = shifted.triangularView<Eigen::Upper>().solve(Y.col(j)).eval();
+  }
+  return Y;
+}
+
+double separation(const ComplexMatrix& T, Eigen::Index m) {
+  double least = INFINITY;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    for (Eigen::Index j = m; j < T.rows(); ++j) least = std::min(least, std::abs(T(i, i) - T(j, j)));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<ComplexMatrix> part_series(const std::vector<ComplexMatrix>& Lambda,
+                                       const std::vector<Complex>& part) {
+  const Eigen::Index k = Lambda[0].rows();
+  const auto m = static_cast<Eigen::Index>(part.size());
+  if (m == k) return Lambda;
+  const Eigen::Index r = k - m;
+  const OrderedSchur schur = ordered_schur(Lambda[0], part);
+  if (!(separation(schur.T, m) > same * schur.T.norm())) return {};
+  const std::size_t count = Lambda.size();
+  std::vector<ComplexMatrix> N{schur.T};
+  for (std::size_t j = 1; j < count; ++j) N.emplace_back(schur.U.adjoint() * Lambda[j] * schur.U);
+  const auto A = [&](std::size_t j) { return N[j].topLeftCorner(m, m); };
+  const auto B = [&](std::size_t j) { return N[j].topRightCorner(m, r); };
+  const auto C = [&](std::size_t j) { return N[j].bottomLeftCorner(r, m); };
+  const auto D = [&](std::size_t j) { return N[j].bottomRightCorner(r, r); };
+  std::vector<ComplexMatrix> Y{ComplexMatrix::Zero(r, m)};
+  std::vector<ComplexMatrix> result{A(0)};  // A + B Y
+  for (std::size_t j = 1; j < count; ++j) {
+    ComplexMatrix known = C(j);
+    // Y (A + B Y) at order j without its terms in Y_j.
+    for (std::size_t i = 1; i < j; ++i) known += D(j - i) * Y[i] - Y[i] * result[j - i];
+    Y.push_back(solve_sylvester(D(0), A(0), -known));
+    ComplexMatrix sum = A(j);
+    for (std::size_t i = 1; i <= j; ++i) sum += B(j - i) * Y[i];
+    result.push_back(std::move(sum));
+  }
+  return result;
+}
+
+ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda) {
+  ComplexVector mean(static_cast<Eigen::Index>(Lambda.size()));
+  for (std::size_t j = 0; j < Lambda.size(); ++j)
+    mean[static_cast<Eigen::Index>(j)] = Lambda[j].trace() / static_cast<double>(Lambda[j].rows());
+  return mean;
+}
+
+ComplexVector gap_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count) {
+  const auto size = static_cast<double>(Lambda[0].rows());
+  const auto a = static_cast<double>(count);
+  const double weight = size / (4.0 * a * (size - a));
+  std::vector<ComplexMatrix> N = Lambda;
+  for (ComplexMatrix& n : N) n.diagonal().array() -= n.trace() / size;
+  ComplexVector gap = ComplexVector::Zero(static_cast<Eigen::Index>(N.size()));
+  for (std::size_t i = 0; i < N.size(); ++i) {
+    for (std::size_t j = 0; i + j < N.size(); ++j)
+      gap[static_cast<Eigen::Index>(i + j)] += weight * N[i].cwiseProduct(N[j].transpose()).sum();
+  }
+  return gap;
+}
+
+ComplexVector gap_series(const ComplexVector& a, const ComplexVector& b) {
+  const ComplexVector half = 0.5 * (a - b);
+  return multiply_series(half, half);
+}
+
+ComplexVector root_series(const ComplexMatrix& functions, Complex root) {
+  const Eigen::Index k = block_size(functions.rows());
+  if (k == 1) return functions.row(0).transpose();
+  if (k == 2) {
+    // Where it is nearly double the root itself is known better than delta tells it.
+    ComplexVector x = ComplexVector::Zero(functions.cols());
+    x[0] = root - functions(0, 0);
+    if (std::abs(x[0]) <= same * std::abs(root)) return {};
+    for (Eigen::Index j = 1; j < x.size(); ++j) {
+      Complex square = functions(1, j);
+      for (Eigen::Index i = 1; i < j; ++i) square -= x[i] * x[j - i];
+      x[j] = square / (2.0 * x[0]);
+    }
+    x += functions.row(0).transpose();
+    return x;
+  }
+  std::vector<ComplexMatrix> Lambda;
+  for (Eigen::Index j = 0; j < functions.cols(); ++j) Lambda.emplace_back(functions.col(j).reshaped(k, k));
+  const std::vector<ComplexMatrix> part = part_series(Lambda, {root});
+  return part.empty() ? ComplexVector() : mean_series(part);
+}
+
+}  // namespace eigentrail
