@@ -22,15 +22,16 @@ bool stands_for_a_mode(const Track& track, const Strand& strand) {
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
 }
 
-/// Real parts of the roots of a gap on [begin, end], near the axis. A gap that is not smooth there, because
-/// one of the two meets a third on the way, is looked at piece by piece.
+/// Roots of a gap near a step, in shares of it. A gap that is not smooth there, because one of the two meets
+/// a third on the way, is looked at piece by piece; roots farther off the axis than a piece is long are not
+/// seen.
 class RootsOnStep {
  public:
   /// Closer than `coinciding` throughout, the two are one.
   RootsOnStep(StrandSampler& sampler, int a, int b, double coinciding)
       : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding) {}
 
-  std::vector<double> find() {
+  std::vector<Complex> find() {
     search(0.0, 1.0);
     return roots_;
   }
@@ -62,7 +63,7 @@ class RootsOnStep {
     if (stay_apart(begin, end)) return;
     const double length = end - begin;
     if (length < smallest_piece) {
-      if (roots_.empty() || begin - roots_.back() > 10.0 * smallest_piece) roots_.push_back(begin);
+      if (roots_.empty() || std::abs(begin - roots_.back()) > 10.0 * smallest_piece) roots_.push_back(begin);
       return;
     }
     const auto gap = [&](double u) {
@@ -79,21 +80,19 @@ class RootsOnStep {
     }
     for (const Complex root : chebyshev_roots(coefficients)) {
       const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
-      if (on_piece && std::abs(root.imag()) <= looked_into) roots_.push_back(begin + root.real() * length);
+      if (on_piece && std::abs(root.imag()) <= 0.5) roots_.push_back(begin + root * length);
     }
   }
 
   StrandSampler& sampler_;
   int a_, b_;
   double coinciding_;
-  std::vector<double> roots_;
+  std::vector<Complex> roots_;
 };
 
 /// Whether both have just met at the left end: their gap's root there is known.
 bool have_just_met(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
-  const auto met = [&](int i) {
-    return std::find(track.met.begin(), track.met.end(), i) != track.met.end();
-  };
+  const auto met = [&](int i) { return std::find(track.met.begin(), track.met.end(), i) != track.met.end(); };
   return met(a.front()) && met(b.front());
 }
 
@@ -110,11 +109,13 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
-        const double first = have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
+        const double first =
+            have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
                           coinciding * track.pair.Lambda.norm());
-        for (const double t : roots.find()) {
-          if (t > first) meetings.push_back({strands[b], strands[a], std::min(t, 1.0) * length});
+        for (const Complex t : roots.find()) {
+          if (t.real() > first && std::abs(t.imag()) <= looked_into)
+            meetings.push_back({strands[b], strands[a], std::min(t.real(), 1.0) * length});
         }
       }
     }
@@ -177,28 +178,40 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width) {
   constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
+  std::vector<ExpectedMeeting> meetings;
+  const auto expect = [&](const Strand& a, const Strand& b, Complex position) {
+    const double t = position.real() / length;
+    if (t > -off_the_ends && t < 1.0 + off_the_ends && std::abs(position.imag()) <= 1.1 * width)
+      meetings.push_back({a, b, position});
+  };
   std::vector<Strand> strands;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
-    if (left.tracks[i].size() == 1) {
+    const Track& track = left.tracks[i];
+    if (track.size() == 1) {
       strands.push_back({i, {0}});
       continue;
     }
     StrandSampler sampler(left, right, i, length);
-    for (Strand& strand : strands_of(left.tracks[i], i, sampler)) {
-      if (stands_for_a_mode(left.tracks[i], strand)) strands.push_back(std::move(strand));
+    const std::size_t before = strands.size();
+    for (Strand& strand : strands_of(track, i, sampler)) {
+      if (stands_for_a_mode(track, strand)) strands.push_back(std::move(strand));
+    }
+    if (track.size() == 2) continue;
+    for (std::size_t a = before; a < strands.size(); ++a) {
+      for (std::size_t b = before; b < a; ++b) {
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
+                          coinciding * track.pair.Lambda.norm());
+        for (const Complex t : roots.find()) expect(strands[b], strands[a], t * length);
+      }
     }
   }
-  std::vector<ExpectedMeeting> meetings;
   for (std::size_t a = 0; a < strands.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (left.tracks[strands[a].track].pair.chart != left.tracks[strands[b].track].pair.chart) continue;
       const ComplexVector at_left = gap_at(left, strands[b], strands[a]);
       const ComplexVector at_right = gap_at(right, strands[b], strands[a]);
-      for (const Complex root : gap_roots(at_left, at_right, length, width)) {
-        const double t = root.real() / length;
-        if (t > -off_the_ends && t < 1.0 + off_the_ends && std::abs(root.imag()) <= 1.1 * width)
-          meetings.push_back({strands[b], strands[a], root});
-      }
+      for (const Complex root : gap_roots(at_left, at_right, length, width))
+        expect(strands[b], strands[a], root);
     }
   }
   return meetings;

@@ -30,16 +30,16 @@ std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {
 /// The eigenvalues that lie about as close to the two as these to each other.
 std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members) {
   constexpr double as_close = 3.0;
-  double inside = 0.0;
+  constexpr double one_point = 1e-10;
+  double inside = one_point * roots.cwiseAbs().maxCoeff();
   for (const int i : members) {
     for (const int j : members) inside = std::max(inside, std::abs(roots[i] - roots[j]));
   }
   std::vector<int> all = members;
   for (int k = 0; k < static_cast<int>(roots.size()); ++k) {
     if (std::find(members.begin(), members.end(), k) != members.end()) continue;
-    const bool close = std::any_of(members.begin(), members.end(), [&](int i) {
-      return std::abs(roots[i] - roots[k]) <= as_close * inside;
-    });
+    const bool close = std::any_of(members.begin(), members.end(),
+                                   [&](int i) { return std::abs(roots[i] - roots[k]) <= as_close * inside; });
     if (close) all.push_back(k);
   }
   std::sort(all.begin(), all.end());
@@ -108,7 +108,6 @@ void classify(const std::vector<Complex>& roots, double resolution, double noise
   }
 }
 
-
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
   ComplexMatrix N = Lambda.back();
   for (std::size_t j = Lambda.size() - 1; j-- > 0;) N = N * h + Lambda[j];
@@ -153,7 +152,10 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
   const auto product = [&](double h) { return centred(part, h).determinant(); };
   const auto radius = [&](double h) {
-    return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false).eigenvalues().cwiseAbs().maxCoeff();
+    return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false)
+        .eigenvalues()
+        .cwiseAbs()
+        .maxCoeff();
   };
   const double width = 1e-3 * std::abs(reach);
   const Complex slope = (product(width) - product(-width)) / (2.0 * width);
@@ -213,9 +215,9 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const Rounding rounding = rounding_of(track, Lambda);
   const double distance = centred(Lambda, 0.0).norm();
   double resolution = rounding.slope > 0.0 ? rounding.lambda / rounding.slope : 0.0;
-  const double noise =
-      std::abs(gap[1]) > 0.0 ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
-                             : 0.0;
+  const double noise = std::abs(gap[1]) > 0.0
+                           ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
+                           : 0.0;
   // The gap of a defective part is known to rounding times its size: double roots to the root of that.
   const double curvature = std::abs(gap[2]);
   const bool defective =

@@ -354,6 +354,7 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
 
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
                               const std::vector<int>& members, RunCounts& counts) {
+  if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
   double inside = 0.0;
   double outside = INFINITY;
   ComplexVector known(static_cast<Eigen::Index>(members.size()));

@@ -87,14 +87,15 @@ class Tracer {
   enum class Approach { reached, nothing, failed };
   Approach approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
                             double& distance, int& retrackings);
-  void record_at(double distance, double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
+  void record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
                  std::vector<bool>& coincide);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
 
   // tracer_veerings.cpp: exceptional points beside the real axis.
   void find_veerings(double h, const PathNode& next);
   bool is_known_veering(Complex position, const std::vector<int>& modes) const;
-  std::optional<PathNode> as_one_block(const PathNode& node, const Strand& a, const Strand& b);
+  std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
+                                       Complex& root);
   void record_veering(const PathNode& base, std::size_t count, Complex root, const std::vector<int>& modes);
   bool has_jumped(const Track& from, const Track& to, double distance) const;
   double veering_width() const;
@@ -122,6 +123,8 @@ class Tracer {
   bool emit(const PathNode& node, const PathStep* step);
   bool stop(TraceStatus status, const std::string& message);
   std::string at_parameter(double p) const;
+  /// Length of the range in the path's coordinate, about.
+  double coordinate_range() const { return plane_ ? 1.0 : range(); }
   double range() const { return std::abs(options_.to - options_.from); }
 
   const TraceOptions& options_;

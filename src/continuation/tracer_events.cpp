@@ -14,17 +14,26 @@ void Tracer::find_events(double h, const PathNode& next) {
   find_folds(h, next);
 }
 
-/// A special point that two steps have seen is one.
+namespace {
+
+/// Whether both are the same special point, seen from two steps. An exceptional point belongs to two
+/// eigenvalues, whichever modes these are taken for on either side of it.
+bool are_alike(const Event& a, const Event& b, double range) {
+  if (a.kind != b.kind || std::abs(a.node - b.node) > 2) return false;
+  if (a.kind != EventKind::veering) return a.modes == b.modes && std::abs(a.p - b.p) <= 1e-9 * range;
+  return std::abs(a.p - b.p) <= 1e-7 * range && std::abs(a.half_width - b.half_width) <= 1e-7 * range &&
+         std::abs(a.s - b.s) <= 1e-6 * std::abs(a.s);
+}
+
+}  // namespace
+
 void Tracer::add_event(Event event) {
-  const double same = event.kind == EventKind::veering ? 1e-7 : 1e-9;
   const double low = std::min(options_.from, options_.to) - 1e-12 * range();
   const double high = std::max(options_.from, options_.to) + 1e-12 * range();
   if (event.p < low || event.p > high) return;
-  for (const Event& other : result_.events) {
-    const bool alike = other.kind == event.kind && other.modes == event.modes;
-    if (alike && std::abs(other.p - event.p) <= same * range() && other.node + 2 >= event.node) return;
-  }
-  result_.events.push_back(std::move(event));
+  const bool known = std::any_of(result_.events.begin(), result_.events.end(),
+                                 [&](const Event& other) { return are_alike(other, event, range()); });
+  if (!known) result_.events.push_back(std::move(event));
 }
 
 /// The tracks of `base` followed to a distance from it.

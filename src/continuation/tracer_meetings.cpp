@@ -59,7 +59,8 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
     const bool is_wide = meeting.kind == EventKind::veering && meeting.half_width > narrow * std::abs(h);
     if (is_wide && (move < 0.1 * std::abs(h) || retrackings > 0)) return Approach::nothing;
     // Settled, or no longer getting nearer at the level of rounding.
-    if (move <= resolution || (move > 0.5 * last_move && move <= 1e-7 * std::abs(h))) return Approach::reached;
+    if (move <= resolution || (move > 0.5 * last_move && move <= 1e-7 * std::abs(h)))
+      return Approach::reached;
     last_move = move;
     distance += meeting.offset;
     const double share = distance / h;
@@ -86,8 +87,12 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
     const bool landed = approach == Approach::reached && (distance == h || !attempt(distance, next));
     if (!landed && std::abs(h) > uncertified_below_) return false;
     if (!landed) continue;
-    for (std::size_t j = i; j < expected.size(); ++j)
-      record_at(distance, h, expected[j], i == j ? retrackings : 1, *next, coincide);
+    record_at(h, expected[i], retrackings, *next, coincide);
+    constexpr double worth_a_look = 1e-3;
+    for (std::size_t j = i + 1; j < expected.size(); ++j) {
+      if (std::abs(expected[j].position.real() - distance) <= worth_a_look * std::abs(h))
+        record_at(h, expected[j], 1, *next, coincide);
+    }
     h = distance;
     break;
   }
@@ -96,13 +101,11 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
 }
 
 /// Records a meeting if it lies on the point where a step of length h is cut.
-void Tracer::record_at(double distance, double h, const ExpectedMeeting& expected, int retrackings,
-                       PathNode& next, std::vector<bool>& coincide) {
-  constexpr double worth_a_look = 1e-3;
-  if (std::abs(expected.position.real() - distance) > worth_a_look * std::abs(h)) return;
+void Tracer::record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
+                       std::vector<bool>& coincide) {
   Track& track = next.tracks[expected.a.track];
   const Meeting meeting = nearest_meeting(track, expected.a.members, expected.b.members, h);
-  if (!meeting.found || std::abs(meeting.offset) > at_point * (plane_ ? 1.0 : range()) ||
+  if (!meeting.found || std::abs(meeting.offset) > at_point * coordinate_range() ||
       meeting.half_width > narrow * std::abs(h))
     return;
   record_meeting(next, expected.a.track, meeting, retrackings);

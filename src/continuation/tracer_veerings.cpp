@@ -88,26 +88,41 @@ double Tracer::veering_width() const {
   return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
 }
 
-/// A point whose only track is the two strands as one block.
-std::optional<PathNode> Tracer::as_one_block(const PathNode& node, const Strand& a, const Strand& b) {
-  const auto part = [&](std::size_t index, const std::vector<int>& members) -> std::optional<Track> {
-    const Track& track = node.tracks[index];
-    if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
-    return separate(problem_, node, track, members, result_.counts);
-  };
-  PathNode base = with_tracks(node, {});
-  const std::vector<Strand> strands = a.track == b.track
-                                          ? std::vector<Strand>{{a.track, united(a.members, b.members)}}
-                                          : std::vector<Strand>{a, b};
-  for (const Strand& strand : strands) {
-    std::optional<Track> track = part(strand.track, strand.members);
-    if (!track) return std::nullopt;
-    base.tracks.push_back(std::move(*track));
+/// A point whose only track is the two strands as one block. `root` is where they are expected to meet, in
+/// the end relative to that point.
+std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
+                                             Complex& root) {
+  const Strand& a = expected.a;
+  const Strand& b = expected.b;
+  const bool right = expected.position.real() / h > 0.5;
+  const PathNode& nearer = right ? next : node_;
+  root = expected.position - (right ? h : 0.0);
+  if (a.track != b.track) {
+    PathNode base = with_tracks(nearer, {});
+    for (const Strand* strand : {&a, &b}) {
+      std::optional<Track> track =
+          separate(problem_, nearer, nearer.tracks[strand->track], strand->members, result_.counts);
+      if (!track) return std::nullopt;
+      base.tracks.push_back(std::move(*track));
+    }
+    const Eigen::Index size = base.tracks[0].size() + base.tracks[1].size();
+    if (!join(problem_, base, 0, {{false, 1, 0.0}}, result_.counts)) return std::nullopt;
+    return base.tracks.front().size() == size ? std::optional<PathNode>(std::move(base)) : std::nullopt;
   }
-  if (strands.size() == 2 && !join(problem_, base, 0, {{false, 1, 0.0}}, result_.counts)) return std::nullopt;
-  const std::size_t size = a.members.size() + b.members.size();
-  if (base.tracks.front().size() != static_cast<Eigen::Index>(size)) return std::nullopt;
-  return base;
+  PathNode base = with_tracks(nearer, {a.track});
+  const std::vector<int> members = united(a.members, b.members);
+  if (static_cast<Eigen::Index>(members.size()) == base.tracks.front().size()) return base;
+  // In a larger block the two are told from the others where they are close to each other.
+  std::optional<PathNode> point = probe(base, root.real());
+  if (!point) return std::nullopt;
+  root -= root.real();
+  Track& block = point->tracks.front();
+  StrandSampler strands(node_, next, a.track, h);
+  block.roots = in_order_of(strands(std::clamp(expected.position.real() / h, 0.0, 1.0)), block.roots);
+  std::optional<Track> pair = separate(problem_, *point, block, members, result_.counts);
+  if (!pair) return std::nullopt;
+  point->tracks = {std::move(*pair)};
+  return point;
 }
 
 void Tracer::find_veerings(double h, const PathNode& next) {
@@ -122,15 +137,9 @@ void Tracer::find_veerings(double h, const PathNode& next) {
     const bool is_meeting =
         expected.a.track == expected.b.track && std::abs(expected.position.imag()) <= 1e-6 * std::abs(h);
     if (is_meeting || modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
-    const bool right = expected.position.real() / h > 0.5;
-    const PathNode& nearer = right ? next : node_;
-    const PathNode& farther = right ? node_ : next;
-    std::optional<PathNode> base = as_one_block(nearer, expected.a, expected.b);
-    if (base) {
-      record_veering(*base, expected.a.members.size(), expected.position - (right ? h : 0.0), modes);
-    } else if ((base = as_one_block(farther, expected.a, expected.b))) {
-      record_veering(*base, expected.a.members.size(), expected.position - (right ? 0.0 : h), modes);
-    }
+    Complex root;
+    if (const auto base = as_one_block(h, next, expected, root))
+      record_veering(*base, expected.a.members.size(), root, modes);
   }
 }
 
