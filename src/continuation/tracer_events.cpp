@@ -19,8 +19,10 @@ namespace {
 /// Whether both are the same special point, seen from two steps. An exceptional point belongs to two
 /// eigenvalues, whichever modes these are taken for on either side of it.
 bool are_alike(const Event& a, const Event& b, double range) {
-  if (a.kind != b.kind || std::abs(a.node - b.node) > 2) return false;
-  if (a.kind != EventKind::veering) return a.modes == b.modes && std::abs(a.p - b.p) <= 1e-9 * range;
+  if (a.kind != b.kind) return false;
+  if (a.kind != EventKind::veering) {
+    return a.modes == b.modes && std::abs(a.p - b.p) <= 1e-9 * range && std::abs(a.node - b.node) <= 2;
+  }
   return std::abs(a.p - b.p) <= 1e-7 * range && std::abs(a.half_width - b.half_width) <= 1e-7 * range &&
          std::abs(a.s - b.s) <= 1e-6 * std::abs(a.s);
 }

@@ -59,8 +59,10 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
     const bool is_wide = meeting.kind == EventKind::veering && meeting.half_width > narrow * std::abs(h);
     if (is_wide && (move < 0.1 * std::abs(h) || retrackings > 0)) return Approach::nothing;
     // Settled, or no longer getting nearer at the level of rounding.
-    if (move <= resolution || (move > 0.5 * last_move && move <= 1e-7 * std::abs(h)))
-      return Approach::reached;
+    if (move <= resolution || (move > 0.5 * last_move && move <= 1e-7 * std::abs(h))) {
+      // The meeting on which the last step ended is known.
+      return std::abs(distance) > at_point * coordinate_range() ? Approach::reached : Approach::nothing;
+    }
     last_move = move;
     distance += meeting.offset;
     const double share = distance / h;

@@ -144,7 +144,7 @@ void Tracer::find_veerings(double h, const PathNode& next) {
 }
 
 bool Tracer::is_known_veering(Complex position, const std::vector<int>& modes) const {
-  constexpr double alike = 0.1;
+  constexpr double alike = 0.01;
   const double speed = coefficient(node_.path.parameters, problem_.traced, 1);
   const double p = node_.p + position.real() * speed;
   const double half_width = std::abs(position.imag() * speed);

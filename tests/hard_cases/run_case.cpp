@@ -170,7 +170,8 @@ Complex upper(Complex s) {
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
 
-/// The mode of `labelled` nearest to s, if it is clearly nearer than any other.
+/// The mode of `labelled` nearest to s, if it is clearly nearer than any other. Where modes coincide to
+/// rounding nobody tells them apart.
 int clear_label(Complex s, const std::vector<Complex>& labelled) {
   int best = -1;
   double nearest = INFINITY;
@@ -185,7 +186,8 @@ int clear_label(Complex s, const std::vector<Complex>& labelled) {
       second = std::min(second, distance);
     }
   }
-  return nearest < 0.1 * second ? best : -1;
+  constexpr double rounding = 1e-12;
+  return nearest < 0.1 * second && second > rounding * std::abs(s) ? best : -1;
 }
 
 /// Whether the mode is certified on the step.
