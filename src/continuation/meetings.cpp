@@ -214,7 +214,10 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const std::vector<ComplexMatrix>& Lambda = part.empty() ? track.series.Lambda : part;
   const Rounding rounding = rounding_of(track, Lambda);
   const double distance = centred(Lambda, 0.0).norm();
-  double resolution = rounding.slope > 0.0 ? rounding.lambda / rounding.slope : 0.0;
+  // The coordinate itself is rounded, too: what counts where the eigenvalues that meet are zero.
+  constexpr double coordinate_rounding = 1e-14;
+  double resolution = coordinate_rounding * std::abs(reach);
+  if (rounding.slope > 0.0) resolution = std::max(resolution, rounding.lambda / rounding.slope);
   const double noise = std::abs(gap[1]) > 0.0
                            ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
                            : 0.0;

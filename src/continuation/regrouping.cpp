@@ -329,6 +329,23 @@ std::vector<std::vector<int>> without_bystanders(const Vector& errors, double ac
   return members;
 }
 
+/// Whether the groups can be followed by themselves: eigenvalues that are much closer to each other than the
+/// block is far from a multiple of the unit matrix are (nearly) defective.
+bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& groups) {
+  constexpr double nearly_defective = 1e-4;
+  ComplexMatrix N = block.pair.Lambda;
+  N.diagonal().array() -= block.roots.mean();
+  double gap = INFINITY;
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      for (const int i : groups[a]) {
+        for (const int j : groups[b]) gap = std::min(gap, std::abs(block.roots[i] - block.roots[j]));
+      }
+    }
+  }
+  return gap > nearly_defective * N.norm();
+}
+
 /// The tracks that a block falls into; empty when one of them does not converge.
 std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, const Track& block,
                             const std::vector<std::vector<int>>& groups, RunCounts& counts) {
@@ -397,7 +414,8 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
                                      share * accepted);
       }
-      if (members.size() > 1) parts = parts_of(problem, node, track, members, counts);
+      if (members.size() > 1 && are_told_apart(track, members))
+        parts = parts_of(problem, node, track, members, counts);
     }
     if (parts.empty()) {
       tracks.push_back(std::move(track));

@@ -194,7 +194,7 @@ double Tracer::track_error(double h, const PathNode& next, std::size_t i) const 
   const Track& track = node_.tracks[i];
   const DenseBlock block = block_on_step(node_, next, i);
   const HermiteInterpolant step(h, block.left, block.right);
-  const Vector errors = step.error_without_last();
+  const Vector errors = (step.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
   double worst = 0.0;
   for (const double t : {0.0, 0.5, 1.0}) {
     const ComplexVector functions = step(t);

@@ -4,6 +4,7 @@
 
 #include "continuation/event_tools.hpp"
 #include "continuation/shared_basis.hpp"
+#include "continuation/strands.hpp"
 #include "continuation/tracer.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -44,12 +45,12 @@ void Tracer::find_axis_crossings(double h, const PathNode& next) {
   for (std::size_t i = 0; i < next.tracks.size(); ++i) {
     const Track& track = node_.tracks[i];
     const DenseBlock block = block_on_step(node_, next, i);
-    const bool departs = track.departure.has_value();
-    ComplexVector roots = departs ? track.departure->roots : track.roots;
-    double last = departs ? track.departure->distance / h : 0.0;
-    if (last > 0.5) continue;
+    double last = 0.0;
+    ComplexVector roots = departing_roots(track, h, last);
+    // Where eigenvalues coincide they are known to half their digits only.
+    const double end = next.tracks[i].departure ? 1.0 - 1e-7 : 1.0;
     for (int k = 1; k <= samples_per_step; ++k) {
-      const double t = static_cast<double>(k) / samples_per_step;
+      const double t = end * k / samples_per_step;
       const ComplexVector roots_before = roots;
       roots = follow_roots(block, h, roots, last, t);
       for (Eigen::Index member = 0; member < track.size(); ++member) {
@@ -80,9 +81,8 @@ void Tracer::locate_axis_crossing(double h, const PathNode& next, std::size_t in
                                   double t, bool pair) {
   const Track& track = node_.tracks[index];
   const DenseBlock block = block_on_step(node_, next, index);
-  const bool departs = track.departure.has_value();
-  const ComplexVector start = departs ? track.departure->roots : track.roots;
-  const double from = departs ? track.departure->distance / h : 0.0;
+  double from = 0.0;
+  const ComplexVector start = departing_roots(track, h, from);
   const PathNode base = with_tracks(node_, {index});
   double distance = t * h;
   double last_move = 0.0;
@@ -94,8 +94,18 @@ void Tracer::locate_axis_crossing(double h, const PathNode& next, std::size_t in
     const Track& there = point->tracks.front();
     Eigen::Index nearest = 0;
     (there.roots.array() - expected).abs().minCoeff(&nearest);
-    const Complex s = there.roots[nearest];
-    const ComplexVector series = root_series(there.functions, s);
+    Complex s = there.roots[nearest];
+    ComplexVector series = root_series(there.functions, s);
+    if (const auto single = separate(problem_, *point, there, {static_cast<int>(nearest)}, result_.counts)) {
+      s = single->roots[0] +
+          eigenvalue_remainder(PencilAtPoint(point->pencil, single->pair.chart), single->pair);
+      series = single->functions.row(0).transpose();
+    }
+    if (pair && there.pair.is_real && there.size() == 2) {
+      // The real part of a conjugate pair is its mean, smooth also where the pair is defective.
+      s.real(block_mean(there.functions.col(0)).real());
+      series = mean_series(there.series.Lambda);
+    }
     const bool meets =
         series.size() < 2 || (there.roots.size() > 1 && least_gap(there.roots) <= 1e-7 * last_move);
     const bool at_zero = std::abs(s.real()) <= 1e-6 * problem_.reference(track.pair.chart);
@@ -111,9 +121,8 @@ void Tracer::locate_axis_crossing(double h, const PathNode& next, std::size_t in
     last_move = std::abs(series[1] * move);
     if (distance / h < -0.5 || distance / h > 1.5) break;
     const bool on_step = distance / h > -1e-4 && distance / h <= 1.0 + 1e-4;
-    if (std::abs(move) > 1e-3 * settled * range() && std::abs(move) > 1e-12 * std::abs(h) &&
-        i < most_retrackings)
-      continue;
+    // One correction more squares what is left.
+    if (std::abs(move) > 1e-10 * coordinate_range() && i < most_retrackings) continue;
     if (!on_step) break;
     record_axis_crossing(*point, move, s + series[1] * move, index, member, pair, i);
     break;

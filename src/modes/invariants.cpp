@@ -55,6 +55,15 @@ double least_gap(const ComplexVector& roots) {
   return gap;
 }
 
+Vector function_rounding(const ComplexMatrix& Lambda) {
+  constexpr double roundings = 1e-15;
+  const Eigen::Index k = Lambda.rows();
+  const double size = roundings * Lambda.norm();
+  Vector rounding = Vector::Constant(k <= 2 ? k : k * k, size);
+  if (k == 2) rounding[1] *= (Lambda - 0.5 * Lambda.trace() * ComplexMatrix::Identity(2, 2)).norm();
+  return rounding;
+}
+
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap) {
   const Eigen::Index k = block_size(functions.size());
   if (k == 1) return errors[0];

@@ -1,7 +1,7 @@
 // Some eigenvalues of a block by themselves: power series of a part of Lambda(h).
 //
-// In the Schur form of Lambda(0) with the part first, N = U^H Lambda U = [A B; C D] with C(0) = 0, the columns
-// [I; Y(h)] span the part's invariant subspace where
+// In the Schur form of Lambda(0) with the part first, N = U^H Lambda U = [A B; C D] with C(0) = 0, the
+// columns [I; Y(h)] span the part's invariant subspace where
 //
 //     C + D Y - Y A - Y B Y = 0,
 //

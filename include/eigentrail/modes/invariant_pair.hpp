@@ -106,6 +106,11 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
 
+/// What rounding has left of the eigenvalue of a block of one: the Newton correction with its residual formed
+/// in extended precision. Tells the real part of an eigenvalue on the imaginary axis, where it is small, to
+/// its own digits.
+Complex eigenvalue_remainder(const PencilAtPoint& pencil, const InvariantPair& pair);
+
 /// Power series of a pair along the path.
 struct PairSeries {
   std::vector<ComplexMatrix> Z;       ///< order + 1 coefficients, n x k

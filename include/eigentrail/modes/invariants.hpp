@@ -28,6 +28,10 @@ ComplexVector block_roots(const ComplexVector& functions);
 /// Mean of the eigenvalues.
 Complex block_mean(const ComplexVector& functions);
 
+/// How far rounding of Lambda moves the functions: an error estimate below it means nothing. Where a block is
+/// defective that of delta counts, and the eigenvalues are known to the root of it only.
+Vector function_rounding(const ComplexMatrix& Lambda);
+
 /// How far errors of the functions move the eigenvalues, each at most; near a meeting the distance of the
 /// roots counts as no less than `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
