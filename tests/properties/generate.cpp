@@ -80,7 +80,9 @@ PlantedBlock companion(const std::string& kind, Wide c, const Polynomial& mean, 
   PlantedBlock block{kind, 2, rounded(Polynomial(c)), {}, {}};
   const Polynomial m = rounded(mean);
   block.stiffness = {m, Polynomial(b), Polynomial(1 / b) * delta, m};
-  for (const Wide p : real_roots(delta, 2 * low, 2 * high)) block.exceptional.push_back({p, m(p)});
+  const std::vector<Wide> roots = real_roots(delta, 2 * low, 2 * high);
+  if (roots.size() + 1 != delta.c.size()) throw UnusableFamily("rounding made two roots complex");
+  for (const Wide p : roots) block.exceptional.push_back({p, m(p)});
   return block;
 }
 

@@ -113,9 +113,12 @@ std::string PlantedFamily::description() const {
     for (const WideComplex s : blocks[b].modes((from + to) / 2)) text << " " << narrow(s);
     text << "\n";
   }
-  for (const SpecialPoint& point : special) {
+  for (std::size_t i = 0; i < special.size(); ++i) {
+    const SpecialPoint& point = special[i];
     text << "  " << point.kind << " at " << point.parameter << " s " << point.s;
     if (point.kind == "veering") text << " half-width " << point.half_width;
+    text << ", block";
+    for (const int block : meeting[i]) text << " " << block;
     text << "\n";
   }
   return text.str();

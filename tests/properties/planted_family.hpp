@@ -50,6 +50,7 @@ struct PlantedFamily {
   double from = 0.0, to = 0.0;
   std::vector<PlantedBlock> blocks;
   std::vector<SpecialPoint> special;      ///< all of the range, ascending
+  std::vector<std::vector<int>> meeting;  ///< blocks whose modes take part in it, per special point
   std::vector<std::vector<Wide>> breaks;  ///< per block: where its labels end
   std::string mixing;                     ///< how it was mixed, in words
   Family matrices;                        ///< what the engine sees

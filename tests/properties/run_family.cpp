@@ -43,6 +43,37 @@ void count_kinds(const HardCase& hard_case, const RecordedTrace& trace, FamilyRe
   }
 }
 
+/// Whether the eigenvalue may belong to one of the blocks: no other block has one that is clearly nearer.
+bool belongs_to(const std::vector<LabelledMode>& modes, const std::vector<int>& blocks, Complex s) {
+  double own = INFINITY;
+  double other = INFINITY;
+  for (const LabelledMode& mode : modes) {
+    const bool is_own = std::find(blocks.begin(), blocks.end(), mode.family) != blocks.end();
+    double& nearest = is_own ? own : other;
+    nearest = std::min(nearest, std::abs(mode.s - s));
+  }
+  return !(own > 10.0 * other);
+}
+
+/// Events found whose modes are not those that meet there.
+std::vector<std::string> wrong_modes(const PlantedFamily& family, const RecordedTrace& trace,
+                                     const EventComparison& events) {
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < family.special.size(); ++i) {
+    if (events.event_of[i] < 0) continue;
+    const Event& event = trace.result.events[static_cast<std::size_t>(events.event_of[i])];
+    const auto values = trace.all_eigenvalues_at(family.special[i].parameter);
+    const auto modes = family.labelled(family.special[i].parameter);
+    const bool right = std::all_of(event.modes.begin(), event.modes.end(), [&](int mode) {
+      return values.empty() || belongs_to(modes, family.meeting[i], values.front()[mode]);
+    });
+    const bool alone = family.special[i].kind == "flutter" || family.special[i].kind == "divergence";
+    const bool counted = alone ? event.modes.size() == 1 : event.modes.size() >= 2;
+    if (!right || !counted) wrong.push_back(event_line(event));
+  }
+  return wrong;
+}
+
 }  // namespace
 
 std::vector<std::string> FamilyReport::failures() const {
@@ -50,6 +81,7 @@ std::vector<std::string> FamilyReport::failures() const {
   if (!completed) result.push_back("ended");
   if (!(accuracy.worst_error <= allowed_error)) result.push_back("error");
   if (labels.wrong > 0) result.push_back("labels");
+  if (!wrong_modes.empty()) result.push_back("modes of events");
   for (const auto& [kind, count] : kinds) {
     if (count.found < count.planted) result.push_back("missing " + kind);
     if (count.invented > 0) result.push_back("invented " + kind);
@@ -72,6 +104,7 @@ std::string FamilyReport::problems() const {
   }
   for (const std::string& event : events.missing) text << "missing " << event << "; ";
   for (const std::string& event : events.invented) text << "invented " << event << "; ";
+  for (const std::string& event : wrong_modes) text << "wrong modes in " << event << "; ";
   return text.str();
 }
 
@@ -104,6 +137,7 @@ FamilyReport run_family(const PlantedFamily& family, const RunSetting& setting) 
   report.accuracy = measure_accuracy(samples, trace, setting.tolerance);
   report.events = compare_events(hard_case, trace, setting.tolerance);
   count_kinds(hard_case, trace, report);
+  report.wrong_modes = wrong_modes(family, trace, report.events);
   count_labels(
       trace, label_parameters(hard_case), 0, [&](double p) { return family.labelled(p); }, report.labels);
   return report;

@@ -24,7 +24,8 @@ struct FamilyReport {
   Accuracy accuracy;
   EventComparison events;
   LabelCount labels;
-  double certified_share = 0.0;  ///< of modes times steps
+  std::vector<std::string> wrong_modes;  ///< events that name modes which do not take part
+  double certified_share = 0.0;          ///< of modes times steps
   std::map<std::string, KindCount> kinds;
 
   bool passed() const { return failures().empty(); }

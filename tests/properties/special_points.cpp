@@ -65,19 +65,29 @@ class Finder {
 
   void find() {
     family_.special.clear();
+    family_.meeting.clear();
     family_.breaks.assign(family_.blocks.size(), {});
     for (std::size_t i = 0; i < family_.blocks.size(); ++i) {
       of_one_block(i);
-      for (std::size_t j = 0; j < i; ++j) of_two_blocks(family_.blocks[i], family_.blocks[j]);
+      for (std::size_t j = 0; j < i; ++j) of_two_blocks(i, j);
     }
     for (auto& breaks : family_.breaks) std::sort(breaks.begin(), breaks.end());
-    std::sort(family_.special.begin(), family_.special.end(),
-              [](const SpecialPoint& a, const SpecialPoint& b) { return a.parameter < b.parameter; });
+    std::sort(found_.begin(), found_.end(),
+              [](const Found& a, const Found& b) { return a.point.parameter < b.point.parameter; });
+    for (const Found& found : found_) {
+      family_.special.push_back(found.point);
+      family_.meeting.push_back(found.blocks);
+    }
     check_distances();
   }
 
  private:
   Wide range() const { return high_ - low_; }
+
+  struct Found {
+    SpecialPoint point;
+    std::vector<int> blocks;
+  };
 
   void add(const std::string& kind, WideComplex p, Complex s) {
     // Half-widths up to a tenth of the range, as in the catalogue.
@@ -87,11 +97,12 @@ class Finder {
         throw UnusableFamily("a special point just outside the range");
       return;
     }
-    family_.special.push_back({kind, static_cast<double>(p.real()), s, static_cast<double>(p.imag())});
+    found_.push_back({{kind, static_cast<double>(p.real()), s, static_cast<double>(p.imag())}, current_});
   }
 
   void of_one_block(std::size_t index) {
     const PlantedBlock& block = family_.blocks[index];
+    current_ = {static_cast<int>(index)};
     for (const PlantedBlock::Exceptional& point : block.exceptional) {
       const bool on_axis = point.p.imag() == 0;
       add(on_axis ? "collision" : "veering", point.p, mode_at(block, point.p, point.mu));
@@ -137,7 +148,10 @@ class Finder {
     }
   }
 
-  void of_two_blocks(const PlantedBlock& a, const PlantedBlock& b) {
+  void of_two_blocks(std::size_t i, std::size_t j) {
+    const PlantedBlock& a = family_.blocks[i];
+    const PlantedBlock& b = family_.blocks[j];
+    current_ = {static_cast<int>(i), static_cast<int>(j)};
     if (a.damping == b.damping) {
       for (const Wide p : real_roots(resultant(a, b), low_, high_)) {
         const PlantedBlock& single = a.size == 1 ? a : b;
@@ -233,6 +247,8 @@ class Finder {
 
   PlantedFamily& family_;
   Wide low_, high_;
+  std::vector<int> current_;  ///< blocks that are looked at
+  std::vector<Found> found_;
 };
 
 }  // namespace
