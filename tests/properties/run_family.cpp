@@ -67,8 +67,13 @@ std::vector<std::string> wrong_modes(const PlantedFamily& family, const Recorded
     const bool right = std::all_of(event.modes.begin(), event.modes.end(), [&](int mode) {
       return values.empty() || belongs_to(modes, family.meeting[i], values.front()[mode]);
     });
-    const bool alone = family.special[i].kind == "flutter" || family.special[i].kind == "divergence";
-    const bool counted = alone ? event.modes.size() == 1 : event.modes.size() >= 2;
+    // A pair is one mode: two meet unless it is alone in crossing an axis or meets its own conjugate.
+    const std::string& kind = family.special[i].kind;
+    const bool alone = kind == "flutter" || kind == "divergence";
+    const bool own_conjugate = kind == "collision" && family.special[i].s.imag() == 0.0;
+    const std::size_t least = alone || own_conjugate ? 1 : 2;
+    const std::size_t most = alone ? 1 : 2;
+    const bool counted = event.modes.size() >= least && event.modes.size() <= most;
     if (!right || !counted) wrong.push_back(event_line(event));
   }
   return wrong;
