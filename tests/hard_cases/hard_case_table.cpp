@@ -9,6 +9,7 @@
 // usage.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -91,9 +92,10 @@ std::vector<double> shares(const std::string& text) {
   std::vector<double> values;
   std::istringstream list(text);
   for (std::string item; std::getline(list, item, ',');) {
-    std::size_t end = 0;
-    values.push_back(std::stod(item, &end));
-    if (end != item.size() || !(values.back() >= 0.0 && values.back() <= 1.0))
+    char* end = nullptr;
+    values.push_back(std::strtod(item.c_str(), &end));
+    const bool is_number = !item.empty() && *end == '\0';
+    if (!is_number || !(values.back() >= 0.0 && values.back() <= 1.0))
       throw std::invalid_argument("expected a share of the range, got " + item);
   }
   if (values.empty()) throw std::invalid_argument("expected first steps");

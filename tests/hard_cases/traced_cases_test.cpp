@@ -17,8 +17,6 @@ constexpr double first_steps[] = {0.0, 1e-3, 0.03, 0.3};  ///< shares of the ran
 /// starts to pass, so that it is taken off the list. docs/hard_cases.md says what is missing.
 const std::map<std::string, std::string>& open_cases() {
   static const std::map<std::string, std::string> cases{
-      {"H14_ground_resonance_damped",
-       "two veerings in one long step of a block of three are missed at tolerance 1e-4"},
       {"H19_pair_through_zero",
        "the pair crosses the imaginary axis where it is defective: no flutter event"},
       {"C03_fold_in_tangential_force", "eigenvalues 1e-10 of the range beside the fold"},
@@ -30,10 +28,6 @@ const std::map<std::string, std::string>& open_cases() {
       {"whirl_through_zero", "a pair that passes zero without coalescing is called a collision"},
       {"free_chain", "a freedom that is free throughout joins blocks that do not converge"},
       {"near_exceptional_1em8", "flutter located to 1e-9 only: its slope is 2e-8"},
-      {"rotor_12", "wide veerings among twelve modes are missed"},
-      {"triple_crossing", "three modes and a fourth cross at one point"},
-      {"two_veerings_same_pair", "four labels in the second of two veerings at tolerance 1e-8"},
-      {"two_veerings_two_partners", "two veerings in one step of a block of three"},
   };
   return cases;
 }
