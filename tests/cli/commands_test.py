@@ -1,4 +1,4 @@
-"""The contract of the commands: what they print, write and return."""
+"""The contract of the commands that read: what eval, events, info and explain print and return."""
 
 import csv
 import io
@@ -10,37 +10,10 @@ import unittest
 import h5py
 import numpy as np
 
-from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, SCENES, ProgramTest, edited
+from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
+from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, edited
 
 COMMANDS = ["trace", "eval", "events", "info", "explain"]
-DEFAULT_TOLERANCE = 1e-6
-
-
-def blade_eigenvalues(omega):
-    """Lag and flap of BLADE: s^2 + (drag/mass) s + omega^2 {e, 1 + e} = 0 with e = offset/length = 1/5."""
-    decay = 0.5 * 2.0 / 50.0
-    return np.array([complex(-decay, math.sqrt(omega**2 * ratio - decay**2)) for ratio in (0.2, 1.2)])
-
-
-class CommandTest(ProgramTest):
-    def trace(self, scene, *options, output="loci.h5"):
-        """Traces a scene given as text; returns the path of the loci file."""
-        self.write("scene.toml", scene)
-        self.run_well("trace", "scene.toml", "-o", output, "--quiet", *options)
-        return self.folder / output
-
-    def eval_rows(self, file, places):
-        text = self.run_well("eval", file, "--csv", "--at", *map(repr, map(float, places)))
-        return [(float(row["parameter"]), row["mode"], complex(float(row["real"]), float(row["imag"])))
-                for row in csv.DictReader(io.StringIO(text))]
-
-    def eval_at(self, file, places):
-        """Eigenvalues, places x modes."""
-        return np.array([s for _, _, s in self.eval_rows(file, places)]).reshape(len(places), -1)
-
-    def assert_within(self, actual, expected, tolerance, reference=0.0):
-        bound = tolerance * np.maximum(np.abs(expected), reference)
-        np.testing.assert_array_less(np.abs(actual - expected), bound)
 
 
 class Program(CommandTest):
@@ -96,7 +69,6 @@ class Eval(CommandTest):
         text = self.run_well("eval", "loci.h5", "--csv", "--at", "-1", "-5e-1", "1e-1")
         self.assertEqual([float(line.split(",")[0]) for line in text.splitlines()[1::2]], places)
 
-
     def test_modes_that_do_not_exist_are_left_out(self):
         self.trace(BIRTH)
         rows = self.eval_rows("loci.h5", [0.5, 0.997, 0.998, 1.2])
@@ -138,10 +110,9 @@ class Events(CommandTest):
         self.trace(BIRTH)
         rows = json.loads(self.run_well("events", "loci.h5", "--json"))
         keys = ["kind", "parameter", "real", "imag", "modes"]
-        self.assertEqual([{
-key: str(row[key]) for key in ("kind", "modes")} for row in rows],
-                         [{
-key: row[key] for key in ("kind", "modes")} for row in self.events()])
+        texts = ("kind", "modes")
+        self.assertEqual([{key: str(row[key]) for key in texts} for row in rows],
+                         [{key: row[key] for key in texts} for row in self.events()])
         for key in ("parameter", "real", "imag"):
             self.assertEqual([row[key] for row in rows], [float(row[key]) for row in self.events()])
         self.assertEqual([list(row) for row in rows], [keys + ["puiseux"], keys])
@@ -259,191 +230,6 @@ class Explain(CommandTest):
         self.assertEqual(run.returncode, EXIT_BAD_INPUT)
         self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no equilibrium found: [^\n]*\n\Z")
         self.assertIn("effects", run.stdout)
-
-
-class Trace(CommandTest):
-    def test_every_scene_of_the_project_is_explained_and_traced(self):
-        scenes = sorted(SCENES.glob("*.toml"))
-        self.assertTrue(scenes)
-        for scene in scenes:
-            with self.subTest(scene.name):
-                self.assertIn("effects", self.run_well("explain", scene))
-                self.assertIn(f"wrote {scene.stem}.h5\n", self.run_well("trace", scene, "-o", f"{scene.stem}.h5"))
-
-    def test_summary_counts_every_active_effect_and_no_absent_one(self):
-        for scene in sorted(SCENES.glob("*.toml")):
-            with self.subTest(scene.name):
-                summary = self.run_well("trace", scene, "-o", f"{scene.stem}.h5")
-                evaluations = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
-                counted = [entry.split()[0] for entry in evaluations.split(", ")]
-                explained = self.run_well("explain", scene)
-                effects, absent = explained[:explained.index("sizes")].split("absent, never evaluated: ")
-                active = re.findall(r"^ +(\w+) +\d+  ", effects[effects.index("effects"):], re.MULTILINE)
-                self.assertEqual(counted, active)
-                self.assertFalse(set(counted) & set(absent.strip().split(", ")))
-
-    def test_quiet_prints_nothing(self):
-        self.write("scene.toml", BLADE)
-        self.assertEqual(self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet"), "")
-
-    def test_force_replaces_the_output(self):
-        path = self.trace(BLADE)
-        self.trace(BLADE, "--force", "--tolerance", "1e-9")
-        with h5py.File(path) as file:
-            self.assertEqual(file.attrs["tolerance"], 1e-9)
-
-    def test_a_second_run_gives_the_same_numbers(self):
-        with h5py.File(self.trace(BLADE)) as one, h5py.File(self.trace(BLADE, output="two.h5")) as two:
-            for name in ["omega", "eigenvalue", "dense_output", "certified", "mode_shape", "equilibrium"]:
-                np.testing.assert_array_equal(one[name][:], two[name][:])
-
-    def test_up_and_down_agree_within_the_tolerance(self):
-# At 5 rad / s, where the scene's own range ends, its guess leads to another equilibrium.
-        scene = (SCENES / "rotating_mass.toml").read_text(encoding="utf-8")
-        self.trace(scene, "--from", "100", "--to", "10", output="down.h5")
-        self.trace(scene, "--from", "10", "--to", "100", output="up.h5")
-        places = np.linspace(10.0, 100.0, 91)
-        self.assert_within(self.eval_at("up.h5", places), self.eval_at("down.h5", places),
-                           2.0 * 1e-8)  # each may err by the tolerance of the scene
-
-    def test_options_override_the_scene(self):
-        path = self.trace(BLADE, "--from", "20", "--to", "30", "--tolerance", "1e-9", "--modes", "1", "--order", "2",
-                          "--max-step", "0.5")
-        with h5py.File(path) as file:
-            p = file["omega"][:]
-            self.assertEqual((p[0], p[-1]), (20.0, 30.0))
-            self.assertLessEqual(np.max(np.diff(p)), 0.5 * (1.0 + 1e-12))
-            self.assertEqual(file["eigenvalue"].shape, (len(p), 1))
-            self.assertEqual(file["dense_output"].shape, (len(p) - 1, 1, 2, 3))
-            self.assertEqual(file["step_parameter"].shape, (len(p) - 1, 2, 3))
-            self.assertEqual(file.attrs["tolerance"], 1e-9)
-            for key, text in {"from": "20", "to": "30", "modes": "1", "order": "2", "max_step": "0.5"}.items():
-                self.assertEqual(file.attrs["option_" + key], text)
-            self.assert_within(file["eigenvalue"][:, 0], [blade_eigenvalues(omega)[0] for omega in p], 1e-9)
-
-    def test_another_parameter_can_be_traced(self):
-        path = self.trace(BLADE, "--parameter", "mass", "--from", "10", "--to", "20")
-        with h5py.File(path) as file:
-            self.assertEqual(file["mass"][-1], 20.0)
-            self.assertNotIn("omega", file)
-
-    def test_end_of_the_range_may_be_an_expression(self):
-        with h5py.File(self.trace(BLADE, "--to", "5 * drag")) as file:
-            self.assertEqual(file["omega"][-1], 10.0)
-
-    def test_rpm_and_radians_per_second_give_the_same_eigenvalues(self):
-        rpm = 60.0 / (2.0 * math.pi)
-        scene = edited(BLADE, '40.0, unit = "rad/s"', f'{40.0 * rpm!r}, unit = "rpm"')
-        path = self.trace(scene, "--from", repr(100.0 * rpm), "--to", repr(5.0 * rpm), output="rpm.h5")
-        self.trace(BLADE, output="radians.h5")
-        places = np.linspace(5.5, 99.5, 23)
-        self.assert_within(self.eval_at("rpm.h5", places * rpm), self.eval_at("radians.h5", places),
-                           2.0 * DEFAULT_TOLERANCE)  # each may err by the tolerance
-        with h5py.File(path) as file:
-            self.assertEqual(file["omega"].attrs["units"], "rpm")
-            slope = math.sqrt(0.2) / rpm  # d|s|/d(omega in rpm), up to the small damping
-            self.assertAlmostEqual(abs(file["eigenvalue_derivative"][0, 0]) / slope, 1.0, places=6)
-
-
-
-class TraceWithoutCertificate(CommandTest):
-    def trace_loudly(self, scene, *options):
-        self.write("scene.toml", scene)
-        return self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force", *options)
-
-    def check(self, scene, *options):
-        summary = self.trace_loudly(scene, *options)
-        self.assertIn("  identity  not certified (--no-certify)\n", summary)
-        self.assertNotIn("certified on every step", summary)
-        with h5py.File(self.folder / "loci.h5") as file:
-            certified, exists = file["certified"][:], file["mode_block"][:] >= 0
-            np.testing.assert_array_equal(certified, np.where(exists, 0, -1))
-            self.assertTrue(np.any(exists))
-            self.assertEqual(file.attrs["option_certify"], "false")
-            self.assertEqual(file.attrs["count_certified_mode_steps"], 0)
-            self.assertEqual(file.attrs["count_certificate_factorizations"], 0)
-        info = json.loads(self.run_well("info", "loci.h5", "--json"))
-        self.assertEqual(info["certified_share"], {
-mode: 0 for mode in info["modes"]})
-        self.assertIn("identity of mode 1 not certified from ", self.run_well("info", "loci.h5"))
-
-    def test_everything_is_marked_uncertified(self):
-        for scene in (BLADE, FAMILY, BIRTH, CROSSING):
-            self.check(scene, "--no-certify")
-
-    def test_the_scene_can_ask_for_it(self):
-        self.check(edited(BLADE, "to = 5.0", "to = 5.0\ncertify = false"))
-
-    def test_the_numbers_keep_their_tolerance(self):
-        self.trace(BLADE, "--no-certify")
-        places = np.linspace(5.0, 100.0, 137)
-        self.assert_within(self.eval_at("loci.h5", places), np.array([blade_eigenvalues(omega) for omega in places]),
-                           DEFAULT_TOLERANCE)
-
-    def test_without_the_flag_everything_here_is_certified(self):
-        for scene in (BLADE, FAMILY, BIRTH, CROSSING):
-            self.assertIn("  identity  certified on every step\n", self.trace_loudly(scene))
-            with h5py.File(self.folder / "loci.h5") as file:
-                np.testing.assert_array_equal(file["certified"][:], np.where(file["mode_block"][:] >= 0, 1, -1))
-                self.assertEqual(file.attrs["option_certify"], "true")
-            self.assertNotIn("not certified", self.run_well("info", "loci.h5"))
-
-
-class TraceOfAFamily(CommandTest):
-    def test_matrices_in_hdf5_equal_those_in_the_scene(self):
-        expected_file = self.trace(FAMILY)
-        scenes = self.folder / "scenes"
-        (scenes / "data").mkdir(parents=True)
-        with h5py.File(scenes / "data" / "m.h5", "w") as file:
-            file["M/0"] = np.eye(2)
-            file["K/0"] = np.diag([1.0, 2.0])
-            file["K/1"] = [[0, 1], [1, 0]]  # whole numbers are read as well
-        (scenes / "family.toml").write_text(FAMILY[:FAMILY.index("M =")] + 'file = "data/m.h5"\n', encoding="utf-8")
-        self.run_well("trace", "scenes/family.toml", "-o", "from_hdf5.h5", "--quiet")
-        with h5py.File(expected_file) as expected, h5py.File(self.folder / "from_hdf5.h5") as actual:
-            for name in ["p", "eigenvalue", "dense_output", "mode_shape"]:
-                np.testing.assert_array_equal(actual[name][:], expected[name][:])
-
-    def test_system_without_mass_is_followed(self):
-        """s + K = 0 with K = [[1, p], [p, 2]]: s = -3/2 +- sqrt(1/4 + p^2)."""
-        massless = "M = [[[0, 0], [0, 0]]]\nC = [[[1, 0], [0, 1]]]"
-        self.trace(edited(FAMILY, "M = [[[1, 0], [0, 1]]]", massless))
-        places = np.linspace(0.0, 1.0, 11)
-        root = np.sqrt(0.25 + places**2)
-        self.assert_within(self.eval_at("loci.h5", places), np.column_stack([root - 1.5, -root - 1.5]),
-                           DEFAULT_TOLERANCE)
-
-
-class TraceThatEndsEarly(CommandTest):
-    def check(self, run, message):
-        self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED)
-        self.assertRegex(run.stderr, rf"\Aeigentrail: {message}[^\n]*; the points before it are in loci\.h5\n\Z")
-        self.assertIn("ended early", self.run_well("info", "loci.h5"))
-        self.assertFalse((self.folder / "loci.h5.partial").exists())
-
-    def test_at_the_bound_on_points_they_are_kept(self):
-        self.write("scene.toml", BLADE)
-        self.check(self.run_program("trace", "scene.toml", "-o", "loci.h5", "--max-nodes", "3"),
-                   "stopped after 3 points")
-        with h5py.File(self.folder / "loci.h5") as file:
-            p, s = file["omega"][:], file["eigenvalue"][:]
-        self.assertEqual(len(p), 3)
-        np.testing.assert_array_equal(self.eval_at("loci.h5", p), s)
-        self.assertEqual(self.run_program("eval", "loci.h5", "--at", "5").returncode, EXIT_BAD_INPUT)
-
-    def test_at_a_pitchfork_the_path_stays_on_its_branch(self):
-        """The spring pendulum's branch reaches its pitchfork at k = mass g / length = 13.08 N/m and runs back."""
-        self.run_well("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10", "--quiet")
-        events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
-        self.assertIn("pitchfork", [event["kind"] for event in events])
-        for event in events:
-            self.assertAlmostEqual(float(event["parameter"]), 13.08, places=6)
-        k = 20.0
-        expected = math.sqrt(k / 2.0) * math.sqrt(1.0 - (13.08 / k) ** 2)
-        rows = list(csv.DictReader(io.StringIO(self.run_well("eval", "loci.h5", "--at", k, "--csv"))))
-        self.assertGreaterEqual(len(rows), 1)
-        for row in rows:
-            self.assertAlmostEqual(float(row["imag"]), expected, places=7)
 
 
 if __name__ == "__main__":

@@ -122,8 +122,8 @@ INSTANTIATE_TEST_SUITE_P(
                                   },
                                   [](double p) { return 1.0 / (Complex(0.5, 1.2) - p); }}),
         testing::Range(2, 5)),
-    [](const auto& info) {
-      return std::get<0>(info.param).name + "Order" + std::to_string(std::get<1>(info.param));
+    [](const auto& tested) {
+      return std::get<0>(tested.param).name + "Order" + std::to_string(std::get<1>(tested.param));
     });
 
 TEST(DenseOutputRival, MissOfThePreviousStepUnderestimatesNearASingularity) {

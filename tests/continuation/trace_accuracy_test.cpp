@@ -92,9 +92,10 @@ INSTANTIATE_TEST_SUITE_P(
                     AccuracyCase{1e-6, 3, 35}, AccuracyCase{1e-8, 3, 50}, AccuracyCase{1e-10, 3, 75},
                     AccuracyCase{1e-4, 4, 25}, AccuracyCase{1e-6, 4, 30}, AccuracyCase{1e-8, 4, 40},
                     AccuracyCase{1e-10, 4, 50}),
-    [](const auto& info) {
-      return "Tolerance1e" + std::to_string(static_cast<int>(-std::round(std::log10(info.param.tolerance)))) +
-             "Order" + std::to_string(info.param.order);
+    [](const auto& tested) {
+      return "Tolerance1e" +
+             std::to_string(static_cast<int>(-std::round(std::log10(tested.param.tolerance)))) + "Order" +
+             std::to_string(tested.param.order);
     });
 
 /// Factorizations per mode and point; the points that special points were located with count as well.

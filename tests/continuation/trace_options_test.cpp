@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"CertifyText", "to = 1\ncertify = \"no\"\n", "[trace] certify: expected true or false"},
         BadOption{"CertifyNumber", "to = 1\ncertify = 1\n", "[trace] certify: expected true or false"},
         BadOption{"UnknownKey", "to = 1\ntolerence = 1e-3\n", "did you mean 'tolerance'?"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace eigentrail

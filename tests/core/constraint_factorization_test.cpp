@@ -117,7 +117,7 @@ TEST_P(ConstraintFactorizationOf, MultipliersBalanceTheForceInTheRowSpace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, ConstraintFactorizationOf, testing::ValuesIn(cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(ConstraintFactorization, OfOneRowHasClosedForm) {
   const ConstraintFactorization factorization((Matrix(1, 3) << 3.0, 4.0, 0.0).finished());

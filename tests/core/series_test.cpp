@@ -176,7 +176,7 @@ TEST_P(SeriesFunction, HasTheTaylorCoefficientsOfTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SeriesFunction, testing::ValuesIn(functions()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Series, BeatsCentralDifferencesOfTheFourthDerivativeAtTheirBestStep) {
   // The rival: a five-point difference loses eps / step^4 to rounding and step^2 to truncation.

@@ -1,12 +1,17 @@
 // Prints the summary table of docs/hard_cases.md: every hard case at several tolerances, directions and first
 // steps.
 //
-//     hard_case_table [--rivals] [--samples N] [name ...]
+//     hard_case_table [--rivals] [--samples N] [--first-steps a,b,...] [name ...]
 //     hard_case_table --scene name
+//
+// First steps are shares of the range, 0 the program's own; names may be beginnings of names. What does not
+// hold is printed on stderr, a line per run. Exit code 0: everything holds; 1: something does not; 2: bad
+// usage.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,16 +35,24 @@ void print_problems(const std::string& name, const RunSetting& setting, const Ca
   std::fprintf(stderr, "\n");
 }
 
+struct TableOptions {
+  bool rivals = false;
+  int samples = 500;                                    ///< random parameters, >= 0
+  std::vector<double> first_steps{0, 1e-3, 0.03, 0.3};  ///< shares of the range, 0 <= . <= 1; 0: automatic
+  std::vector<std::string> names;                       ///< beginnings of names; none: all cases
+  std::string scene;                                    ///< print the scene of this case and nothing else
+};
+
 /// One line per tolerance: the worst over both directions and all first steps.
-bool print_case(const HardCase& hard_case, bool rivals, int samples) {
-  const CaseReference reference = make_reference(hard_case, samples);
+bool print_case(const HardCase& hard_case, const TableOptions& options) {
+  const CaseReference reference = make_reference(hard_case, options.samples);
   bool passed = true;
   int nodes_at_middle = 0;
   for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
     CaseReport worst;
     worst.completed = true;
     for (const bool reversed : {false, true}) {
-      for (const double first_step : {0.0, 1e-3, 0.03, 0.3}) {
+      for (const double first_step : options.first_steps) {
         const RunSetting setting{tolerance, reversed, first_step};
         const CaseReport report = run_case(reference, setting);
         print_problems(hard_case.name, setting, report);
@@ -63,7 +76,7 @@ bool print_case(const HardCase& hard_case, bool rivals, int samples) {
                 worst.completed ? "" : " ended early");
     std::fflush(stdout);
   }
-  if (!rivals) return passed;
+  if (!options.rivals) return passed;
   const GridSpectra grid = spectra_on_grid(hard_case, 4 * nodes_at_middle);
   std::printf("rivals of %s on %d points:", hard_case.name.c_str(), 4 * nodes_at_middle);
   for (const Carrier carrier : {Carrier::nearest, Carrier::assignment, Carrier::assurance}) {
@@ -74,35 +87,79 @@ bool print_case(const HardCase& hard_case, bool rivals, int samples) {
   return passed;
 }
 
-int run(int argc, char** argv) {
-  bool rivals = false;
-  int samples = 500;
-  std::vector<std::string> names;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--rivals") == 0) {
-      rivals = true;
-    } else if (std::strcmp(argv[i], "--samples") == 0 && i + 1 < argc) {
-      samples = std::atoi(argv[++i]);
-    } else if (std::strcmp(argv[i], "--scene") == 0 && i + 1 < argc) {
-      std::printf("%s", hard_case(argv[i + 1]).scene.c_str());
-      return 0;
+/// Numbers separated by commas, each between 0 and 1; throws std::invalid_argument otherwise.
+std::vector<double> shares(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ',');) {
+    char* end = nullptr;
+    values.push_back(std::strtod(item.c_str(), &end));
+    const bool is_number = !item.empty() && *end == '\0';
+    if (!is_number || !(values.back() >= 0.0 && values.back() <= 1.0))
+      throw std::invalid_argument("expected a share of the range, got " + item);
+  }
+  if (values.empty()) throw std::invalid_argument("expected first steps");
+  return values;
+}
+
+TableOptions read_options(const std::vector<std::string>& arguments) {
+  TableOptions options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& option = arguments[i];
+    const auto value = [&] {
+      if (i + 1 == arguments.size()) throw std::invalid_argument(option + " needs a value");
+      return arguments[++i];
+    };
+    if (option == "--rivals") {
+      options.rivals = true;
+    } else if (option == "--samples") {
+      options.samples = std::stoi(value());
+    } else if (option == "--first-steps") {
+      options.first_steps = shares(value());
+    } else if (option == "--scene") {
+      options.scene = value();
+    } else if (option.starts_with("-")) {
+      throw std::invalid_argument("unknown option " + option);
     } else {
-      names.emplace_back(argv[i]);
+      options.names.push_back(option);
     }
   }
+  return options;
+}
+
+bool wanted(const HardCase& hard_case, const TableOptions& options) {
+  const auto begins = [&](const std::string& name) { return hard_case.name.starts_with(name); };
+  return options.names.empty() || std::any_of(options.names.begin(), options.names.end(), begins);
+}
+
+bool print_table(const TableOptions& options) {
   std::printf(
       "| case | tolerance | points | LU per mode and step | worst error / tolerance | events found | "
-      "uncertified | "
-      "wrong labels |\n|---|---|---|---|---|---|---|---|\n");
+      "uncertified | wrong labels |\n|---|---|---|---|---|---|---|---|\n");
   bool passed = true;
   for (const HardCase& hard_case : hard_cases()) {
-    const bool wanted =
-        names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-          return hard_case.name.starts_with(name);
-        });
-    if (wanted) passed = print_case(hard_case, rivals, samples) && passed;
+    if (wanted(hard_case, options)) passed = print_case(hard_case, options) && passed;
   }
-  return passed ? 0 : 1;
+  return passed;
+}
+
+int run(int argc, char** argv) {
+  TableOptions options;
+  try {
+    options = read_options({argv + 1, argv + argc});
+    if (!options.scene.empty()) {
+      std::printf("%s", hard_case(options.scene).scene.c_str());
+      return 0;
+    }
+    const auto any = [&](const HardCase& hard_case) { return wanted(hard_case, options); };
+    if (std::none_of(hard_cases().begin(), hard_cases().end(), any))
+      throw std::invalid_argument("no case of that name");
+  } catch (
+      const std::logic_error& error) {  // also what the standard library says of texts that are no numbers
+    std::fprintf(stderr, "hard_case_table: %s\n", error.what());
+    return 2;
+  }
+  return print_table(options) ? 0 : 1;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/modes/matching.hpp"
+#include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -21,15 +22,9 @@ struct EigenPairs {
   ComplexMatrix z;  ///< upper halves of the companion's vectors
 };
 
-/// The companion pencil [[0, I], [-K, -C]] - s [[I, 0], [0, M]], as it is written in textbooks.
 EigenPairs qz_pairs(const Matrix& M, const Matrix& C, const Matrix& K) {
   const Eigen::Index n = M.rows();
-  Matrix A = Matrix::Zero(2 * n, 2 * n);
-  Matrix E = Matrix::Identity(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.bottomLeftCorner(n, n) = -K;
-  A.bottomRightCorner(n, n) = -C;
-  E.bottomRightCorner(n, n) = M;
+  auto [A, E] = companion_pencil(M, C, K);
   const auto size = static_cast<lapack_int>(2 * n);
   Vector real(2 * n), imag(2 * n), beta(2 * n);
   Matrix right(2 * n, 2 * n);

@@ -2,289 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <random>
-#include <sstream>
 
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/modes/matching.hpp"
-#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-/// Veerings are events up to this share of the range.
-constexpr double widest_veering = 0.01;
-
-/// Where a trace passes a parameter value.
-struct Place {
-  std::size_t step;
-  double t;
-};
-
-std::vector<Place> places(const RecordedTrace& trace, double p) {
-  std::vector<Place> found;
-  for (std::size_t i = 0; i < trace.steps.size(); ++i) {
-    for (const double t : step_positions(trace.steps[i], p)) {
-      if (t == 0.0 && i > 0) continue;
-      found.push_back({i, t});
-    }
-  }
-  return found;
+/// The modes as families of one.
+std::vector<LabelledMode> one_by_one(const std::vector<Complex>& s) {
+  std::vector<LabelledMode> modes;
+  for (std::size_t i = 0; i < s.size(); ++i) modes.push_back({s[i], static_cast<int>(i)});
+  return modes;
 }
 
-/// Roots of every block at a place, in the chart of the block.
-std::vector<ComplexVector> roots_at(const PathStep& step, double t) {
-  std::vector<ComplexVector> all;
-  for (const DenseBlock& block : step.blocks) {
-    all.push_back(block_roots(HermiteInterpolant(step.length, block.left, block.right)(t)));
-  }
-  return all;
-}
-
-/// Largest difference of the smooth functions of a block, tau and the power means of the distances from it,
-/// each relative to the size of its eigenvalues.
-double difference(const ComplexVector& found, const ComplexVector& exact, double reference) {
-  const double scale = std::max(exact.cwiseAbs().maxCoeff(), reference);
-  double worst = std::abs(found.mean() - exact.mean()) / scale;
-  for (Eigen::Index j = 2; j <= found.size(); ++j) {
-    const auto power_mean = [j](const ComplexVector& s) {
-      Complex sum = 0.0;
-      for (const Complex value : s) sum += std::pow((value - s.mean()), static_cast<double>(j));
-      return sum / static_cast<double>(s.size());
-    };
-    worst = std::max(
-        worst, std::abs(power_mean(found) - power_mean(exact)) / std::pow(scale, static_cast<double>(j)));
-  }
-  return worst;
-}
-
-/// Error at one place against one spectrum: block by block after a one-to-one assignment of all roots.
-double error_at(const PathStep& step, double t, const std::vector<Complex>& exact, double s_ref,
-                double s_max) {
-  const std::vector<ComplexVector> blocks = roots_at(step, t);
-  std::vector<Complex> found;
-  std::vector<Chart> charts;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    for (const Complex root : blocks[i]) {
-      found.push_back(root);
-      charts.push_back(step.blocks[i].chart);
-    }
-  }
-  const auto n = static_cast<Eigen::Index>(std::max(found.size(), exact.size()));
-  Matrix cost = Matrix::Zero(n, n);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (std::size_t j = 0; j < exact.size(); ++j) {
-      const double reference = charts[i] == Chart::finite ? s_ref : 1.0 / s_max;
-      const Complex target = chart_value(exact[j], charts[i]);
-      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::min(1e6, std::abs(found[i] - target) / std::max(std::abs(target), reference));
-    }
-    for (auto j = static_cast<Eigen::Index>(exact.size()); j < n; ++j) {
-      // An eigenvalue that is infinite is not in the list.
-      cost(static_cast<Eigen::Index>(i), j) =
-          charts[i] == Chart::reciprocal ? std::abs(found[i]) * s_max : 1e6;
-    }
-  }
-  const std::vector<int> assignment = optimal_assignment(cost);
-  double worst = 0.0;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    ComplexVector target(blocks[i].size());
-    for (Eigen::Index k = 0; k < target.size(); ++k, ++at) {
-      const auto j = static_cast<std::size_t>(assignment[at]);
-      target[k] = j < exact.size() ? chart_value(exact[j], charts[at]) : Complex(0.0);
-    }
-    const double reference = step.blocks[i].chart == Chart::finite ? s_ref : 1.0 / s_max;
-    worst = std::max(worst, difference(blocks[i], target, reference));
-  }
-  return worst;
-}
-
-void check_accuracy(const CaseReference& reference, const RecordedTrace& trace, double tolerance,
-                    CaseReport& report) {
-  double s_max = 0.0;
-  for (const ModeState& state : trace.modes.front()) s_max = std::max(s_max, std::abs(state.s));
-  s_max *= 1e4;
-  for (const CaseReference::Sample& sample : reference.samples) {
-    for (const Place& place : places(trace, sample.p)) {
-      double best = INFINITY;
-      for (const std::vector<Complex>& exact : sample.spectra) {
-        if (!exact.empty())
-          best = std::min(best, error_at(trace.steps[place.step], place.t, exact, trace.result.s_ref, s_max));
-      }
-      // Behind a fold there is nothing to compare with.
-      if (!std::isfinite(best) || best / tolerance <= report.worst_error) continue;
-      report.worst_error = best / tolerance;
-      report.worst_at = sample.p;
-    }
-  }
-}
-
-std::string describe(const std::string& kind, double p, Complex s, double half_width) {
-  std::ostringstream text;
-  text.precision(17);
-  text << kind << " at " << p << " s " << s.real() << (s.imag() < 0 ? "-" : "+") << std::abs(s.imag()) << "j";
-  if (half_width > 0.0) text << " half-width " << half_width;
-  return text.str();
-}
-
-void check_events(const HardCase& hard_case, const RecordedTrace& trace, double tolerance,
-                  CaseReport& report) {
-  const double range = std::abs(hard_case.to - hard_case.from);
-  const double allowed = tolerance <= 1e-8 ? 1e-9 : 1e-7;
-  const auto near = [&](const SpecialPoint& special, const Event& event) {
-    const double scale = std::max(1.0, std::abs(special.parameter));
-    return event_name(event.kind) == special.kind &&
-           std::abs(event.p - special.parameter) <= allowed * scale &&
-           (special.kind != "veering" || std::abs(event.half_width - special.half_width) <= allowed * scale);
-  };
-  std::vector<bool> used(trace.result.events.size(), false);
-  for (const SpecialPoint& special : hard_case.special) {
-    if (special.kind == "infinite") continue;
-    const bool optional = special.kind == "veering" &&
-                          special.half_width > widest_veering * range * (1.0 - 1e-9) &&
-                          !(special.half_width <= widest_veering * range * (1.0 + 1e-9));
-    bool found = false;
-    for (std::size_t i = 0; i < used.size() && !found; ++i) {
-      if (used[i] || !near(special, trace.result.events[i])) continue;
-      found = used[i] = true;
-    }
-    if (optional && !found) continue;
-    ++report.expected_events;
-    if (found) {
-      ++report.found_events;
-    } else {
-      report.missing.push_back(describe(special.kind, special.parameter, special.s, special.half_width));
-    }
-  }
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const Event& event = trace.result.events[i];
-    if (!used[i])
-      report.invented.push_back(describe(event_name(event.kind), event.p, event.s, event.half_width));
-  }
-}
-
-Complex upper(Complex s) {
-  return s.imag() < 0.0 ? std::conj(s) : s;
-}
-
-/// The mode of `labelled` nearest to s, if it is clearly nearer than any other. Where modes coincide to
-/// rounding nobody tells them apart.
-int clear_label(Complex s, const std::vector<Complex>& labelled) {
-  int best = -1;
-  double nearest = INFINITY;
-  double second = INFINITY;
-  for (std::size_t i = 0; i < labelled.size(); ++i) {
-    const double distance = std::abs(upper(s) - upper(labelled[i]));
-    if (distance < nearest) {
-      second = nearest;
-      nearest = distance;
-      best = static_cast<int>(i);
-    } else {
-      second = std::min(second, distance);
-    }
-  }
-  constexpr double rounding = 1e-12;
-  return nearest < 0.1 * second && second > rounding * std::abs(s) ? best : -1;
-}
-
-/// Whether the mode is certified on the step.
-bool certified(const PathStep& step, int mode) {
-  for (const DenseBlock& block : step.blocks) {
-    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end()) return block.certified;
-  }
-  return false;
-}
-
-/// Compares the labels on places of one stretch: a column keeps to one label as long as it is certified.
-void check_stretch(const RecordedTrace& trace, const std::vector<double>& parameters, int branch,
-                   const std::function<std::vector<Complex>(double)>& labelled, CaseReport& report) {
-  std::map<int, int> label_of;  // of a column
-  std::size_t last_step = 0;
-  bool begun = false;
-  for (const double p : parameters) {
-    const auto found = places(trace, p);
-    const auto index = static_cast<std::size_t>(std::min<int>(branch, static_cast<int>(found.size()) - 1));
-    if (found.empty()) continue;
-    const Place place = found[index];
-    const PathStep& step = trace.steps[place.step];
-    const ComplexVector s = step_eigenvalues(step, trace.eigenvalues_of_node(place.step),
-                                             trace.eigenvalues_of_node(place.step + 1), place.t);
-    const std::vector<Complex> reference = labelled(p);
-    for (int mode = 0; mode < s.size(); ++mode) {
-      if (!std::isfinite(s[mode].real())) continue;
-      const std::size_t low = std::min(last_step, place.step);
-      const std::size_t high = std::max(last_step, place.step);
-      for (std::size_t i = begun ? low : place.step; i <= (begun ? high : place.step); ++i) {
-        if (!certified(trace.steps[i], mode)) label_of.erase(mode);
-      }
-      const int label = clear_label(s[mode], reference);
-      if (label < 0) continue;
-      const auto known = label_of.find(mode);
-      if (known != label_of.end()) {
-        ++report.labels;
-        if (known->second != label) ++report.wrong_labels;
-      }
-      label_of[mode] = label;
-    }
-    last_step = place.step;
-    begun = true;
-  }
-}
-
-void check_labels(const CaseReference& reference, const RecordedTrace& trace, CaseReport& report) {
+LabelCount compare_labels(const CaseReference& reference, const RecordedTrace& trace) {
   const HardCase& hard_case = *reference.hard_case;
   const auto grid = [](double low, double high, int count) {
     std::vector<double> p;
     for (int i = 0; i < count; ++i) p.push_back(low + (high - low) * (i + 0.5) / count);
     return p;
   };
+  LabelCount count;
   if (hard_case.has_branches) {
     const auto labelled = [&](double p) {
       std::vector<Complex> s;
       for (const auto& branch : hard_case.branches) s.push_back(branch(p));
-      return s;
+      return one_by_one(s);
     };
-    check_stretch(trace,
-                  grid(std::min(hard_case.from, hard_case.to), std::max(hard_case.from, hard_case.to), 199),
-                  0, labelled, report);
-    return;
+    const auto [low, high] = std::minmax(hard_case.from, hard_case.to);
+    count_labels(trace, grid(low, high, 199), 0, labelled, count);
+    return count;
   }
   for (const LabelledStretch& stretch : reference.labels) {
     if (!stretch.complete()) continue;
-    check_stretch(
+    count_labels(
         trace, grid(stretch.low(), stretch.high(), 60), stretch.branch(),
-        [&](double p) { return stretch(p); }, report);
+        [&](double p) { return one_by_one(stretch(p)); }, count);
   }
+  return count;
 }
-
-}  // namespace
-
-CaseReference make_reference(const HardCase& hard_case, int random_samples) {
-  CaseReference reference;
-  reference.hard_case = &hard_case;
-  const double low = std::min(hard_case.from, hard_case.to);
-  const double range = std::abs(hard_case.to - hard_case.from);
-  std::vector<double> parameters;
-  std::mt19937_64 engine(20260101);
-  std::uniform_real_distribution<double> uniform(low, low + range);
-  for (int i = 0; i < random_samples; ++i) parameters.push_back(uniform(engine));
-  for (const SpecialPoint& special : hard_case.special) {
-    for (int power = 3; power <= 10; ++power) {
-      for (const double side : {-1.0, 1.0}) {
-        const double p = special.parameter + side * std::pow(10.0, -power) * range;
-        if (p > low && p < low + range) parameters.push_back(p);
-      }
-    }
-  }
-  for (const double p : parameters) reference.samples.push_back({p, hard_case.spectrum(p)});
-  if (!hard_case.has_branches) reference.labels = reference_labels(hard_case);
-  return reference;
-}
-
-namespace {
 
 /// A model with another starting guess: the equilibrium at the end of a trace, to begin the way back from.
 class StartingElsewhere : public Model {
@@ -321,8 +77,16 @@ RecordedTrace trace_back(const Setting& scene) {
 
 }  // namespace
 
-CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
-  const HardCase& hard_case = *reference.hard_case;
+CaseReference make_reference(const HardCase& hard_case, int random_samples) {
+  CaseReference reference;
+  reference.hard_case = &hard_case;
+  for (const double p : sample_parameters(hard_case, random_samples))
+    reference.samples.push_back({p, hard_case.spectrum(p)});
+  if (!hard_case.has_branches) reference.labels = reference_labels(hard_case);
+  return reference;
+}
+
+RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting) {
   OptionTexts options{{"tolerance", exact_text(setting.tolerance)},
                       {"order", std::to_string(setting.order)},
                       {"max_nodes", "2000"}};
@@ -331,7 +95,12 @@ CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
                          exact_text(setting.first_step * std::abs(hard_case.to - hard_case.from)));
   }
   const Setting scene = make_setting(hard_case.scene, options);
-  const RecordedTrace trace = setting.reversed ? trace_back(scene) : record_trace(scene);
+  return setting.reversed ? trace_back(scene) : record_trace(scene);
+}
+
+CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
+  const HardCase& hard_case = *reference.hard_case;
+  const RecordedTrace trace = trace_case(hard_case, setting);
   CaseReport report;
   report.completed = trace.result.status == TraceStatus::completed;
   report.message = trace.result.message;
@@ -340,9 +109,17 @@ CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
   report.lu_per_mode_step = static_cast<double>(trace.result.counts.modes.factorizations) / steps;
   report.uncertified_share = 1.0 - static_cast<double>(trace.result.certified_steps) / steps;
   if (trace.steps.empty()) return report;
-  check_accuracy(reference, trace, setting.tolerance, report);
-  check_events(hard_case, trace, setting.tolerance, report);
-  check_labels(reference, trace, report);
+  const Accuracy accuracy = measure_accuracy(reference.samples, trace, setting.tolerance);
+  report.worst_error = accuracy.worst_error;
+  report.worst_at = accuracy.worst_at;
+  const EventComparison events = compare_events(hard_case, trace, setting.tolerance);
+  report.expected_events = events.expected;
+  report.found_events = events.found;
+  report.missing = events.missing;
+  report.invented = events.invented;
+  const LabelCount labels = compare_labels(reference, trace);
+  report.labels = labels.labels;
+  report.wrong_labels = labels.wrong;
   return report;
 }
 

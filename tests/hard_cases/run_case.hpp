@@ -6,6 +6,7 @@
 
 #include "hard_cases/catalogue.hpp"
 #include "hard_cases/reference_labels.hpp"
+#include "hard_cases/trace_checks.hpp"
 
 namespace eigentrail::test {
 
@@ -37,16 +38,14 @@ struct CaseReport {
 
 /// Reference data of a case that all its runs share: computing it costs more than the runs.
 struct CaseReference {
-  struct Sample {
-    double p;
-    Spectra spectra;
-  };
   const HardCase* hard_case = nullptr;
-  std::vector<Sample>
-      samples;  ///< random parameters, and 1e-3 ... 1e-10 of the range beside every special point
+  std::vector<Sample> samples;
   std::vector<LabelledStretch> labels;
 };
 CaseReference make_reference(const HardCase& hard_case, int random_samples);
+
+/// The trace of a case, from its other end where the setting says so.
+RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting);
 
 CaseReport run_case(const CaseReference& reference, const RunSetting& setting);
 

@@ -162,7 +162,7 @@ TEST_P(Elements, DeclaredContributionsAgreeWithTheMatrices) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Elements, testing::ValuesIn(cases),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Registry, EveryEffectHasACase) {
   for (const EffectHelp& effect : effect_reference()) {

@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
         StructureCase{"MassEntersWithTheFrame", "rotating_mass", "mass", false, false, false, false, false},
         StructureCase{"GravityMovesTheEquilibrium", "pendulum", "g", false, true, true, false, false},
         StructureCase{"LengthEntersTheConstraint", "pendulum", "length", false, true, true, false, false}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(Multibody, StructureFlagsComeFromTheEffects) {
   const Structure blade = scene_setting("rotating_mass").model->structure(0);

@@ -9,31 +9,15 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "modes/single_modes.hpp"
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-constexpr double tolerance = 1e-12;
-constexpr double rounding = 1e-14;  // backward errors, and what a smooth function of the pencil keeps
-constexpr double s_ref = 1e-3;
-
 ReducedPencil single(double m, double c, double k) {
   return {{Matrix{{m}}}, {Matrix{{c}}}, {Matrix{{k}}}};
-}
-
-InvariantPair start_at(Complex s, const ComplexVector& z) {
-  InvariantPair start;
-  start.is_real = s.imag() == 0.0 && z.imag().isZero(0.0);
-  start.Z = z;
-  start.Lambda = ComplexMatrix::Constant(1, 1, s);
-  return start;
-}
-
-InvariantPair correct_mode(const PencilAtPoint& point, Complex s, const ComplexVector& z,
-                           ModeCounts& counts) {
-  return correct_pair(point, start_at(s, z), s_ref, {}, counts);
 }
 
 /// |W0^H Z + W1^H Z Lambda - I|.

@@ -8,27 +8,11 @@
 #include "eigentrail/modes/invariant_pair.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "modes/single_modes.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test {
 namespace {
-
-constexpr double tolerance = 1e-12;
-constexpr double rounding = 1e-14;  // backward errors, and what a smooth function of the pencil keeps
-constexpr double s_ref = 1e-3;
-
-InvariantPair start_at(Complex s, const ComplexVector& z) {
-  InvariantPair start;
-  start.is_real = s.imag() == 0.0 && z.imag().isZero(0.0);
-  start.Z = z;
-  start.Lambda = ComplexMatrix::Constant(1, 1, s);
-  return start;
-}
-
-InvariantPair correct_mode(const PencilAtPoint& point, Complex s, const ComplexVector& z,
-                           ModeCounts& counts) {
-  return correct_pair(point, start_at(s, z), s_ref, {}, counts);
-}
 
 /// K = [[1, p], [-p, 2]]: s^2 = -3/2 -+ sqrt(1/4 - p^2), an exceptional point at p = 1/2. There s = j
 /// sqrt(3/2).

@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Systems, DaeForm,
                                          Case{"SpringPendulum", "spring_pendulum", 26.16},
                                          Case{"RotatingMassFast", "rotating_mass", 100.0},
                                          Case{"RotatingMass", "rotating_mass", 40.0}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace eigentrail::test

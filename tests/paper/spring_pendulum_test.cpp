@@ -77,7 +77,9 @@ TEST_P(SpringPendulum, ProjectionSensitivityEqualsEqs125And129) {
   const ReducedPencil pencil = reduce(linearization, basis, 1);
   EXPECT_NEAR(pencil.K[0](0, 0), k * cosine * cosine, tolerance * k);  // (117c)
   EXPECT_NEAR(pencil.K[1](0, 0), 1.0 + sine * sine, tolerance);        // (126c)
-  if (pencil.M.size() > 1) EXPECT_NEAR(pencil.M[1](0, 0), 0.0, tolerance * m / k);
+  if (pencil.M.size() > 1) {
+    EXPECT_NEAR(pencil.M[1](0, 0), 0.0, tolerance * m / k);
+  }
 }
 
 TEST_P(SpringPendulum, FrozenProjectionGivesTheWrongSensitivity) {

@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Scales, EquilibriumUnits,
                                          Units{"Nanosecond", 1.0, 1e9},
                                          Units{"MicrometreAndNanosecond", 1e6, 1e9},
                                          Units{"KilometreAndHour", 1e-3, 1.0 / 3600.0}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 /// Redundant and nearly parallel constraints.
 const std::string plain_pendulum = R"(

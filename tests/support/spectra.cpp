@@ -28,15 +28,19 @@ std::vector<Complex> qz_eigenvalues(const Matrix& A, const Matrix& E, double inf
   return finite;
 }
 
-std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) {
+CompanionPencil companion_pencil(const Matrix& M, const Matrix& C, const Matrix& K) {
   const Eigen::Index n = M.rows();
-  Matrix A = Matrix::Zero(2 * n, 2 * n);
-  Matrix E = Matrix::Identity(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.bottomLeftCorner(n, n) = -K;
-  A.bottomRightCorner(n, n) = -C;
-  E.bottomRightCorner(n, n) = M;
-  return qz_eigenvalues(A, E);
+  CompanionPencil pencil{Matrix::Zero(2 * n, 2 * n), Matrix::Identity(2 * n, 2 * n)};
+  pencil.A.topRightCorner(n, n).setIdentity();
+  pencil.A.bottomLeftCorner(n, n) = -K;
+  pencil.A.bottomRightCorner(n, n) = -C;
+  pencil.E.bottomRightCorner(n, n) = M;
+  return pencil;
+}
+
+std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const CompanionPencil pencil = companion_pencil(M, C, K);
+  return qz_eigenvalues(pencil.A, pencil.E);
 }
 
 double relative_distance(Complex s, const std::vector<Complex>& spectrum) {

@@ -12,6 +12,12 @@ namespace eigentrail::test {
 std::vector<Complex> qz_eigenvalues(const Matrix& A, const Matrix& E, double infinite = 1e-14,
                                     int* n_infinite = nullptr);
 
+/// [[0, I], [-K, -C]] - s [[I, 0], [0, M]], as it is written in textbooks; eigenvectors are [z; s z].
+struct CompanionPencil {
+  Matrix A, E;  ///< 2n x 2n
+};
+CompanionPencil companion_pencil(const Matrix& M, const Matrix& C, const Matrix& K);
+
 /// All 2n eigenvalues of (s^2 M + s C + K) z = 0 from the unscaled companion form.
 std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
 

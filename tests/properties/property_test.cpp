@@ -1,0 +1,22 @@
+// Fifty families with planted special points, traced: every value, every event, every label.
+#include <gtest/gtest.h>
+
+#include "properties/run_family.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+class PlantedFamilyTrace : public testing::TestWithParam<int> {};
+
+TEST_P(PlantedFamilyTrace, HasExactValuesEventsAndLabels) {
+  const auto seed = static_cast<std::uint64_t>(GetParam());
+  const PlantedFamily family = planted_family(seed);
+  const FamilyReport report = run_family(family, setting_of(seed));
+  EXPECT_GT(report.labels.labels, 100);
+  EXPECT_TRUE(report.passed()) << report.problems() << "\n" << family.description();
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51));
+
+}  // namespace
+}  // namespace eigentrail::test
