@@ -130,7 +130,7 @@ bool Tracer::advance(StepControl& control) {
       return control.exhausted() ? give_up(trouble) : true;
     }
   }
-  if (!land_on_end(h, next) || !land_on_meeting(h, next)) {
+  if (!land_on_end(h, next) || !land_on_fold(h, next) || !land_on_meeting(h, next)) {
     control.reject(length, INFINITY);
     return control.exhausted() ? give_up(trouble) : true;
   }

@@ -107,6 +107,9 @@ class Tracer {
   PathScales path_scales();
   bool reached_end(const PathNode& node) const;
   bool land_on_end(double& h, std::optional<PathNode>& next);
+  double heading(const PathNode& node, double towards) const;
+  double fold_distance(const PathNode& node) const;
+  bool land_on_fold(double& h, std::optional<PathNode>& next);
   void find_folds(double h, const PathNode& next);
   void add_static_event(const PathNode& node, Event event);
   void note_branch_point(double p);

@@ -10,6 +10,7 @@ namespace {
 
 /// Share of the parameter's force in the kernel of a singular stiffness below which another path crosses.
 constexpr double branch_point_share = 1e-3;
+constexpr double on_fold = 1e-9;  ///< a point that is nearer to a fold than this lies on it
 
 }  // namespace
 
@@ -103,41 +104,63 @@ void Tracer::note_branch_point(double p) {
                           "; the trace stays on its own");
 }
 
-void Tracer::find_folds(double h, const PathNode& next) {
-  if (!plane_) return;
-  const double before = coefficient(node_.path.parameters, problem_.traced, 1);
-  const double behind = coefficient(next.path.parameters, problem_.traced, 1);
-  if (!(before * behind < 0.0)) return;
+double Tracer::fold_distance(const PathNode& node) const {
+  const auto& p = node.path.parameters;
+  return -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
+}
+
+/// dp/dsigma beside a point, on the side of `towards`: of a point that lies on a fold, up to rounding, its
+/// own means nothing.
+double Tracer::heading(const PathNode& node, double towards) const {
+  const bool on_it = std::abs(fold_distance(node)) <= on_fold;
+  return on_it ? 2.0 * coefficient(node.path.parameters, problem_.traced, 2) * towards
+               : coefficient(node.path.parameters, problem_.traced, 1);
+}
+
+/// A fold becomes a point of the trace: beside it p(sigma) has to be told relatively to its value there, for
+/// eigenvalues vary like the root of the distance.
+bool Tracer::land_on_fold(double& h, std::optional<PathNode>& next) {
+  if (!plane_) return true;
+  const double before = heading(node_, h);
+  const double behind = heading(*next, -h);
+  if (!(before * behind < 0.0)) return true;
+  const EventWork work(result_.counts);
   double distance = h * before / (before - behind);
-  for (int i = 1; i <= most_retrackings; ++i) {
-    const std::optional<PathNode> point = probe(node_, distance);
-    if (!point) break;
-    const auto& p = point->path.parameters;
-    const double move = -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
-    if (!std::isfinite(move)) break;
-    distance += move;
-    if (std::abs(move) > 1e-9 && i < most_retrackings) continue;
-    const double share =
-        kernel_share_of_parameter(problem_.model, point->path, problem_.traced, point->linearization,
-                                  point->basis.T[0], result_.counts.evaluations);
-    Event event;
-    event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
-    if (event.kind == EventKind::pitchfork) note_branch_point(point->p);
-    event.p = point->p + 0.5 * move * coefficient(p, problem_.traced, 1);
-    event.retrackings = i;
-    event.node = result_.nodes;
-    // The eigenvalue that vanishes with the tangent stiffness.
-    double least = INFINITY;
-    for (std::size_t k = 0; k < point->tracks.size(); ++k) {
-      const Track& track = point->tracks[k];
-      const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
-      if (size >= least) continue;
-      least = size;
-      event.modes = sorted_modes(node_.tracks[k].modes);
+  double last_move = INFINITY;
+  for (int i = 0; i < most_retrackings; ++i) {
+    if (attempt(distance, next)) return false;
+    const double move = fold_distance(*next);
+    if (std::abs(move) <= 1e-13 || (std::abs(move) > 0.5 * last_move && std::abs(move) <= on_fold)) {
+      h = distance;
+      return true;
     }
-    add_event(std::move(event));
-    break;
+    last_move = std::abs(move);
+    distance += move;
+    if (!(distance / h > 0.0 && distance / h < 1.0)) return false;
   }
+  return false;
+}
+
+void Tracer::find_folds(double h, const PathNode& next) {
+  if (!plane_ || !(heading(next, -h) * heading(next, h) < 0.0)) return;
+  const double share =
+      kernel_share_of_parameter(problem_.model, next.path, problem_.traced, next.linearization,
+                                next.basis.T[0], result_.counts.evaluations);
+  Event event;
+  event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
+  if (event.kind == EventKind::pitchfork) note_branch_point(next.p);
+  event.p = next.p + 0.5 * fold_distance(next) * coefficient(next.path.parameters, problem_.traced, 1);
+  event.retrackings = 1;
+  event.node = result_.nodes;
+  // The eigenvalue that vanishes with the tangent stiffness.
+  double least = INFINITY;
+  for (const Track& track : next.tracks) {
+    const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
+    if (size >= least) continue;
+    least = size;
+    event.modes = sorted_modes(track.arriving);
+  }
+  add_event(std::move(event));
 }
 
 }  // namespace eigentrail

@@ -40,6 +40,7 @@ struct CaseReference {
   struct Sample {
     double p;
     Spectra spectra;
+    std::vector<Spectra> nearby;  ///< beside a fold: at parameters that rounding cannot tell from p
   };
   const HardCase* hard_case = nullptr;
   std::vector<Sample>
