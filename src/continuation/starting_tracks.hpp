@@ -15,6 +15,7 @@ struct StartingGroup {
 
 /// Groups of the first `n_modes` modes of the spectrum; later ones join as guests where they are too close.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
-                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref);
+                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref,
+                                           double least_scale = 0.0);
 
 }  // namespace eigentrail

@@ -22,7 +22,8 @@ bool Tracer::reached_end(const PathNode& node) const {
 }
 
 double Tracer::remaining() const {
-  return plane_ ? std::numeric_limits<double>::max() : std::abs(options_.to - node_.p);
+  const double to_branch_point = distance_to_branch_point();
+  return plane_ ? to_branch_point : std::min(to_branch_point, std::abs(options_.to - node_.p));
 }
 
 /// One length for the whole path: the largest position so far, which may pass zero later.
@@ -34,11 +35,13 @@ PathScales Tracer::path_scales() {
 /// Where the equilibrium's series falls faster along the path than in p, the path is bending back: a fold.
 bool Tracer::turn_to_plane(double h) {
   if (plane_ || problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return false;
+  if (bridge_ && bridge_->covers(node_.p)) return false;
   const auto plane = plane_along(node_.path, problem_.traced, path_scales(), direction_);
   PathNode turned = node_;
   reparametrize(turned, plane, problem_.traced);
   if (!falls_faster(turned.path, node_.path, problem_.traced, path_scales(), h)) return false;
   plane_ = plane;
+  bridge_.reset();
   direction_ = 1.0;
   turned_step_ = std::abs(h / coefficient(turned.path.parameters, problem_.traced, 1));
   node_ = std::move(turned);
@@ -49,6 +52,8 @@ bool Tracer::turn_to_plane(double h) {
 /// A plane that the path meets at a slant is replaced by one across it.
 void Tracer::renew_plane() {
   if (!plane_ || slant(*plane_, node_.path, problem_.traced, path_scales()) > 0.7) return;
+  if (bridge_ && bridge_->covers(coordinate(node_.path.x.col(0), node_.p))) return;
+  bridge_.reset();
   plane_ = plane_along(node_.path, problem_.traced, path_scales(), 1.0);
   reparametrize(node_, *plane_, problem_.traced);
   ++result_.regroupings.planes;
@@ -84,9 +89,13 @@ void Tracer::add_static_event(const PathNode& node, Event event) {
   const bool moves = !problem_.structure.known_equilibrium;
   const double scale = std::max(problem_.s_ref, 1e-300);
   const bool zero = std::abs(event.s) <= 1e-2 * scale;
-  if (!moves || !zero || (event.kind != EventKind::collision && event.kind != EventKind::divergence)) {
+  const bool of_one = event.kind == EventKind::crossing && event.modes.size() == 1;
+  if (!moves || !zero ||
+      !(event.kind == EventKind::collision || event.kind == EventKind::divergence || of_one)) {
     return add_event(std::move(event));
   }
+  // The branch point is an event of its own.
+  if (bridge_ && std::abs(event.p - branch_.p) <= 1e-8 * range()) return;
   const double share =
       kernel_share_of_parameter(problem_.model, node.path, problem_.traced, node.linearization,
                                 node.basis.T[0], result_.counts.evaluations);
@@ -143,6 +152,7 @@ bool Tracer::land_on_fold(double& h, std::optional<PathNode>& next) {
 
 void Tracer::find_folds(double h, const PathNode& next) {
   if (!plane_ || !(heading(next, -h) * heading(next, h) < 0.0)) return;
+  if (on_branch_point(coordinate(next.path.x.col(0), next.p))) return;
   const double share =
       kernel_share_of_parameter(problem_.model, next.path, problem_.traced, next.linearization,
                                 next.basis.T[0], result_.counts.evaluations);

@@ -17,8 +17,6 @@ const std::map<std::string, std::string>& open_cases() {
        "two veerings in one long step of a block of three are missed at tolerance 1e-4"},
       {"H19_pair_through_zero",
        "the pair crosses the imaginary axis where it is defective: no flutter event"},
-      {"C04_spring_pendulum_to_pitchfork", "the path ends in the branch point"},
-      {"C04_spring_pendulum_beyond_pitchfork", "the path touches the branch point and runs back"},
       {"C07_second_rod_1em8", "KINSOL finds no isolated equilibrium at some lengths"},
       {"whirl_through_zero", "a pair that passes zero without coalescing is called a collision"},
       {"free_chain", "a freedom that is free throughout joins blocks that do not converge"},
