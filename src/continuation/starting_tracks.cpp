@@ -35,6 +35,7 @@ bool near_real(Complex s, double s_ref) {
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale) {
+  s_ref = std::max(s_ref, least_scale);
   const std::vector<int> labels = group_labels(modes, s_ref);
   std::vector<StartingGroup> groups;
   for (int label = 0; label < static_cast<int>(modes.size()); ++label) {

@@ -393,6 +393,11 @@ bool Tracer::accept(double h, PathNode next, double next_step) {
   }
   const bool go_on = emit(next, &step);
   for (Track& track : next.tracks) track.arriving = track.modes;
+  if (leaves_path_at(next)) {
+    node_ = std::move(next);
+    return go_on && leave_path(choice_at(branch_points_++));
+  }
+  if (on_branch_point(coordinate(next.path.x.col(0), next.p))) ++branch_points_;
   const std::size_t before = next.tracks.size();
   part(problem_, &node_, next, next_step, h, part_reach_, accepted_share * options_.tolerance,
        result_.counts);

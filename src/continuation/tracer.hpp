@@ -136,6 +136,20 @@ class Tracer {
   double distance_to_branch_point() const;
   void record_branch_point(const PathNode& node);
 
+  // tracer_branch_choice.cpp: which path to go on along.
+  /// The other path at a branch point: a plane across it, and the sign on it of choice 2.
+  struct Crossing {
+    PathPlane plane;
+    double direction = 1.0;
+  };
+  int choice_at(std::size_t branch_point) const;
+  bool leaves_path_at(const PathNode& node) const;
+  std::optional<PathPlane> plane_across_other_path(const PathNode& node);
+  std::optional<Anchor> anchor_on(const PathPlane& plane, const PathNode& node, double distance);
+  std::optional<Bridge> bridge_other_path(const PathPlane& plane, const PathNode& node);
+  void survey_branch_point(const PathNode& node);
+  bool leave_path(int choice);
+
   // tracer_completeness.cpp
   void complete(PathNode& node);
 
@@ -155,7 +169,9 @@ class Tracer {
   std::optional<Bridge> bridge_;
   struct {
     double coordinate = 0.0, p = 0.0;
-  } branch_;                        ///< the branch point on the bridge
+  } branch_;  ///< the branch point on the bridge
+  std::optional<Crossing> crossing_;
+  std::size_t branch_points_ = 0;   ///< passed so far
   int bridges_tried_ = 0;           ///< from the last point
   std::vector<bool> certified_;     ///< per track of the step at hand
   double uncertified_below_ = 0.0;  ///< steps shorter than this are taken without certificate

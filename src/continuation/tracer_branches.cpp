@@ -256,8 +256,8 @@ void Tracer::record_branch_point(const PathNode& node) {
   event.p = branch_.p;
   event.retrackings = 1;
   event.node = result_.nodes;
-  note_branch_point(event.p);
   add_event(std::move(event));
+  survey_branch_point(node);
 }
 
 }  // namespace eigentrail

@@ -16,8 +16,7 @@ constexpr double on_fold = 1e-9;  ///< a point that is nearer to a fold than thi
 
 bool Tracer::reached_end(const PathNode& node) const {
   if (!plane_) return node.p == options_.to;
-  const double heading = coefficient(node.path.parameters, problem_.traced, 1);
-  const bool outward = heading * (options_.to - options_.from) > 0.0;
+  const bool outward = heading(node, 1.0) * (options_.to - options_.from) > 0.0;
   return node.p == options_.to || (node.p == options_.from && !outward);
 }
 

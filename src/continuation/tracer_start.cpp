@@ -32,7 +32,10 @@ bool Tracer::start() {
   node_ = std::move(*node);
   record_branch_point(node_);
   record_meetings_at_start();
-  return emit(node_, nullptr);
+  if (!emit(node_, nullptr)) return false;
+  if (!on_branch_point(options_.from)) return true;
+  const int choice = choice_at(branch_points_++);
+  return choice == 1 || leave_path(choice);
 }
 
 /// All modes by ascending |s|, how many of them are followed, and the magnitudes that count as zero and
