@@ -68,6 +68,26 @@ ComplexVector HermiteInterpolant::slope(double t) const {
   return left ? derivative : ComplexVector(-derivative);
 }
 
+ComplexMatrix HermiteInterpolant::series(double t0, int order) const {
+  const bool left = t0 <= 0.5;
+  const Terms& terms = left ? from_left_ : from_right_;
+  const double u = left ? t0 : 1.0 - t0;
+  const double du = left ? 1.0 : -1.0;
+  // (u + du x) (u + du x - 1) and u + du x as polynomials in x multiply the Horner scheme of `operator()`.
+  const double bubble[] = {u * (u - 1.0), du * (2.0 * u - 1.0), 1.0};
+  ComplexMatrix value = ComplexMatrix::Zero(terms.value.rows(), order + 1);
+  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k) {
+    for (Eigen::Index j = order; j >= 0; --j) {
+      value.col(j) *= bubble[0];
+      if (j > 0) value.col(j) += bubble[1] * value.col(j - 1);
+      if (j > 1) value.col(j) += bubble[2] * value.col(j - 2);
+    }
+    value.col(0) += terms.value.col(k) + terms.slope.col(k) * u;
+    if (order > 0) value.col(1) += terms.slope.col(k) * du;
+  }
+  return value;
+}
+
 double HermiteInterpolant::term(Eigen::Index function, Eigen::Index k) const {
   const double size = std::max(std::abs(from_left_.value(function, k)),
                                std::abs(from_left_.value(function, k) + from_left_.slope(function, k)));

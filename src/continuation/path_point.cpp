@@ -35,14 +35,9 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
   return result;
 }
 
-/// Series of the equilibrium when `parameter` moves away from its value at the point, or along the path.
-EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, int parameter, Path& path,
-                            RunCounts& counts) {
-  if (point.plane) {
-    return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
-                                        parameters_at(problem, point.p), problem.traced, problem.order + 1,
-                                        path, counts.evaluations);
-  }
+/// Series of the equilibrium when `parameter` moves away from its value at the point.
+EvaluationFault series_along(const PathProblem& problem, const PathPoint& point, int parameter, int order,
+                             Path& path, RunCounts& counts) {
   VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
   parameters.col(0) = parameters_at(problem, point.p);
   parameters(parameter, 1) = 1.0;
@@ -50,8 +45,15 @@ EvaluationFault path_series(const PathProblem& problem, const PathPoint& point, 
     path = {parameters, point.equilibrium.x, point.equilibrium.lambda};
     return {};
   }
-  return differentiate_equilibrium(problem.model, point.equilibrium, parameters, problem.order + 1, path,
+  return differentiate_equilibrium(problem.model, point.equilibrium, parameters, order, path,
                                    counts.evaluations);
+}
+
+/// Basis and pencil at an equilibrium.
+void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point) {
+  point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
+  if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
+  point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
 }
 
 /// Series of V = T Z.
@@ -101,16 +103,45 @@ PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess
     return point;
   }
   const StageTimer timer(counts.reduction_seconds);
-  point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
-  if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(p));
-  point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
+  reduce_point(problem, previous_basis, point);
   return point;
+}
+
+PathPoint reduce_on(const PathProblem& problem, const Path& known, const Matrix& previous_basis,
+                    RunCounts& counts) {
+  size_counters(problem, counts);
+  PathPoint point;
+  point.known = known;
+  point.p = known.parameters(problem.traced, 0);
+  point.equilibrium = keep_equilibrium(problem.model, known.parameters.col(0), known.x.col(0),
+                                       known.lambda.col(0), counts.evaluations);
+  if (point.equilibrium.status != SteadyStatus::converged) {
+    point.status = PointStatus::no_equilibrium;
+    point.message = point.equilibrium.report.message;
+    return point;
+  }
+  const StageTimer timer(counts.reduction_seconds);
+  reduce_point(problem, previous_basis, point);
+  return point;
+}
+
+EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& point, int order, Path& path,
+                                   RunCounts& counts) {
+  if (point.known) {
+    path = *point.known;
+    return {};
+  }
+  if (!point.plane) return series_along(problem, point, problem.traced, order, path, counts);
+  return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
+                                      parameters_at(problem, point.p), problem.traced, order, path,
+                                      counts.evaluations);
 }
 
 PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts) {
-  PathPoint point =
-      reduce_at(problem, prediction.p, prediction.equilibrium, previous_basis, counts, prediction.plane);
+  PathPoint point = prediction.known ? reduce_on(problem, *prediction.known, previous_basis, counts)
+                                     : reduce_at(problem, prediction.p, prediction.equilibrium,
+                                                 previous_basis, counts, prediction.plane);
   if (point.status != PointStatus::computed) return point;
   if (point.pencil.size() != previous_basis.cols()) {
     point.status = PointStatus::no_equilibrium;
@@ -164,7 +195,10 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   PathNode node;
   node.p = point.p;
   const int order = problem.order + 1;
-  if (path_series(problem, point, parameter, node.path, counts)) return std::nullopt;
+  const bool along_path = parameter == problem.traced;
+  if (along_path ? equilibrium_series(problem, point, order, node.path, counts)
+                 : series_along(problem, point, parameter, order, node.path, counts))
+    return std::nullopt;
   if (problem.model.linearize(node.path, order, node.linearization, counts.evaluations)) return std::nullopt;
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
@@ -59,6 +60,69 @@ double least_gap_of_distinct(const std::array<const ComplexVector*, 3>& sets) {
     }
   }
   return least;
+}
+
+/// p(t) - p on a step, as seen from the nearer end: accurate relatively to the distance from the value there,
+/// so that positions beside a fold that a step begins or ends with are as accurate as that allows.
+class Miss {
+ public:
+  Miss(const PathStep& step, double p)
+      : about_left_(shifted(step, step.parameter(0, 0))),
+        about_right_(shifted(step, step.parameter(1, 0))),
+        left_(p - step.parameter(0, 0)),
+        right_(p - step.parameter(1, 0)),
+        degree_(2 * static_cast<int>(step.parameter.cols()) - 1) {}
+
+  double operator()(double t) const {
+    return t <= 0.5 ? about_left_(t)[0].real() - left_ : about_right_(t)[0].real() - right_;
+  }
+  double slope(double t) const { return (t <= 0.5 ? about_left_ : about_right_).slope(t)[0].real(); }
+
+  /// Ascending, between 0 and 1, and 1 itself: p is monotonic from 0 to the first, and from one to the next.
+  std::vector<double> turning_points() const {
+    std::vector<double> points;
+    const auto slope_at = [this](double t) { return Complex(slope(t)); };
+    for (const Complex t : chebyshev_roots(chebyshev_coefficients(slope_at, degree_ - 1))) {
+      if (std::abs(t.imag()) <= 1e-7 && t.real() > 0.0 && t.real() < 1.0) points.push_back(t.real());
+    }
+    points.push_back(1.0);
+    std::sort(points.begin(), points.end());
+    return points;
+  }
+
+ private:
+  static HermiteInterpolant shifted(const PathStep& step, double p) {
+    Matrix series = step.parameter;
+    series.col(0).array() -= p;
+    return {step.length, series.row(0).cast<Complex>(), series.row(1).cast<Complex>()};
+  }
+
+  HermiteInterpolant about_left_, about_right_;
+  double left_, right_;
+  int degree_;
+};
+
+/// The root of a monotonic function: Newton's method, kept between the ends by halving.
+std::optional<double> root_between(const Miss& miss, double from, double to) {
+  const double at_from = miss(from);
+  if (at_from == 0.0) return from;
+  if (miss(to) == 0.0) return to;
+  if (at_from * miss(to) > 0.0) return std::nullopt;
+  constexpr int most_steps = 120;
+  double t = 0.5 * (from + to);
+  double last_move = to - from;
+  for (int i = 0; i < most_steps && from < to; ++i) {
+    const double here = miss(t);
+    if (here == 0.0) return t;
+    (here * at_from > 0.0 ? from : to) = t;
+    const double newton = t - here / miss.slope(t);
+    const bool good = newton > from && newton < to && std::abs(newton - t) < 0.5 * last_move;
+    const double next = good ? newton : 0.5 * (from + to);
+    last_move = std::abs(next - t);
+    if (next == t) break;
+    t = next;
+  }
+  return t;
 }
 
 }  // namespace
@@ -130,26 +194,14 @@ std::vector<double> step_positions(const PathStep& step, double p) {
     const double t = (p - a) / (b - a);
     return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
   }
-  const HermiteInterpolant interpolant(step.length, step.parameter.row(0).cast<Complex>(),
-                                       step.parameter.row(1).cast<Complex>());
-  const int degree = 2 * static_cast<int>(step.parameter.cols()) - 1;
+  const Miss miss(step, p);
   std::vector<double> positions;
-  const ComplexVector miss = chebyshev_coefficients([&](double u) { return interpolant(u)[0] - p; }, degree);
-  for (Complex t : chebyshev_roots(miss)) {
-    if (std::abs(t.imag()) > 1e-3 || t.real() < -0.1 || t.real() > 1.1) continue;
-    // Newton's method removes what rounding in the matrix of a nearly straight path has left.
-    for (int i = 0; i < 4; ++i) {
-      const double slope = interpolant.slope(t.real())[0].real();
-      const Complex move = (interpolant(t)[0] - p) / slope;
-      if (!(std::abs(move) < 0.1)) break;
-      t -= move;
-    }
-    // Ends that lie on p are met exactly, up to the rounding of the roots.
-    constexpr double slack = 1e-12;
-    if (std::abs(t.imag()) > 1e-7 || t.real() < -slack || t.real() > 1.0 + slack) continue;
-    positions.push_back(std::clamp(t.real(), 0.0, 1.0));
+  double from = 0.0;
+  for (const double to : miss.turning_points()) {
+    const std::optional<double> t = root_between(miss, from, to);
+    if (t && (positions.empty() || *t > positions.back())) positions.push_back(*t);
+    from = to;
   }
-  std::sort(positions.begin(), positions.end());
   return positions;
 }
 

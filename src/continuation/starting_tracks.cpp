@@ -33,8 +33,9 @@ bool near_real(Complex s, double s_ref) {
 }  // namespace
 
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
-                                           const std::vector<StartingMode>& modes, int n_modes,
-                                           double s_ref) {
+                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref,
+                                           double least_scale) {
+  s_ref = std::max(s_ref, least_scale);
   const std::vector<int> labels = group_labels(modes, s_ref);
   std::vector<StartingGroup> groups;
   for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
@@ -63,8 +64,8 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
       if (group.pair.is_real) group.pair.Z.imag().setZero();
     } else {
       const Complex centre = is_real ? Complex(group.roots.mean().real()) : group.roots.mean();
-      group.pair =
-          invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, group.roots.size(), is_real);
+      group.pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, group.roots.size(),
+                                      is_real, least_scale);
     }
     groups.push_back(std::move(group));
   }

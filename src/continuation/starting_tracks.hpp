@@ -13,8 +13,11 @@ struct StartingGroup {
   std::vector<int> modes;  ///< mode number of every root, or Track::no_mode, Track::guest
 };
 
-/// Groups of the first `n_modes` modes of the spectrum; later ones join as guests where they are too close.
+/// `least_scale`: magnitude of eigenvalues beside the point, where those of the pencil vanish with its
+/// stiffness. Groups of the first `n_modes` modes of the spectrum; later ones join as guests where they are
+/// too close.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
-                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref);
+                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref,
+                                           double least_scale = 0.0);
 
 }  // namespace eigentrail

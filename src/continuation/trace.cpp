@@ -7,8 +7,9 @@
 namespace eigentrail {
 
 bool has_started(TraceStatus status) {
-  return status == TraceStatus::completed || status == TraceStatus::step_too_small ||
-         status == TraceStatus::too_many_nodes || status == TraceStatus::stopped;
+  return status == TraceStatus::completed || status == TraceStatus::no_branch ||
+         status == TraceStatus::step_too_small || status == TraceStatus::too_many_nodes ||
+         status == TraceStatus::stopped;
 }
 
 TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "eigentrail/core/text.hpp"
 
@@ -30,6 +31,23 @@ class OptionReader {
   void operator()(const char* key, const char*, int& value) {
     if (table_.has(key)) value = whole_number(key);
   }
+  /// A whole number, or a text of some: "1, 2".
+  void operator()(const char* key, const char*, std::vector<int>& value) {
+    if (!table_.has(key)) return;
+    if (!is_text(key)) {
+      value = {whole_number(key)};
+      return;
+    }
+    value.clear();
+    std::istringstream text(table_.text(key));
+    for (std::string item; std::getline(text, item, ',');) {
+      std::istringstream digits(item);
+      int number = 0;
+      if (!(digits >> number) || !(digits >> std::ws).eof())
+        table_.fail(key, "expected whole numbers separated by commas, found \"" + table_.text(key) + "\"");
+      value.push_back(number);
+    }
+  }
   void operator()(const char* key, const char*, std::optional<double>& value) {
     if (table_.has(key)) value = number(key);
   }
@@ -43,13 +61,14 @@ class OptionReader {
   }
 
  private:
-  bool is_all(const char* key) {
+  bool is_text(const char* key) {
     try {
-      return table_.text(key) == "all";
+      return !table_.text(key).empty();
     } catch (const InputError&) {
       return false;
     }
   }
+  bool is_all(const char* key) { return is_text(key) && table_.text(key) == "all"; }
 
   /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
   double number(const char* key) {
@@ -140,6 +159,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(positive(options.first_step), "first_step", "must be positive");
   require(positive(options.max_step), "max_step", "must be positive");
   require(options.max_nodes >= 2, "max_nodes", "must be at least 2");
+  for (const int branch : options.branch)
+    require(branch >= 1 && branch <= 3, "branch", "must be 1, 2 or 3; found " + std::to_string(branch));
   return faults;
 }
 
@@ -186,6 +207,10 @@ OptionTexts describe_options(const TraceOptions& options) {
       texts.emplace_back(key, value);
     } else if constexpr (std::is_same_v<T, bool>) {
       texts.emplace_back(key, value ? "true" : "false");
+    } else if constexpr (std::is_same_v<T, std::vector<int>>) {
+      std::string list;
+      for (const int item : value) list += (list.empty() ? "" : ", ") + std::to_string(item);
+      texts.emplace_back(key, list.empty() ? "auto" : list);
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
       texts.emplace_back(key, value ? std::to_string(*value) : "all");
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {

@@ -120,6 +120,7 @@ bool Tracer::advance(StepControl& control) {
   std::optional<PathNode> next;
   double error = 0.0;
   Trouble trouble = attempt(h, next);
+  if (bridge_branch_point(h, trouble ? nullptr : &*next)) return true;
   if (!trouble) trouble = judge(h, *next, error);
   if (trouble) {
     if (remedy(trouble, h, next)) return true;
@@ -130,7 +131,7 @@ bool Tracer::advance(StepControl& control) {
       return control.exhausted() ? give_up(trouble) : true;
     }
   }
-  if (!land_on_end(h, next) || !land_on_meeting(h, next)) {
+  if (!land_on_end(h, next) || !land_on_fold(h, next) || !land_on_meeting(h, next)) {
     control.reject(length, INFINITY);
     return control.exhausted() ? give_up(trouble) : true;
   }
@@ -154,6 +155,13 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
     prediction.p = options_.to;
   prediction.equilibrium = {evaluate_series(base.path.x, h), evaluate_series(base.path.lambda, h), true};
   prediction.plane = plane_;
+  const double here = coordinate(prediction.equilibrium.x, prediction.p);
+  if (bridge_ && bridge_->covers(here)) {
+    const bool at_branch = on_branch_point(here);
+    prediction.known = bridge_->path(at_branch ? branch_.coordinate : here, problem_.order + 1);
+    prediction.p = prediction.known->parameters(problem_.traced, 0);
+    if (at_branch) prediction.p = prediction.known->parameters(problem_.traced, 0) = branch_.p;
+  }
   for (const Track& track : base.tracks) {
     InvariantPair pair;
     pair.chart = track.pair.chart;
@@ -385,6 +393,11 @@ bool Tracer::accept(double h, PathNode next, double next_step) {
   }
   const bool go_on = emit(next, &step);
   for (Track& track : next.tracks) track.arriving = track.modes;
+  if (leaves_path_at(next)) {
+    node_ = std::move(next);
+    return go_on && leave_path(choice_at(branch_points_++));
+  }
+  if (on_branch_point(coordinate(next.path.x.col(0), next.p))) ++branch_points_;
   const std::size_t before = next.tracks.size();
   part(problem_, &node_, next, next_step, h, part_reach_, accepted_share * options_.tolerance,
        result_.counts);
@@ -393,6 +406,7 @@ bool Tracer::accept(double h, PathNode next, double next_step) {
   longest_step_ = std::max(std::abs(h), 0.85 * longest_step_);
   node_ = std::move(next);
   merges_at_node_ = 0;
+  bridges_tried_ = 0;
   renew_plane();
   turn_to_plane(direction_ * next_step);
   return go_on;

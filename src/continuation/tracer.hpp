@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "continuation/bridge.hpp"
 #include "continuation/meetings.hpp"
 #include "continuation/regrouping.hpp"
 #include "continuation/reparametrize.hpp"
@@ -113,9 +114,47 @@ class Tracer {
   PathScales path_scales();
   bool reached_end(const PathNode& node) const;
   bool land_on_end(double& h, std::optional<PathNode>& next);
+  double heading(const PathNode& node, double towards) const;
+  double fold_distance(const PathNode& node) const;
+  bool land_on_fold(double& h, std::optional<PathNode>& next);
   void find_folds(double h, const PathNode& next);
   void add_static_event(const PathNode& node, Event event);
   void note_branch_point(double p);
+
+  // tracer_branches.cpp: over points where another path crosses.
+  /// A solved point of the path beside a branch point.
+  struct Anchor {
+    double coordinate = 0.0;
+    Path path;
+    double heading = 1.0;                ///< dp/dsigma
+    double sign = 0.0, logarithm = 0.0;  ///< of det T^T K T
+  };
+  double coordinate(const Vector& x, double p) const;
+  bool on_branch_point(double coordinate) const;
+  std::optional<double> expect_branch_point(double h, const PathNode* next) const;
+  std::optional<Anchor> anchor(double distance);
+  Bridge::Sizes bridge_sizes();
+  bool build_bridge(double guess, double h);
+  double locate_on(const Bridge& bridge, const Anchor& left, const Anchor& right, double guess);
+  bool bridge_branch_point(double h, const PathNode* next);
+  void bridge_start(PathPoint& point);
+  std::optional<Spectrum> spectrum_beside_branch_point();
+  double distance_to_branch_point() const;
+  void record_branch_point(const PathNode& node);
+
+  // tracer_branch_choice.cpp: which path to go on along.
+  /// The other path at a branch point: a plane across it, and the sign on it of choice 2.
+  struct Crossing {
+    PathPlane plane;
+    double direction = 1.0;
+  };
+  int choice_at(std::size_t branch_point) const;
+  bool leaves_path_at(const PathNode& node) const;
+  std::optional<PathPlane> plane_across_other_path(const PathNode& node);
+  std::optional<Anchor> anchor_on(const PathPlane& plane, const PathNode& node, double distance);
+  std::optional<Bridge> bridge_other_path(const PathPlane& plane, const PathNode& node);
+  void survey_branch_point(const PathNode& node);
+  bool leave_path(int choice);
 
   // tracer_completeness.cpp
   void complete(PathNode& node);
@@ -134,6 +173,14 @@ class Tracer {
   double direction_ = 1.0;  ///< sign of steps in the path's coordinate
   PathNode node_;           ///< the last accepted point
   std::optional<PathPlane> plane_;
+  /// Where the steady equations are too near to singular to be solved; in the coordinate of `plane_`.
+  std::optional<Bridge> bridge_;
+  struct {
+    double coordinate = 0.0, p = 0.0;
+  } branch_;  ///< the branch point on the bridge
+  std::optional<Crossing> crossing_;
+  std::size_t branch_points_ = 0;   ///< passed so far
+  int bridges_tried_ = 0;           ///< from the last point
   std::vector<bool> certified_;     ///< per track of the step at hand
   double uncertified_below_ = 0.0;  ///< steps shorter than this are taken without certificate
   bool follows_all_ = false;

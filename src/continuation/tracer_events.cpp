@@ -11,6 +11,7 @@ void Tracer::find_events(double h, const PathNode& next) {
   const EventWork work(result_.counts);
   find_axis_crossings(h, next);
   find_veerings(h, next);
+  record_branch_point(next);
   find_folds(h, next);
 }
 

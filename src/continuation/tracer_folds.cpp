@@ -10,18 +10,19 @@ namespace {
 
 /// Share of the parameter's force in the kernel of a singular stiffness below which another path crosses.
 constexpr double branch_point_share = 1e-3;
+constexpr double on_fold = 1e-9;  ///< a point that is nearer to a fold than this lies on it
 
 }  // namespace
 
 bool Tracer::reached_end(const PathNode& node) const {
   if (!plane_) return node.p == options_.to;
-  const double heading = coefficient(node.path.parameters, problem_.traced, 1);
-  const bool outward = heading * (options_.to - options_.from) > 0.0;
+  const bool outward = heading(node, 1.0) * (options_.to - options_.from) > 0.0;
   return node.p == options_.to || (node.p == options_.from && !outward);
 }
 
 double Tracer::remaining() const {
-  return plane_ ? std::numeric_limits<double>::max() : std::abs(options_.to - node_.p);
+  const double to_branch_point = distance_to_branch_point();
+  return plane_ ? to_branch_point : std::min(to_branch_point, std::abs(options_.to - node_.p));
 }
 
 /// One length for the whole path: the largest position so far, which may pass zero later.
@@ -33,11 +34,13 @@ PathScales Tracer::path_scales() {
 /// Where the equilibrium's series falls faster along the path than in p, the path is bending back: a fold.
 bool Tracer::turn_to_plane(double h) {
   if (plane_ || problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return false;
+  if (bridge_ && bridge_->covers(node_.p)) return false;
   const auto plane = plane_along(node_.path, problem_.traced, path_scales(), direction_);
   PathNode turned = node_;
   reparametrize(turned, plane, problem_.traced);
   if (!falls_faster(turned.path, node_.path, problem_.traced, path_scales(), h)) return false;
   plane_ = plane;
+  bridge_.reset();
   direction_ = 1.0;
   turned_step_ = std::abs(h / coefficient(turned.path.parameters, problem_.traced, 1));
   node_ = std::move(turned);
@@ -48,6 +51,8 @@ bool Tracer::turn_to_plane(double h) {
 /// A plane that the path meets at a slant is replaced by one across it.
 void Tracer::renew_plane() {
   if (!plane_ || slant(*plane_, node_.path, problem_.traced, path_scales()) > 0.7) return;
+  if (bridge_ && bridge_->covers(coordinate(node_.path.x.col(0), node_.p))) return;
+  bridge_.reset();
   plane_ = plane_along(node_.path, problem_.traced, path_scales(), 1.0);
   reparametrize(node_, *plane_, problem_.traced);
   ++result_.regroupings.planes;
@@ -83,9 +88,13 @@ void Tracer::add_static_event(const PathNode& node, Event event) {
   const bool moves = !problem_.structure.known_equilibrium;
   const double scale = std::max(problem_.s_ref, 1e-300);
   const bool zero = std::abs(event.s) <= 1e-2 * scale;
-  if (!moves || !zero || (event.kind != EventKind::collision && event.kind != EventKind::divergence)) {
+  const bool of_one = event.kind == EventKind::crossing && event.modes.size() == 1;
+  if (!moves || !zero ||
+      !(event.kind == EventKind::collision || event.kind == EventKind::divergence || of_one)) {
     return add_event(std::move(event));
   }
+  // The branch point is an event of its own.
+  if (bridge_ && std::abs(event.p - branch_.p) <= 1e-8 * range()) return;
   const double share =
       kernel_share_of_parameter(problem_.model, node.path, problem_.traced, node.linearization,
                                 node.basis.T[0], result_.counts.evaluations);
@@ -103,41 +112,64 @@ void Tracer::note_branch_point(double p) {
                           "; the trace stays on its own");
 }
 
-void Tracer::find_folds(double h, const PathNode& next) {
-  if (!plane_) return;
-  const double before = coefficient(node_.path.parameters, problem_.traced, 1);
-  const double behind = coefficient(next.path.parameters, problem_.traced, 1);
-  if (!(before * behind < 0.0)) return;
+double Tracer::fold_distance(const PathNode& node) const {
+  const auto& p = node.path.parameters;
+  return -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
+}
+
+/// dp/dsigma beside a point, on the side of `towards`: of a point that lies on a fold, up to rounding, its
+/// own means nothing.
+double Tracer::heading(const PathNode& node, double towards) const {
+  const bool on_it = std::abs(fold_distance(node)) <= on_fold;
+  return on_it ? 2.0 * coefficient(node.path.parameters, problem_.traced, 2) * towards
+               : coefficient(node.path.parameters, problem_.traced, 1);
+}
+
+/// A fold becomes a point of the trace: beside it p(sigma) has to be told relatively to its value there, for
+/// eigenvalues vary like the root of the distance.
+bool Tracer::land_on_fold(double& h, std::optional<PathNode>& next) {
+  if (!plane_) return true;
+  const double before = heading(node_, h);
+  const double behind = heading(*next, -h);
+  if (!(before * behind < 0.0)) return true;
+  const EventWork work(result_.counts);
   double distance = h * before / (before - behind);
-  for (int i = 1; i <= most_retrackings; ++i) {
-    const std::optional<PathNode> point = probe(node_, distance);
-    if (!point) break;
-    const auto& p = point->path.parameters;
-    const double move = -coefficient(p, problem_.traced, 1) / (2.0 * coefficient(p, problem_.traced, 2));
-    if (!std::isfinite(move)) break;
-    distance += move;
-    if (std::abs(move) > 1e-9 && i < most_retrackings) continue;
-    const double share =
-        kernel_share_of_parameter(problem_.model, point->path, problem_.traced, point->linearization,
-                                  point->basis.T[0], result_.counts.evaluations);
-    Event event;
-    event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
-    if (event.kind == EventKind::pitchfork) note_branch_point(point->p);
-    event.p = point->p + 0.5 * move * coefficient(p, problem_.traced, 1);
-    event.retrackings = i;
-    event.node = result_.nodes;
-    // The eigenvalue that vanishes with the tangent stiffness.
-    double least = INFINITY;
-    for (std::size_t k = 0; k < point->tracks.size(); ++k) {
-      const Track& track = point->tracks[k];
-      const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
-      if (size >= least) continue;
-      least = size;
-      event.modes = sorted_modes(node_.tracks[k].modes);
+  double last_move = INFINITY;
+  for (int i = 0; i < most_retrackings; ++i) {
+    if (attempt(distance, next)) return false;
+    const double move = fold_distance(*next);
+    if (std::abs(move) <= 1e-13 || (std::abs(move) > 0.5 * last_move && std::abs(move) <= on_fold)) {
+      h = distance;
+      return true;
     }
-    add_event(std::move(event));
-    break;
+    last_move = std::abs(move);
+    distance += move;
+    if (!(distance / h > 0.0 && distance / h < 1.0)) return false;
   }
+  return false;
+}
+
+void Tracer::find_folds(double h, const PathNode& next) {
+  if (!plane_ || !(heading(next, -h) * heading(next, h) < 0.0)) return;
+  if (on_branch_point(coordinate(next.path.x.col(0), next.p))) return;
+  const double share =
+      kernel_share_of_parameter(problem_.model, next.path, problem_.traced, next.linearization,
+                                next.basis.T[0], result_.counts.evaluations);
+  Event event;
+  event.kind = share > branch_point_share ? EventKind::fold : EventKind::pitchfork;
+  if (event.kind == EventKind::pitchfork) note_branch_point(next.p);
+  event.p = next.p + 0.5 * fold_distance(next) * coefficient(next.path.parameters, problem_.traced, 1);
+  event.retrackings = 1;
+  event.node = result_.nodes;
+  // The eigenvalue that vanishes with the tangent stiffness.
+  double least = INFINITY;
+  for (const Track& track : next.tracks) {
+    const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
+    if (size >= least) continue;
+    least = size;
+    event.modes = sorted_modes(track.arriving);
+  }
+  add_event(std::move(event));
 }
 
 }  // namespace eigentrail

@@ -38,6 +38,7 @@ void Tracer::label_arrival(double h, PathNode& next) const {
 
 /// Where eigenvalues of a block coincide its modes are ordered anew; elsewhere nothing changes.
 void Tracer::label_departure(double h, PathNode& next, const std::vector<bool>& coincide) {
+  if (leaves_path_at(next)) return;  // the other path has its own
   for (std::size_t i = 0; i < next.tracks.size(); ++i) {
     Track& track = next.tracks[i];
     track.departure.reset();

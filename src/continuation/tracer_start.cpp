@@ -22,6 +22,7 @@ bool Tracer::start() {
   const Vector guess = problem_.model.initial_guess(parameters_at(problem_, options_.from));
   PathPoint point = reduce_at(problem_, options_.from, {guess, Vector()}, Matrix(), counts);
   if (point.status != PointStatus::computed) return stop(TraceStatus::no_equilibrium, point.message);
+  bridge_start(point);
   result_.n_independent = point.pencil.size();
   const auto modes = starting_modes(point.pencil);
   if (!modes) return false;
@@ -29,8 +30,12 @@ bool Tracer::start() {
   if (!start_tracks(point, *modes, node)) return false;
   observer_.started({problem_.s_ref, result_.n_available, result_.n_modes});
   node_ = std::move(*node);
+  record_branch_point(node_);
   record_meetings_at_start();
-  return emit(node_, nullptr);
+  if (!emit(node_, nullptr)) return false;
+  if (!on_branch_point(options_.from)) return true;
+  const int choice = choice_at(branch_points_++);
+  return choice == 1 || leave_path(choice);
 }
 
 /// All modes by ascending |s|, how many of them are followed, and the magnitudes that count as zero and
@@ -63,17 +68,22 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPen
   result_.n_columns = result_.n_modes;
   // Infinite eigenvalues are not followed: the checksum would miss them.
   follows_all_ = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  const double median = std::abs(modes[static_cast<std::size_t>(result_.n_modes) / 2].s);
+  // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
+  const auto beside = bridge_ ? spectrum_beside_branch_point() : std::nullopt;
+  const auto& typical = beside ? beside->modes : modes;
+  const auto middle = std::min(static_cast<std::size_t>(result_.n_modes) / 2, typical.size() - 1);
+  const double median = std::abs(typical[middle].s);
   // A median of rounding (rigid-body modes) measures nothing; the pencil's own scale does.
   problem_.s_ref = options_.reference.value_or(reference_share * std::max(median, 1e-6 * spectrum.scale));
-  problem_.s_max = infinity_share * std::max(std::abs(modes.back().s), problem_.s_ref);
+  problem_.s_max = infinity_share * std::max(std::abs(typical.back().s), problem_.s_ref);
   result_.s_ref = problem_.s_ref;
   return std::move(modes);
 }
 
 bool Tracer::start_tracks(PathPoint& point, const std::vector<StartingMode>& modes,
                           std::optional<PathNode>& node) {
-  const auto groups = starting_groups(point.pencil, modes, result_.n_modes, problem_.s_ref);
+  const double least_scale = bridge_ ? problem_.s_ref / reference_share : 0.0;
+  const auto groups = starting_groups(point.pencil, modes, result_.n_modes, problem_.s_ref, least_scale);
   for (const StartingGroup& group : groups) {
     const StageTimer timer(result_.counts.modes_seconds);
     point.pairs.push_back(correct_pair(PencilAtPoint(point.pencil), group.pair, problem_.s_ref,

@@ -126,11 +126,16 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
 }
 
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
-                                 Eigen::Index k, bool is_real) {
+                                 Eigen::Index k, bool is_real, double least_scale) {
   constexpr int iterations = 6;
   constexpr double offset = 1e-5;  // of the spectrum's scale: the shift must not hit an eigenvalue
   const Eigen::Index n = M.rows();
-  const Scaling scaling = fan_lin_van_dooren(M, C, K);
+  Scaling scaling = fan_lin_van_dooren(M, C, K);
+  // A stiffness that is rounding has no scale.
+  if (scaling.gamma < least_scale) {
+    scaling.gamma = least_scale;
+    scaling.delta = 2.0 / (M.norm() * least_scale * least_scale + C.norm() * least_scale);
+  }
   Matrix a, b;
   linearize(scaling.delta * scaling.gamma * scaling.gamma * M, scaling.delta * scaling.gamma * C,
             scaling.delta * K, a, b);

@@ -1,9 +1,15 @@
 #include "eigentrail/steady/kkt_factorization.hpp"
 
+#include <algorithm>
+
 namespace eigentrail {
 namespace {
 
 constexpr double singular = 1e-14;
+
+double one_norm(const Matrix& matrix) {
+  return matrix.cwiseAbs().colwise().sum().maxCoeff();
+}
 
 }  // namespace
 
@@ -12,9 +18,13 @@ KktFactorization::KktFactorization(const Matrix& K, const Matrix& A) : K_(K), co
   if (Q2.cols() == 0) return;
   const Matrix tangent = Q2.transpose() * K * Q2;
   tangent_.compute(tangent);
-  reciprocal_condition_ = tangent.isZero(0.0) ? 0.0 : tangent_.rcond();
+  // Measured by K, whose rounding the projection carries: a tangent stiffness that cancels is zero, also
+  // where it is a single number.
+  const double scale = std::max(one_norm(K), one_norm(tangent));
+  reciprocal_condition_ = tangent.isZero(0.0) ? 0.0 : tangent_.rcond() * (one_norm(tangent) / scale);
   if (!(reciprocal_condition_ > singular)) {
-    singular_tangent_.setThreshold(singular);
+    const double largest = tangent.colwise().norm().maxCoeff();
+    singular_tangent_.setThreshold(largest > 0.0 ? singular * scale / largest : 1.0);
     singular_tangent_.compute(tangent);
   }
 }

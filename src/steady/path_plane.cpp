@@ -71,6 +71,19 @@ double positive(double value) {
   return value > 0.0 && std::isfinite(value) ? value : 1.0;
 }
 
+/// Least-squares multipliers (Eq. 15).
+EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
+                                     EvaluationCounts& counts) {
+  at.lambda = Vector::Zero(model.n_constraints());
+  const Path path{parameters, at.x, at.lambda};
+  SteadyResidual residual;
+  if (auto fault = model.residual(path, 0, residual, counts)) return fault;
+  if (auto fault = model.linearize(path, 0, at.linearization, counts)) return fault;
+  at.lambda =
+      ConstraintFactorization(at.linearization.A[0]).transposed_pseudo_inverse_times(-residual.force.col(0));
+  return {};
+}
+
 }  // namespace
 
 Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
@@ -85,6 +98,11 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   double last = INFINITY;
   SteadyResidual residual;
   Vector force, constraint, dx, dl;
+  parameters[traced] = p;
+  if (lambda.size() != model.n_constraints() && estimate_multipliers(model, parameters, result, counts)) {
+    result.status = SteadyStatus::not_finite;
+    return result;
+  }
   for (int i = 0; i < options.max_iterations; ++i) {
     parameters[traced] = p;
     const Path path{parameters, result.x, result.lambda};
@@ -161,6 +179,27 @@ double kernel_share_of_parameter(const Model& model, const Path& point, int trac
   const Vector kernel = svd.matrixU().col(tangential.size() - 1);
   const double length = change.norm();
   return length > 0.0 ? std::abs(kernel.dot(tangential)) / length : 0.0;
+}
+
+Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
+                                  const Linearization& linearization, const Matrix& tangent_basis,
+                                  EvaluationCounts& counts) {
+  Vector force, constraint;
+  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
+                      constraint, counts))
+    return {};
+  const Matrix& K = linearization.K[0];
+  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis,
+                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Index regular = tangent_basis.cols() - 1;
+  const Vector loads =
+      svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * (force + K * follow);
+  const Vector y = svd.matrixV().leftCols(regular) * loads.cwiseQuotient(svd.singularValues().head(regular));
+  Matrix directions(tangent_basis.rows() + 1, 2);
+  directions.col(0) << tangent_basis * svd.matrixV().col(regular), 0.0;
+  directions.col(1) << follow - tangent_basis * y, 1.0;
+  return directions;
 }
 
 }  // namespace eigentrail

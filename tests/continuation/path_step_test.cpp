@@ -247,6 +247,33 @@ TEST_P(FoldedStep, PassesAParameterTwiceBeforeTheFoldOnceAtItAndNeverBehind) {
 
 INSTANTIATE_TEST_SUITE_P(SeriesLengths, FoldedStep, testing::Values(2, 3, 4, 5));
 
+/// p = cos(sigma): a step that begins, or ends, on the fold knows positions beside it to their own digits,
+/// not to those of p.
+TEST(StepPositions, BesideAFoldAtAnEndAreRelativelyAccurate) {
+  constexpr double length = 0.3;
+  const auto series = [](double at) {
+    Eigen::RowVectorXd c(5);
+    c << std::cos(at), -std::sin(at), -std::cos(at) / 2.0, std::sin(at) / 6.0, std::cos(at) / 24.0;
+    return c;
+  };
+  for (const double depth : {1e-4, 1e-8, 1e-12, 1e-15}) {
+    const double p = 1.0 - depth;
+    const double sigma = 2.0 * std::asin(std::sqrt((1.0 - p) / 2.0));
+    PathStep step;
+    step.length = length;
+    step.parameter.resize(2, 5);
+    step.parameter << series(0.0), series(length);
+    std::vector<double> found = step_positions(step, p);
+    ASSERT_EQ(found.size(), 1U) << depth;
+    EXPECT_NEAR(found[0] * length, sigma, 1e-11 * sigma + 1e-17) << depth;
+    step.parameter << series(-length), series(0.0);
+    found = step_positions(step, p);
+    ASSERT_EQ(found.size(), 1U) << depth;
+    // Positions near 1 are rounded to its units.
+    EXPECT_NEAR((1.0 - found[0]) * length, sigma, 1e-11 * sigma + 1e-16) << depth;
+  }
+}
+
 TEST(StepPositions, OfAWavyPathAreAll) {
   // p = t (t - 0.5) (t - 1) passes zero at both ends and in the middle.
   const PathStep step = curved_step(ComplexVector{{0.0, 0.5, -1.5, 1.0}}, 2.0, 4);

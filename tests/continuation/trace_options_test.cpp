@@ -57,6 +57,13 @@ TEST(TraceOptions, ProvenanceListsEveryOption) {
             texts.end());
 }
 
+TEST(TraceOptions, BranchesAreANumberOrAList) {
+  const std::string range = "parameter = \"p\"\nfrom = 0.1\nto = 1\n";
+  EXPECT_TRUE(read(range).branch.empty());
+  EXPECT_EQ(read(range + "branch = 2\n").branch, std::vector<int>{2});
+  EXPECT_EQ(read(range + "branch = \"1, 3,2\"\n").branch, (std::vector<int>{1, 3, 2}));
+}
+
 struct BadOption {
   std::string name, trace, fragment;
 };
@@ -82,6 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"FractionalOrder", "to = 1\norder = 2.5\n", "[trace] order: expected a whole number"},
         BadOption{"NoModes", "to = 1\nmodes = 0\n", "[trace] modes: must be at least 1"},
         BadOption{"ModesText", "to = 1\nmodes = \"some\"\n", "[trace] modes"},
+        BadOption{"NoSuchBranch", "to = 1\nbranch = 4\n", "[trace] branch: must be 1, 2 or 3; found 4"},
+        BadOption{"BranchText", "to = 1\nbranch = \"1, left\"\n", "[trace] branch: expected whole numbers"},
         BadOption{"NegativeStep", "to = 1\nmax_step = -1\n", "[trace] max_step: must be positive"},
         BadOption{"CertifyText", "to = 1\ncertify = \"no\"\n", "[trace] certify: expected true or false"},
         BadOption{"CertifyNumber", "to = 1\ncertify = 1\n", "[trace] certify: expected true or false"},

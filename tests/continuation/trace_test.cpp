@@ -261,6 +261,59 @@ TEST(Trace, RigidBodyModeAloneCanBeFollowed) {
   EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
 }
 
+/// Pushed along its circle with p times its weight: sin(angle) = p, a fold at p = 1. There is a point on it,
+/// so that the eigenvalue, which varies like the fourth root of 1 - p, is known to the rounding of p.
+TEST(Trace, HasAPointOnAFold) {
+  const RecordedTrace trace = record_trace(make_setting(R"(
+[parameters]
+g = 9.81
+p = 0.0
+[trace]
+parameter = "p"
+from = 0
+to = 1.2
+tolerance = 1e-9
+[gravity]
+acceleration = [0, 0, "-g"]
+[[point]]
+name = "bob"
+mass = 1.0
+position = [0, 0, -1]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.0
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p*g"
+angle = "-pi/2"
+axis = [0, 1, 0]
+)"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  ASSERT_EQ(trace.result.events.size(), 1U);
+  EXPECT_EQ(trace.result.events[0].kind, EventKind::fold);
+  EXPECT_NEAR(trace.result.events[0].p, 1.0, 1e-15);
+  const double nearest = std::abs(std::max_element(trace.nodes.begin(), trace.nodes.end(),
+                                                   [](const auto& a, const auto& b) { return a.p < b.p; })
+                                      ->p -
+                                  1.0);
+  EXPECT_LE(nearest, 1e-15);
+  for (const double depth : {1e-3, 1e-6, 1e-9}) {
+    const double p = 1.0 - depth;
+    const double expected = std::pow(9.81 * 9.81 * (1.0 - p) * (1.0 + p), 0.25);
+    const double rounding = 2.0 * std::numeric_limits<double>::epsilon() / (4.0 * (1.0 - p));
+    const auto found = trace.all_eigenvalues_at(p);
+    ASSERT_EQ(found.size(), 2U);  // hanging, and standing on the way back
+    EXPECT_NEAR(found[0][0].imag(), expected, (1e-8 + rounding) * expected) << depth;
+    EXPECT_NEAR(std::abs(found[1][0].real()), expected, (1e-8 + rounding) * expected) << depth;
+  }
+}
+
 TEST(Trace, StopsWhenTheObserverSaysSo) {
   const Setting setting = scene_setting("rotating_mass");
   int seen = 0;

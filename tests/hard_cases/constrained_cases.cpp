@@ -59,11 +59,10 @@ HardCase spring_pendulum(const std::string& name, const std::string& to, double 
       "from = \"2 * mass * g / length\"\nto = \"" +
       to + "\"\n\n" + spring_pendulum_elements;
   result.pencil = [](WideComplex k, int branch) { return oscillator(spring_pendulum_stiffness(k, branch)); };
-  const bool beyond = factor < 1.0;
-  result.spectrum = [beyond, critical](double k) {
-    Spectra spectra(beyond ? 2 : 1);
+  result.spectrum = [critical](double k) {
+    Spectra spectra(2);
     if (k >= critical) spectra[0] = undamped_pairs({spring_pendulum_stiffness(k, 0)});
-    if (beyond) spectra[1] = undamped_pairs({spring_pendulum_stiffness(k, 1)});
+    spectra[1] = undamped_pairs({spring_pendulum_stiffness(k, 1)});
     return spectra;
   };
   result.special = {{"pitchfork", critical, 0.0}};

@@ -81,7 +81,7 @@ CaseReference make_reference(const HardCase& hard_case, int random_samples) {
   CaseReference reference;
   reference.hard_case = &hard_case;
   for (const double p : sample_parameters(hard_case, random_samples))
-    reference.samples.push_back({p, hard_case.spectrum(p)});
+    reference.samples.push_back(sample_at(hard_case, p));
   if (!hard_case.has_branches) reference.labels = reference_labels(hard_case);
   return reference;
 }

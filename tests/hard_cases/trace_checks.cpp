@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -15,6 +16,12 @@ namespace {
 
 /// Veerings are events up to this share of the range.
 constexpr double widest_veering = 0.01;
+
+/// Beside a fold eigenvalues vary like the root of the distance. Numbers of the scene and residuals are
+/// rounded, which moves the fold by this, in units of the range or the parameter; nothing in double precision
+/// tells eigenvalues at p from those at p +- this.
+constexpr double fold_rounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double beside_fold = 1e-5;  ///< of the range: where that matters at the tolerances tried
 
 /// Roots of every block at a place, in the chart of the block.
 std::vector<ComplexVector> roots_at(const PathStep& step, double t) {
@@ -42,10 +49,10 @@ double difference(const ComplexVector& found, const ComplexVector& exact, double
   return worst;
 }
 
-/// Error at one place against one spectrum: block by block after a one-to-one assignment of all roots.
-double error_at(const PathStep& step, double t, const std::vector<Complex>& exact, double s_ref,
-                double s_max) {
-  const std::vector<ComplexVector> blocks = roots_at(step, t);
+/// The eigenvalues of a spectrum that belong to the blocks of a step at a place, each in the chart of its
+/// block: a one-to-one assignment of all roots.
+std::vector<ComplexVector> targets_at(const PathStep& step, const std::vector<ComplexVector>& blocks,
+                                      const std::vector<Complex>& exact, double s_ref, double s_max) {
   std::vector<Complex> found;
   std::vector<Chart> charts;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -70,17 +77,37 @@ double error_at(const PathStep& step, double t, const std::vector<Complex>& exac
     }
   }
   const std::vector<int> assignment = optimal_assignment(cost);
-  double worst = 0.0;
+  std::vector<ComplexVector> targets;
   std::size_t at = 0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    ComplexVector target(blocks[i].size());
+  for (const ComplexVector& block : blocks) {
+    ComplexVector target(block.size());
     for (Eigen::Index k = 0; k < target.size(); ++k, ++at) {
       const auto j = static_cast<std::size_t>(assignment[at]);
       target[k] = j < exact.size() ? chart_value(exact[j], charts[at]) : Complex(0.0);
     }
-    const double reference = step.blocks[i].chart == Chart::finite ? s_ref : 1.0 / s_max;
-    worst = std::max(worst, difference(blocks[i], target, reference));
+    targets.push_back(std::move(target));
   }
+  return targets;
+}
+
+/// Error at one place against one branch of a sample: the worst block, less what rounding of p explains.
+double error_at(const PathStep& step, double t, const Sample& sample, std::size_t branch, double s_ref,
+                double s_max) {
+  const std::vector<ComplexVector> blocks = roots_at(step, t);
+  const auto exact = targets_at(step, blocks, sample.spectra[branch], s_ref, s_max);
+  double worst = 0.0;
+  std::vector<double> explained(blocks.size(), 0.0);
+  const auto reference = [&](std::size_t i) {
+    return step.blocks[i].chart == Chart::finite ? s_ref : 1.0 / s_max;
+  };
+  for (const Spectra& nearby : sample.nearby) {
+    if (nearby[branch].empty()) continue;
+    const auto moved = targets_at(step, blocks, nearby[branch], s_ref, s_max);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      explained[i] = std::max(explained[i], difference(moved[i], exact[i], reference(i)));
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    worst = std::max(worst, difference(blocks[i], exact[i], reference(i)) - explained[i]);
   return worst;
 }
 
@@ -171,6 +198,19 @@ std::vector<double> sample_parameters(const HardCase& hard_case, int random_samp
   return parameters;
 }
 
+Sample sample_at(const HardCase& hard_case, double p) {
+  Sample sample{p, hard_case.spectrum(p), {}};
+  const double range = std::abs(hard_case.to - hard_case.from);
+  const bool matters =
+      std::any_of(hard_case.special.begin(), hard_case.special.end(), [&](const SpecialPoint& special) {
+        return special.kind == "fold" && std::abs(p - special.parameter) <= beside_fold * range;
+      });
+  if (!matters) return sample;
+  const double rounding = fold_rounding * std::max(range, std::abs(p));
+  for (const double moved : {p - rounding, p + rounding}) sample.nearby.push_back(hard_case.spectrum(moved));
+  return sample;
+}
+
 Accuracy measure_accuracy(const std::vector<Sample>& samples, const RecordedTrace& trace, double tolerance) {
   double s_max = 0.0;
   for (const ModeState& state : trace.modes.front()) s_max = std::max(s_max, std::abs(state.s));
@@ -179,9 +219,10 @@ Accuracy measure_accuracy(const std::vector<Sample>& samples, const RecordedTrac
   for (const Sample& sample : samples) {
     for (const Place& place : places(trace, sample.p)) {
       double best = INFINITY;
-      for (const std::vector<Complex>& exact : sample.spectra) {
-        if (!exact.empty())
-          best = std::min(best, error_at(trace.steps[place.step], place.t, exact, trace.result.s_ref, s_max));
+      for (std::size_t branch = 0; branch < sample.spectra.size(); ++branch) {
+        if (sample.spectra[branch].empty()) continue;
+        const PathStep& step = trace.steps[place.step];
+        best = std::min(best, error_at(step, place.t, sample, branch, trace.result.s_ref, s_max));
       }
       // Behind a fold there is nothing to compare with.
       if (!std::isfinite(best) || best / tolerance <= accuracy.worst_error) continue;

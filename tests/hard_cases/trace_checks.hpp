@@ -21,7 +21,9 @@ std::vector<Place> places(const RecordedTrace& trace, double p);
 struct Sample {
   double p;
   Spectra spectra;
+  std::vector<Spectra> nearby;  ///< beside a fold: at parameters that rounding cannot tell from p
 };
+Sample sample_at(const HardCase& hard_case, double p);
 
 /// Random parameters, and 1e-3 ... 1e-10 of the range beside every special point.
 std::vector<double> sample_parameters(const HardCase& hard_case, int random_samples);

@@ -19,11 +19,6 @@ const std::map<std::string, std::string>& open_cases() {
   static const std::map<std::string, std::string> cases{
       {"H19_pair_through_zero",
        "the pair crosses the imaginary axis where it is defective: no flutter event"},
-      {"C03_fold_in_tangential_force", "eigenvalues 1e-10 of the range beside the fold"},
-      {"C04_spring_pendulum_to_pitchfork", "the path ends in the branch point"},
-      {"C04_spring_pendulum_beyond_pitchfork", "the path touches the branch point and runs back"},
-      {"C05_pushed_pendulum", "eigenvalues 1e-10 of the range beside the fold"},
-      {"C06_von_mises_truss", "stalls between two folds at tolerance 1e-6"},
       {"C07_second_rod_1em8", "KINSOL finds no isolated equilibrium at some lengths"},
       {"whirl_through_zero", "a pair that passes zero without coalescing is called a collision"},
       {"free_chain", "a freedom that is free throughout joins blocks that do not converge"},

@@ -138,7 +138,7 @@ FamilyReport run_family(const PlantedFamily& family, const RunSetting& setting) 
   if (trace.steps.empty()) return report;
   std::vector<Sample> samples;
   for (const double p : sample_parameters(hard_case, random_samples))
-    samples.push_back({p, hard_case.spectrum(p)});
+    samples.push_back(sample_at(hard_case, p));
   report.accuracy = measure_accuracy(samples, trace, setting.tolerance);
   report.events = compare_events(hard_case, trace, setting.tolerance);
   count_kinds(hard_case, trace, report);

@@ -28,6 +28,9 @@ class HermiteInterpolant {
   /// Derivatives with respect to t.
   ComplexVector slope(double t) const;
 
+  /// Coefficients of all functions in powers of (t - t0), column k that of power k <= order.
+  ComplexMatrix series(double t0, int order) const;
+
   /// Estimated largest error on the step of every function of the interpolant of order q - 1: the term k = q,
   /// and what follows it if the terms go on falling as the last two did.
   Vector error_without_last() const;

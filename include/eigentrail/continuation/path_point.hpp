@@ -41,9 +41,9 @@ struct PathNode {
   double p = 0.0;  ///< traced parameter, in its unit
   Path path;       ///< equilibrium series
   std::vector<Track> tracks;
-  Linearization linearization;       ///< series
-  TangentBasis basis;                ///< series
-  ReducedPencil pencil;              ///< series
+  Linearization linearization;  ///< series
+  TangentBasis basis;           ///< series
+  ReducedPencil pencil;         ///< series
 
   /// Coefficient k of the eigenvalue of a track of one mode.
   Complex s(std::size_t track, Eigen::Index k) const { return tracks[track].functions(0, k); }
@@ -117,6 +117,7 @@ struct Prediction {
   EquilibriumGuess equilibrium;
   std::vector<InvariantPair> pairs;     ///< Z in physical coordinates
   std::optional<PathPlane> plane = {};  ///< where p is not given but found: the plane that the point lies on
+  std::optional<Path> known = {};       ///< the equilibrium's series, where it cannot be solved for
 };
 
 enum class PointStatus { computed, no_equilibrium, mode_lost };
@@ -128,6 +129,7 @@ struct PathPoint {
   int lost_track = -1;  ///< the track that was not corrected
   double p = 0.0;
   std::optional<PathPlane> plane;
+  std::optional<Path> known;  ///< as in Prediction
   Equilibrium equilibrium;
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
@@ -144,6 +146,15 @@ Vector parameters_at(const PathProblem& problem, double p);
 PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
                     const Matrix& previous_basis, RunCounts& counts,
                     const std::optional<PathPlane>& plane = std::nullopt);
+
+/// The same on a path whose series is known at the point.
+PathPoint reduce_on(const PathProblem& problem, const Path& known, const Matrix& previous_basis,
+                    RunCounts& counts);
+
+/// Series of the equilibrium at a point along the traced parameter, or along the path's own coordinate when
+/// the point lies on a plane.
+EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& point, int order, Path& path,
+                                   RunCounts& counts);
 
 /// The whole point, from a prediction.
 PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,

@@ -18,6 +18,7 @@ enum class TraceStatus {
   no_modes,         ///< nothing to follow
   multiple_mode,    ///< the modes at the start cannot be told apart
   step_too_small,   ///< stopped on the way; the reason is in the message
+  no_branch,        ///< the path asked for at a branch point was not found
   too_many_nodes,
   stopped  ///< the observer asked to stop
 };

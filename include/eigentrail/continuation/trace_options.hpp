@@ -26,6 +26,10 @@ struct TraceOptions {
   int max_nodes = 100000;            ///< the trace stops there, >= 2
   bool certify = true;               ///< evidence step by step that no modes were exchanged (certificate.hpp)
 
+  std::vector<int> branch =
+      {};  ///< which path to go on along at each branch point, in order, 1 to 3; a single
+           ///< number holds for all; 1 is straight on, also after the last number
+
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
@@ -40,6 +44,10 @@ struct TraceOptions {
     visit("first_step", "length of the first step, in the parameter's unit", self.first_step);
     visit("max_step", "longest step, in the parameter's unit", self.max_step);
     visit("max_nodes", "stop after this many points", self.max_nodes);
+    visit("branch",
+          "which path to go on along where another one crosses: 1 straight on, 2 or 3 the other one's two "
+          "directions; a number for all such points, or a list \"1, 2\"",
+          self.branch);
     visit("certify", "give evidence at every step that no modes were exchanged", self.certify);
   }
 };

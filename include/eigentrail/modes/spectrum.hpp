@@ -30,6 +30,6 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
 /// form: reliable also where single vectors coincide. `is_real` asks for a real block; the centre is then
 /// real. Not yet corrected. Cost one LU of size 2n.
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
-                                 Eigen::Index k, bool is_real);
+                                 Eigen::Index k, bool is_real, double least_scale = 0.0);
 
 }  // namespace eigentrail

@@ -31,7 +31,8 @@ class KktFactorization {
 
   const ConstraintFactorization& constraints() const { return constraints_; }
 
-  /// Reciprocal condition estimate of Q2^T K Q2; near zero at a fold of the equilibrium.
+  /// Reciprocal condition estimate of Q2^T K Q2, relative to the magnitude of K; near zero at a fold of the
+  /// equilibrium.
   double reciprocal_condition() const { return reciprocal_condition_; }
 
  private:

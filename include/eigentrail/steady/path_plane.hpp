@@ -23,7 +23,8 @@ struct PathPlane {
 };
 
 /// Equilibrium at the intersection of the path with the plane through the guess (x, p); Newton from there.
-/// `p` and the result hold the point found. `parameters` are all parameters, the traced one at its guess.
+/// An empty `lambda` is replaced by the least-squares multipliers at the guess. `p` and the result hold the
+/// point found. `parameters` are all parameters, the traced one at its guess.
 Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
                                  const Vector& x, const Vector& lambda, const SteadyOptions& options,
                                  double& p, EvaluationCounts& counts);
@@ -40,5 +41,12 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
 double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
                                  const Linearization& linearization, const Matrix& tangent_basis,
                                  EvaluationCounts& counts);
+
+/// Directions in which paths may leave a point where the tangent stiffness T^T K T is singular and the
+/// parameter's force has no share in its kernel: two columns (dx; dp) of size n + 1. The first is the kernel
+/// of the stiffness, the second the least motion that follows a unit change of the parameter.
+Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
+                                  const Linearization& linearization, const Matrix& tangent_basis,
+                                  EvaluationCounts& counts);
 
 }  // namespace eigentrail

@@ -1,0 +1,202 @@
+// Points where another equilibrium path crosses: passed on either path, from either side, and left on the
+// other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double tolerance = 1e-9;
+
+/// One freedom in the x-z plane, massless rod of length 1.5, hinged at the origin.
+std::string pendulum(const std::string& parameters, const std::string& trace, const std::string& position,
+                     const std::string& elements) {
+  return "[parameters]\n" + parameters + "[trace]\ntolerance = 1e-9\n" + trace +
+         "[gravity]\nacceleration = [0, 0, -9.81]\n[[point]]\nname = \"bob\"\nmass = 2.0\nposition = " +
+         position +
+         "\n[[rod]]\nfrom = [0, 0, 0]\nto = \"bob\"\nlength = 1.5\n[[fixed]]\npoint = \"bob\"\n"
+         "coordinate = \"y\"\n" +
+         elements;
+}
+
+const std::string straight = "[0, 0, -1.5]";
+const std::string tilted = "[1.2, 0, -0.9]";
+
+/// Hangs from a spring that stays vertical (seed paper, Sect. 6.2): tilted for k > m g / l, straight for
+/// every k.
+constexpr double critical_stiffness = 2.0 * 9.81 / 1.5;
+
+Setting spring_pendulum(double from, double to, const std::string& position, const std::string& branch) {
+  std::ostringstream trace;
+  trace.precision(17);
+  trace << "parameter = \"k\"\nfrom = " << from << "\nto = " << to << "\n";
+  if (!branch.empty()) trace << "branch = " << branch << "\n";
+  return make_setting(
+      pendulum("k = 20.0\n", trace.str(), position,
+               "[[guided_spring]]\npoint = \"bob\"\ndirection = [0, 0, 1]\nstiffness = \"k\"\n"));
+}
+
+/// -s^2 on the two paths.
+double tilted_stiffness(double k) {
+  return (k - critical_stiffness) * (k + critical_stiffness) / (2.0 * k);
+}
+double straight_stiffness(double k) {
+  return (critical_stiffness - k) / 2.0;
+}
+
+/// Turns with its plane about the vertical: straight for every speed, tilted for omega^2 > g / l.
+const double critical_speed = std::sqrt(9.81 / 1.5);
+
+Setting whirling_pendulum(double from, double to, const std::string& branch) {
+  std::ostringstream trace;
+  trace << "parameter = \"omega\"\nfrom = " << from << "\nto = " << to << "\nbranch = " << branch << "\n";
+  return make_setting(
+      pendulum("omega = 1.0\n", trace.str(), straight, "[frame]\nangular_velocity = [0, 0, \"omega\"]\n"));
+}
+
+/// Every mode at every passage through p has s^2 = -stiffness of one of the paths.
+void expect_squares(const RecordedTrace& trace, double p, const std::vector<double>& stiffnesses) {
+  const auto passages = trace.all_eigenvalues_at(p);
+  ASSERT_EQ(passages.size(), stiffnesses.size()) << "at " << p;
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    int present = 0;
+    for (const Complex s : passages[i]) {
+      if (!std::isfinite(s.real())) continue;
+      ++present;
+      const double scale = std::max(std::abs(stiffnesses[i]), 1e-4);
+      EXPECT_LT(std::abs(s * s + stiffnesses[i]), 4.0 * tolerance * scale) << "passage " << i << " at " << p;
+    }
+    EXPECT_EQ(present, stiffnesses[i] > 0.0 ? 1 : 2) << "passage " << i << " at " << p;
+  }
+}
+
+/// Completed, with this pitchfork and nothing else, and a point on it.
+void expect_pitchfork(const RecordedTrace& trace, double p) {
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  ASSERT_EQ(trace.result.events.size(), 1U);
+  EXPECT_EQ(trace.result.events[0].kind, EventKind::pitchfork);
+  EXPECT_NEAR(trace.result.events[0].p, p, 1e-11);
+  double nearest = INFINITY;
+  for (const PathNode& node : trace.nodes) nearest = std::min(nearest, std::abs(node.p - p));
+  EXPECT_LT(nearest, 1e-11);
+}
+
+const std::vector<double> beside{1e-8, 1e-5, 1e-2, 1.0, 5.0};
+
+TEST(BranchPoint, IsPassedOnTheStraightPath) {
+  for (const bool down : {true, false}) {
+    const auto trace =
+        record_trace(down ? spring_pendulum(20, 6, straight, "") : spring_pendulum(6, 20, straight, ""));
+    expect_pitchfork(trace, critical_stiffness);
+    for (const double d : beside) {
+      for (const double k : {critical_stiffness - d, critical_stiffness + d})
+        expect_squares(trace, k, {straight_stiffness(k)});
+    }
+  }
+}
+
+TEST(BranchPoint, IsPassedOnTheTiltedPathWhichTurnsBack) {
+  const auto trace = record_trace(spring_pendulum(20, 6, tilted, ""));
+  expect_pitchfork(trace, critical_stiffness);
+  EXPECT_EQ(trace.nodes.back().p, 20.0);
+  EXPECT_NEAR(trace.nodes.back().path.x(0, 0), -trace.nodes.front().path.x(0, 0), 1e-9);
+  for (const double d : beside) {
+    const double k = critical_stiffness + d;
+    expect_squares(trace, k, {tilted_stiffness(k), tilted_stiffness(k)});
+  }
+}
+
+TEST(BranchPoint, IsLeftFromTheStraightPathToEitherSide) {
+  for (const auto& [branch, side] : {std::pair("2", 1.0), std::pair("3", -1.0)}) {
+    const auto trace = record_trace(spring_pendulum(6, 20, straight, branch));
+    expect_pitchfork(trace, critical_stiffness);
+    EXPECT_EQ(trace.nodes.back().p, 20.0);
+    const double cosine = critical_stiffness / 20.0;
+    EXPECT_NEAR(trace.nodes.back().path.x(0, 0), side * 1.5 * std::sqrt(1.0 - cosine * cosine), 1e-10);
+    for (const double d : beside) {
+      expect_squares(trace, critical_stiffness - d, {straight_stiffness(critical_stiffness - d)});
+      expect_squares(trace, critical_stiffness + d, {tilted_stiffness(critical_stiffness + d)});
+    }
+    ASSERT_EQ(trace.result.notes.size(), 1U);
+    EXPECT_NE(trace.result.notes[0].find("branch 2 leaves it"), std::string::npos);
+    EXPECT_NE(trace.result.notes[0].find("the trace took " + std::string(branch)), std::string::npos);
+  }
+}
+
+TEST(BranchPoint, IsLeftFromTheTiltedPathTowardsTheEndFirst) {
+  const auto onward = record_trace(spring_pendulum(20, 6, tilted, "2"));
+  expect_pitchfork(onward, critical_stiffness);
+  EXPECT_EQ(onward.nodes.back().p, 6.0);
+  const auto back = record_trace(spring_pendulum(20, 6, tilted, "\"3, 1\""));
+  expect_pitchfork(back, critical_stiffness);
+  EXPECT_EQ(back.nodes.back().p, 20.0);
+  for (const double d : beside) {
+    const double above = critical_stiffness + d;
+    const double below = critical_stiffness - d;
+    expect_squares(onward, above, {tilted_stiffness(above)});
+    expect_squares(onward, below, {straight_stiffness(below)});
+    expect_squares(back, above, {tilted_stiffness(above), straight_stiffness(above)});
+  }
+}
+
+TEST(BranchPoint, MayBeWhereTheTraceBegins) {
+  for (const auto& [branch, tilts] : {std::pair("1", false), std::pair("2", true)}) {
+    const auto trace = record_trace(spring_pendulum(critical_stiffness, 20, straight, branch));
+    expect_pitchfork(trace, critical_stiffness);
+    for (const double d : beside) {
+      const double k = critical_stiffness + d;
+      expect_squares(trace, k, {tilts ? tilted_stiffness(k) : straight_stiffness(k)});
+    }
+  }
+}
+
+TEST(BranchPoint, MayBeWhereTheTraceEnds) {
+  const auto trace = record_trace(spring_pendulum(20, critical_stiffness, tilted, ""));
+  expect_pitchfork(trace, critical_stiffness);
+  EXPECT_EQ(trace.nodes.back().p, critical_stiffness);
+  EXPECT_NEAR(trace.nodes.back().path.x(0, 0), 0.0, 1e-8);
+  for (const double d : beside)
+    expect_squares(trace, critical_stiffness + d, {tilted_stiffness(critical_stiffness + d)});
+}
+
+/// cos(theta) = g / (l omega^2), s^2 = -omega^2 sin^2(theta).
+TEST(BranchPoint, OfAWhirlingPendulum) {
+  const auto stays = record_trace(whirling_pendulum(1, 5, "1"));
+  const auto swings = record_trace(whirling_pendulum(1, 5, "2"));
+  expect_pitchfork(stays, critical_speed);
+  expect_pitchfork(swings, critical_speed);
+  for (const double d : {1e-8, 1e-5, 1e-2, 1.0}) {
+    const double below = critical_speed - d;
+    const double above = critical_speed + d;
+    const auto hanging = [](double omega) { return (critical_speed - omega) * (critical_speed + omega); };
+    const double cosine = std::pow(critical_speed / above, 2);
+    expect_squares(stays, below, {hanging(below)});
+    expect_squares(swings, below, {hanging(below)});
+    expect_squares(stays, above, {hanging(above)});
+    expect_squares(swings, above, {-hanging(above) * (1.0 + cosine)});
+  }
+}
+
+/// Both ends of the steps that meet in the point tell the same eigenvalues there.
+TEST(BranchPoint, EigenvaluesAreContinuousAcrossIt) {
+  const auto trace = record_trace(spring_pendulum(20, 6, tilted, "2"));
+  for (std::size_t i = 0; i + 1 < trace.steps.size(); ++i) {
+    const auto at_end =
+        step_eigenvalues(trace.steps[i], trace.eigenvalues_of_node(i), trace.eigenvalues_of_node(i + 1), 1.0);
+    const auto at_begin = step_eigenvalues(trace.steps[i + 1], trace.eigenvalues_of_node(i + 1),
+                                           trace.eigenvalues_of_node(i + 2), 0.0);
+    for (Eigen::Index mode = 0; mode < at_end.size(); ++mode) {
+      if (!std::isfinite(at_end[mode].real()) || !std::isfinite(at_begin[mode].real())) continue;
+      // s^2 is what is known to rounding where s vanishes.
+      EXPECT_LT(std::abs(at_end[mode] * at_end[mode] - at_begin[mode] * at_begin[mode]), 1e-12)
+          << "step " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test
