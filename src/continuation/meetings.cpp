@@ -217,7 +217,6 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   // The coordinate itself is rounded, too: what counts where the eigenvalues that meet are zero.
   constexpr double coordinate_rounding = 1e-14;
   double resolution = coordinate_rounding * std::abs(reach);
-  if (rounding.slope > 0.0) resolution = std::max(resolution, rounding.lambda / rounding.slope);
   const double noise = std::abs(gap[1]) > 0.0
                            ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
                            : 0.0;
@@ -225,8 +224,11 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const double curvature = std::abs(gap[2]);
   const bool defective =
       distance > 1e-6 * std::max(track.pair.Lambda.norm(), 1e-3 * rounding.slope * std::abs(reach));
-  if (defective && curvature > 0.0)
+  if (defective && curvature > 0.0) {
     resolution = std::max(resolution, std::sqrt(4.0 * rounding.lambda * distance / curvature));
+  } else if (rounding.slope > 0.0) {
+    resolution = std::max(resolution, rounding.lambda / rounding.slope);
+  }
   classify(roots, resolution, noise, defective, meeting);
   return meeting;
 }
