@@ -36,6 +36,18 @@ class RootsOnStep {
     return roots_;
   }
 
+  /// Whether the two come closest where a root is said to lie: interpolants of kinks have others.
+  bool is_closest(Complex root) {
+    constexpr double farther = 1.3;
+    const double reach = 3.0 * std::abs(root.imag());
+    const double at = std::clamp(root.real(), 0.0, 1.0);
+    const double here = std::abs(distance(at));
+    const auto parts = [&](double t) {
+      return t < 0.0 || t > 1.0 || std::abs(distance(t)) >= farther * here;
+    };
+    return parts(at - reach) && parts(at + reach);
+  }
+
  private:
   static constexpr int degree = 12;
   static constexpr double resolved = 1e-4;
@@ -178,10 +190,14 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width) {
   constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
+  constexpr double on_axis = 1e-3;
   std::vector<ExpectedMeeting> meetings;
   const auto expect = [&](const Strand& a, const Strand& b, Complex position) {
     const double t = position.real() / length;
-    if (t > -off_the_ends && t < 1.0 + off_the_ends && std::abs(position.imag()) <= 1.1 * width)
+    const double off_axis = std::abs(position.imag());
+    // Nearer ones within a block have a point of their own.
+    if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
+    if (t > -off_the_ends && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
       meetings.push_back({a, b, position});
   };
   std::vector<Strand> strands;
@@ -201,7 +217,9 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
                           coinciding * track.pair.Lambda.norm());
-        for (const Complex t : roots.find()) expect(strands[b], strands[a], t * length);
+        for (const Complex t : roots.find()) {
+          if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
+        }
       }
     }
   }

@@ -86,9 +86,16 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
     int retrackings = 0;
     const Approach approach = approach_meeting(expected[i], h, strands, distance, retrackings);
     if (approach == Approach::nothing) continue;
+    // A block's modes are told apart at one end of a step at least: between two meetings there is a point.
+    const bool between = approach == Approach::reached && node_.tracks[expected[i].a.track].departure;
+    if (between) distance *= 0.5;
     const bool landed = approach == Approach::reached && (distance == h || !attempt(distance, next));
     if (!landed && std::abs(h) > uncertified_below_) return false;
     if (!landed) continue;
+    if (between) {
+      h = distance;
+      break;
+    }
     record_at(h, expected[i], retrackings, *next, coincide);
     constexpr double worth_a_look = 1e-3;
     for (std::size_t j = i + 1; j < expected.size(); ++j) {

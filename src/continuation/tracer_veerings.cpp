@@ -66,6 +66,15 @@ bool confirms_root(const ComplexVector& series, Complex root) {
   return std::abs(term) <= share * largest && std::abs(sum) <= share * largest;
 }
 
+/// Whether two eigenvalues that do not influence each other coincide at a complex parameter.
+bool is_double_root(const PointwiseInterpolant& f, Complex root) {
+  constexpr double share = 0.02;
+  const double step = 0.1 * std::abs(root.imag());
+  const Complex slope = (f(root + step) - f(root - step)) / (2.0 * step);
+  const Complex curvature = (f(root + step) + f(root - step) - 2.0 * f(root)) / (step * step);
+  return std::abs(slope) <= share * std::abs(curvature * root.imag());
+}
+
 Complex secant(const PointwiseInterpolant& f, Complex root, double width) {
   Complex a = root + 1e-3 * width;
   Complex fa = f(a);
@@ -133,10 +142,7 @@ void Tracer::find_veerings(double h, const PathNode& next) {
         modes.push_back(node_.tracks[strand->track].modes[static_cast<std::size_t>(i)]);
     }
     modes = sorted_modes(modes);
-    // Meetings within a block have a point of their own.
-    const bool is_meeting =
-        expected.a.track == expected.b.track && std::abs(expected.position.imag()) <= 1e-6 * std::abs(h);
-    if (is_meeting || modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
+    if (modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
     Complex root;
     if (const auto base = as_one_block(h, next, expected, root))
       record_veering(*base, expected.a.members.size(), root, modes);
@@ -179,11 +185,13 @@ void Tracer::record_veering(const PathNode& base, std::size_t count, Complex roo
   };
   Event event;
   std::optional<PathNode> middle;
+  PointwiseInterpolant gap;
   double position = 0.0;
   bool is_settled = false;
+  double last_move = INFINITY;
   for (int round = 0; round < rounds && !is_settled; ++round) {
     const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
-    PointwiseInterpolant gap;
+    gap = {};
     for (const double offset : {-1.0, 1.0, 0.0}) {
       position = root.real() + offset * width;
       middle = probe(base, position);
@@ -195,11 +203,14 @@ void Tracer::record_veering(const PathNode& base, std::size_t count, Complex roo
     if (has_jumped(base.tracks.front(), middle->tracks.front(), position)) return;
     const Complex refined = secant(gap, root, width);
     if (!(std::abs(refined.imag()) < widest && std::abs(refined - root) < 3.0 * widest)) return;
-    is_settled = std::abs(refined - root) <= resolution;
+    // Settled, or no longer getting nearer at the level of rounding.
+    const double move = std::abs(refined - root);
+    is_settled = move <= resolution || (move > 0.5 * last_move && move <= 100.0 * resolution);
+    last_move = move;
     root = refined;
   }
   // Another exceptional point as near as this one spoils the series: then nothing can be told.
-  if (!is_settled || !confirms_root(gap_there(*middle), root - position)) return;
+  if (!is_settled || is_double_root(gap, root) || !confirms_root(gap_there(*middle), root - position)) return;
   const double speed_there = coefficient(middle->path.parameters, problem_.traced, 1);
   event.kind = EventKind::veering;
   event.half_width = std::abs(root.imag() * speed_there);
