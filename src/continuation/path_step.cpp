@@ -164,12 +164,15 @@ ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_lef
   return s;
 }
 
+bool follows_parameter(const PathStep& step) {
+  return step.parameter.rightCols(step.parameter.cols() - 1).leftCols(1).isOnes(0.0) &&
+         step.parameter.rightCols(step.parameter.cols() - 2).isZero(0.0);
+}
+
 std::vector<double> step_positions(const PathStep& step, double p) {
   const double a = step.parameter(0, 0);
   const double b = step.parameter(1, 0);
-  const bool straight = step.parameter.rightCols(step.parameter.cols() - 1).leftCols(1).isOnes(0.0) &&
-                        step.parameter.rightCols(step.parameter.cols() - 2).isZero(0.0);
-  if (straight) {
+  if (follows_parameter(step)) {
     const double t = (p - a) / (b - a);
     return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
   }

@@ -15,6 +15,8 @@ namespace {
 constexpr double rounding = 1e-14;
 /// Corrections that no longer shrink are accepted as rounding below this fraction of the scale.
 constexpr double rounding_floor = 1e-9;
+/// Residuals below this fraction of the scale are.
+constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
 
 /// Typical magnitudes at the guess. Coordinates of a model share one unit, so they share one scale.
@@ -138,6 +140,14 @@ KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const Stea
 /// multipliers are judged by the reaction A^T lambda, which is all that the equations see of them (redundant
 /// constraints leave lambda itself undetermined).
 bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
+  // Rounding of nearly parallel constraints moves positions by more than that of the positions themselves.
+  const auto floor = [&](const SteadyResidual& residual) {
+    const bool solved =
+        residual.force.col(0).lpNorm<Eigen::Infinity>() <= rounded * scales.force &&
+        (residual.constraint.col(0).cwiseAbs().array() <= rounded * scales.constraint.array()).all();
+    const double moves = rounding / result.kkt.constraints().independence();
+    return solved ? std::max(rounding_floor, moves) : rounding_floor;
+  };
   double last = INFINITY;
   SteadyResidual residual;
   for (int i = 0; i < max_corrections; ++i) {
@@ -153,10 +163,10 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     result.x += dx;
     result.lambda += dl;
     if (size <= rounding) return true;
-    if (size > 0.5 * last) return size < rounding_floor;
+    if (size > 0.5 * last) return size < floor(residual);
     last = size;
   }
-  return last < rounding_floor;
+  return last < floor(residual);
 }
 
 std::string failure_message(const KinsolResult& kinsol, const SteadyReport& report) {
