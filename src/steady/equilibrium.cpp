@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "eigentrail/steady/relaxation.hpp"
 #include "steady/kinsol_solver.hpp"
 
 namespace eigentrail {
@@ -183,10 +184,8 @@ Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   return result;
 }
 
-}  // namespace
-
-Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
-                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
+Equilibrium solve_from(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
+                       const SteadyOptions& options, EvaluationCounts& counts) {
   Equilibrium result;
   result.x = x;
   result.lambda = lambda;
@@ -215,6 +214,35 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   const bool converged = polished && result.report.residual < rounding_floor;
   result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
   if (!converged) result.report.message = failure_message(kinsol, result.report);
+  return result;
+}
+
+}  // namespace
+
+Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
+  Equilibrium result = solve_from(model, parameters, x, lambda, options, counts);
+  if (result.status == SteadyStatus::converged || !options.relax) return result;
+  SteadyReport report = result.report;
+  Vector rested = x;
+  Vector reactions;
+  // Nearly at rest may do, and where forces circulate there may be no more to be had.
+  for (const double rest : {1e-2, 1e-5, 1e-8}) {
+    RelaxationOptions relaxation;
+    relaxation.tolerance = rest;
+    if (!relax(model, parameters, relaxation, rested, reactions, counts)) return result;
+    Equilibrium relaxed = solve_from(model, parameters, rested, reactions, options, counts);
+    report.iterations += relaxed.report.iterations;
+    report.factorizations += relaxed.report.factorizations;
+    report.residual_evaluations += relaxed.report.residual_evaluations;
+    if (relaxed.status != SteadyStatus::converged) continue;
+    report.residual = relaxed.report.residual;
+    report.worst_equation = relaxed.report.worst_equation;
+    report.message.clear();
+    report.relaxed = true;
+    relaxed.report = report;
+    return relaxed;
+  }
   return result;
 }
 
