@@ -191,6 +191,7 @@ Tracer::Trouble Tracer::attempt(double h, std::optional<PathNode>& next) {
 
 Tracer::Trouble Tracer::judge(double h, const PathNode& next, double& error) {
   certified_.assign(node_.tracks.size(), false);
+  if (Trouble trouble = check_path(h, next)) return trouble;
   const Trouble inaccuracy = measure_error(h, next);
   error = inaccuracy.error;
   if (error > 1.0) return inaccuracy;
