@@ -134,6 +134,7 @@ class Tracer {
   bool bridge_branch_point(double h, const PathNode* next);
   void bridge_start(PathPoint& point);
   std::optional<Spectrum> spectrum_beside_branch_point();
+  void keep_to_bridge(Prediction& prediction) const;
   double distance_to_branch_point() const;
   void record_branch_point(const PathNode& node);
 

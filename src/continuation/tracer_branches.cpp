@@ -255,6 +255,17 @@ Tracer::Trouble Tracer::check_path(double h, const PathNode& next) const {
   return {Trouble::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
 }
 
+/// On the bridge the path is known; nothing is solved.
+void Tracer::keep_to_bridge(Prediction& prediction) const {
+  const double here = coordinate(prediction.equilibrium.x, prediction.p);
+  if (!bridge_->covers(here)) return;
+  const bool at_branch = on_branch_point(here);
+  prediction.known = bridge_->path(at_branch ? branch_.coordinate : here, problem_.order + 1);
+  double& p = prediction.known->parameters(problem_.traced, 0);
+  if (at_branch) p = branch_.p;
+  prediction.p = p;
+}
+
 /// How far the branch point is ahead of the last point; infinite when there is none.
 double Tracer::distance_to_branch_point() const {
   if (!bridge_) return std::numeric_limits<double>::max();
