@@ -23,14 +23,53 @@ TraceSetup rebuild(const LociFile& loci) {
   return prepare_trace(parse_scene(loci.attribute("scene"), loci.attribute("scene_path")), options);
 }
 
-/// The whole spectrum where the path passes p, from the stored equilibrium at the nearer end of the step.
+/// Where the path turns back, an equilibrium looked for at p alone may be that of another passage. Between
+/// the two points of a step it is met on planes across their chord, from the one that lies on p.
+EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci, std::size_t step,
+                                double p) {
+  constexpr int most_planes = 60;
+  const auto node = static_cast<Eigen::Index>(step);
+  const auto row = [](const Matrix& rows, Eigen::Index i) { return Vector(rows.row(i).transpose()); };
+  const Vector begin = row(loci.equilibrium, node);
+  const Vector chord = row(loci.equilibrium, node + 1) - begin;
+  const double p_begin = loci.p[step];
+  const double p_chord = loci.p[step + 1] - p_begin;
+  const double range = loci.highest() - loci.lowest();
+  const double size = std::max(begin.squaredNorm(), 1e-300);
+  const PathPlane plane{chord / size, p_chord / (range * range)};
+  EvaluationCounts counts = problem.model.new_counts();
+  EquilibriumGuess guess{begin, row(loci.multiplier, node), false};
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < most_planes; ++i) {
+    const double t = 0.5 * (low + high);
+    double p_there = p_begin + t * p_chord;
+    const Vector multipliers = (1.0 - t) * row(loci.multiplier, node) + t * row(loci.multiplier, node + 1);
+    const Equilibrium there =
+        solve_equilibrium_on(plane, problem.model, parameters_at(problem, p_there), problem.traced,
+                             begin + t * chord, multipliers, problem.steady, p_there, counts);
+    if (there.status != SteadyStatus::converged) break;
+    guess = {there.x, there.lambda, false};
+    // p is monotonic on a step: points of the trace lie on its folds.
+    ((p_there - p) * p_chord < 0.0 ? low : high) = t;
+  }
+  return guess;
+}
+
+/// The whole spectrum where the path passes p. What the file stores of the equilibrium is a guess, not a
+/// fact: it is part of what is checked.
 std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci,
                                        const LociFile::Position& position, double p) {
   RunCounts counts;
-  const auto node = static_cast<Eigen::Index>(position.step) + (position.t > 0.5 ? 1 : 0);
-  // The stored equilibrium is a guess, not a fact: it is part of what is checked.
-  const EquilibriumGuess guess{loci.equilibrium.row(node).transpose(), loci.multiplier.row(node).transpose(),
-                               false};
+  const auto node = static_cast<Eigen::Index>(position.step);
+  const double t = position.t;
+  const auto between = [&](const Matrix& rows) {
+    return Vector(((1.0 - t) * rows.row(node) + t * rows.row(node + 1)).transpose());
+  };
+  const EquilibriumGuess guess =
+      follows_parameter(loci.steps[position.step])
+          ? EquilibriumGuess{between(loci.equilibrium), between(loci.multiplier), false}
+          : guess_on_chord(problem, loci, position.step, p);
   const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
   if (point.status != PointStatus::computed) return std::nullopt;
   Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
@@ -105,7 +144,8 @@ Vector distances(const ComplexVector& traced, const std::vector<bool>& in_block,
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   if (loci.n_nodes() == 0) throw InputError(loci.path + ": holds no points");
   const TraceSetup setup = rebuild(loci);
-  const PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  problem.steady.relax = false;  // another equilibrium than the stored one proves nothing
   const double reference = std::stod(loci.attribute("reference"));
   VerifyReport report;
   report.tolerance = setup.options.tolerance;

@@ -25,11 +25,13 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
     const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
     return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
-  Equilibrium result = plane
-                           ? solve_equilibrium_on(*plane, problem.model, parameters, problem.traced, guess.x,
-                                                  guess.lambda, problem.steady, p, counts.evaluations)
-                           : solve_equilibrium(problem.model, parameters, guess.x, guess.lambda,
-                                               problem.steady, counts.evaluations);
+  // On the path a failure tells of a fold or a branch point; what hangs at rest there may be another path.
+  SteadyOptions steady = problem.steady;
+  steady.relax = steady.relax && !guess.solved;
+  Equilibrium result =
+      plane ? solve_equilibrium_on(*plane, problem.model, parameters, problem.traced, guess.x, guess.lambda,
+                                   problem.steady, p, counts.evaluations)
+            : solve_equilibrium(problem.model, parameters, guess.x, guess.lambda, steady, counts.evaluations);
   counts.equilibrium_iterations += static_cast<std::uint64_t>(result.report.iterations);
   counts.equilibrium_factorizations += static_cast<std::uint64_t>(result.report.factorizations);
   return result;

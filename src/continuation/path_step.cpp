@@ -14,8 +14,8 @@
 namespace eigentrail {
 namespace {
 
-/// Roots may move by this share of the distance to the next one, or they are looked at more closely.
-constexpr double largest_move = 0.3;
+/// The difference of two roots may change by this share of itself, or it is looked at more closely.
+constexpr double largest_change = 0.5;
 constexpr double smallest_piece = 1e-14;  ///< of a step
 /// Eigenvalues that coincide throughout cannot be told apart; after this many pieces nobody tries any longer.
 constexpr int patience = 300;
@@ -42,24 +42,38 @@ ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& blo
   return ordered;
 }
 
-/// The smallest distance of two roots in any of the sets, without those that coincide in all of them.
-double least_gap_of_distinct(const std::array<const ComplexVector*, 3>& sets) {
-  constexpr double coinciding = 1e-9;
-  const double scale = coinciding * sets[0]->cwiseAbs().maxCoeff();
-  double least = INFINITY;
-  for (Eigen::Index i = 0; i < sets[0]->size(); ++i) {
+/// Roots of `to` in the order of `from`, a short piece before: their differences keep their directions,
+/// however far all of them move together.
+ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
+  const Complex drift = to.mean() - from.mean();
+  ComplexVector roots = in_order_of(from.array() + drift, to);
+  const double moved = (roots - from).cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      double smallest = INFINITY;
-      double largest = 0.0;
-      for (const ComplexVector* roots : sets) {
-        const double distance = std::abs((*roots)[i] - (*roots)[j]);
-        smallest = std::min(smallest, distance);
-        largest = std::max(largest, distance);
-      }
-      if (largest > scale) least = std::min(least, smallest);
+      const Complex difference = roots[i] - roots[j];
+      const bool turned = (std::conj(from[i] - from[j]) * difference).real() < 0.0;
+      if (turned && std::abs(difference) < moved) std::swap(roots[i], roots[j]);
     }
   }
-  return least;
+  return roots;
+}
+
+/// Whether no difference of two roots changes on the way from one set to the next by more than a part of
+/// itself. Those that coincide in all sets are not told apart.
+bool is_resolved(const std::array<const ComplexVector*, 3>& sets) {
+  constexpr double coinciding = 1e-9;
+  const double scale = coinciding * sets[0]->cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < sets[0]->size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const auto difference = [&](std::size_t k) { return (*sets[k])[i] - (*sets[k])[j]; };
+      const double least =
+          std::min({std::abs(difference(0)), std::abs(difference(1)), std::abs(difference(2))});
+      const double change =
+          std::max(std::abs(difference(1) - difference(0)), std::abs(difference(2) - difference(1)));
+      if (change > largest_change * least && least + change > scale) return false;
+    }
+  }
+  return true;
 }
 
 /// p(t) - p on a step, as seen from the nearer end: accurate relatively to the distance from the value there,
@@ -145,12 +159,9 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
     if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
     // Seen from its two ends alone a piece in which roots change places looks like one in which nothing
     // happens; its middle tells.
-    const ComplexVector middle = in_order_of(current, block_roots(functions(t + 0.5 * piece)));
-    const ComplexVector ahead = in_order_of(middle, block_roots(functions(t + piece)));
-    const double first = (middle - current).cwiseAbs().maxCoeff();
-    const double second = (ahead - middle).cwiseAbs().maxCoeff();
-    const double gap = least_gap_of_distinct({&current, &middle, &ahead});
-    if (std::max(first, second) > largest_move * gap && std::abs(piece) > shortest) {
+    const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
+    const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
+    if (!is_resolved({&current, &middle, &ahead}) && std::abs(piece) > shortest) {
       piece *= 0.5;
       continue;
     }
@@ -185,12 +196,15 @@ ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_lef
   return s;
 }
 
+bool follows_parameter(const PathStep& step) {
+  return step.parameter.rightCols(step.parameter.cols() - 1).leftCols(1).isOnes(0.0) &&
+         step.parameter.rightCols(step.parameter.cols() - 2).isZero(0.0);
+}
+
 std::vector<double> step_positions(const PathStep& step, double p) {
   const double a = step.parameter(0, 0);
   const double b = step.parameter(1, 0);
-  const bool straight = step.parameter.rightCols(step.parameter.cols() - 1).leftCols(1).isOnes(0.0) &&
-                        step.parameter.rightCols(step.parameter.cols() - 2).isZero(0.0);
-  if (straight) {
+  if (follows_parameter(step)) {
     const double t = (p - a) / (b - a);
     return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
   }

@@ -155,13 +155,7 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
     prediction.p = options_.to;
   prediction.equilibrium = {evaluate_series(base.path.x, h), evaluate_series(base.path.lambda, h), true};
   prediction.plane = plane_;
-  const double here = coordinate(prediction.equilibrium.x, prediction.p);
-  if (bridge_ && bridge_->covers(here)) {
-    const bool at_branch = on_branch_point(here);
-    prediction.known = bridge_->path(at_branch ? branch_.coordinate : here, problem_.order + 1);
-    prediction.p = prediction.known->parameters(problem_.traced, 0);
-    if (at_branch) prediction.p = prediction.known->parameters(problem_.traced, 0) = branch_.p;
-  }
+  if (bridge_) keep_to_bridge(prediction);
   for (const Track& track : base.tracks) {
     InvariantPair pair;
     pair.chart = track.pair.chart;
@@ -191,6 +185,7 @@ Tracer::Trouble Tracer::attempt(double h, std::optional<PathNode>& next) {
 
 Tracer::Trouble Tracer::judge(double h, const PathNode& next, double& error) {
   certified_.assign(node_.tracks.size(), false);
+  if (Trouble trouble = check_path(h, next)) return trouble;
   const Trouble inaccuracy = measure_error(h, next);
   error = inaccuracy.error;
   if (error > 1.0) return inaccuracy;

@@ -55,6 +55,7 @@ class Tracer {
   /// Estimated error of one track's dense output on the step, as a fraction of what is accepted.
   double track_error(double h, const PathNode& next, std::size_t track) const;
   Trouble measure_error(double h, const PathNode& next) const;
+  Trouble check_path(double h, const PathNode& next) const;
   Trouble check_identity(const PathNode& next);
   Trouble certify(double h, const PathNode& next);
   /// Changes what is followed together so that the step may be tried again as it is.
@@ -139,6 +140,7 @@ class Tracer {
   bool bridge_branch_point(double h, const PathNode* next);
   void bridge_start(PathPoint& point);
   std::optional<Spectrum> spectrum_beside_branch_point();
+  void keep_to_bridge(Prediction& prediction) const;
   double distance_to_branch_point() const;
   void record_branch_point(const PathNode& node);
 

@@ -117,11 +117,13 @@ void Tracer::survey_branch_point(const PathNode& node) {
   const double towards = (options_.to - options_.from) * (rise_ahead - rise_back);
   const bool alike = std::abs(rise_ahead - rise_back) <= 1e-3 * (std::abs(rise_ahead) + std::abs(rise_back));
   if (alike ? move[most] < 0.0 : towards < 0.0) crossing_->direction = -1.0;
+  const bool moves = std::abs(move[most]) > 1e-6 * reach * path_scales().x;
   const auto words = [&](double direction) {
     const bool ahead = direction > 0.0;
-    const std::string& name = problem_.model.description().coordinate_names[static_cast<std::size_t>(most)];
-    return options_.parameter + ((ahead ? rise_ahead : rise_back) > 0.0 ? " rises" : " falls") + ", " + name +
-           ((move[most] > 0.0) == ahead ? " rises" : " falls");
+    std::string text = options_.parameter + ((ahead ? rise_ahead : rise_back) > 0.0 ? " rises" : " falls");
+    if (!moves) return text;
+    text += ", " + problem_.model.description().coordinate_names[static_cast<std::size_t>(most)];
+    return text + ((move[most] > 0.0) == ahead ? " rises" : " falls");
   };
   result_.notes.push_back(note + "branch 1 is straight on, branch 2 leaves it (" +
                           words(crossing_->direction) + "), branch 3 does so the other way (" +

@@ -241,6 +241,31 @@ bool Tracer::bridge_branch_point(double h, const PathNode* next) {
   return build_bridge(*expected, h);
 }
 
+/// Newton's method may arrive on another path. Between two points of one the terms of the interpolant of x
+/// fall; over a jump they stay as large as it.
+Tracer::Trouble Tracer::check_path(double h, const PathNode& next) const {
+  constexpr double share = 0.1;        // of the way from one point to the other
+  constexpr double negligible = 1e-6;  // of the largest position
+  if (problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return {};
+  if (node_.path.x.cols() < 3 || next.path.x.cols() != node_.path.x.cols()) return {};
+  const HermiteInterpolant x(h, node_.path.x.cast<Complex>(), next.path.x.cast<Complex>());
+  const double error = x.error_without_last().norm();
+  const double way = (next.path.x.col(0) - node_.path.x.col(0)).norm();
+  if (error <= share * way + negligible * largest_position_) return {};
+  return {Trouble::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
+}
+
+/// On the bridge the path is known; nothing is solved.
+void Tracer::keep_to_bridge(Prediction& prediction) const {
+  const double here = coordinate(prediction.equilibrium.x, prediction.p);
+  if (!bridge_->covers(here)) return;
+  const bool at_branch = on_branch_point(here);
+  prediction.known = bridge_->path(at_branch ? branch_.coordinate : here, problem_.order + 1);
+  double& p = prediction.known->parameters(problem_.traced, 0);
+  if (at_branch) p = branch_.p;
+  prediction.p = p;
+}
+
 /// How far the branch point is ahead of the last point; infinite when there is none.
 double Tracer::distance_to_branch_point() const {
   if (!bridge_) return std::numeric_limits<double>::max();

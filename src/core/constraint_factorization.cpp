@@ -12,6 +12,8 @@ ConstraintFactorization::ConstraintFactorization(const Matrix& A) {
   decomposition_.setThreshold(rank_tolerance);
   decomposition_.compute((row_scale_.asDiagonal() * A).transpose());
   rank_ = decomposition_.rank();
+  const Vector pivots = decomposition_.matrixQTZ().diagonal().cwiseAbs();
+  if (rank_ > 0) independence_ = pivots[rank_ - 1] / decomposition_.maxPivot();
   null_basis_ = decomposition_.householderQ() * Matrix::Identity(n, n).rightCols(n - rank_);
 }
 

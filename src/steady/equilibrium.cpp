@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "eigentrail/steady/relaxation.hpp"
 #include "steady/kinsol_solver.hpp"
 
 namespace eigentrail {
@@ -15,6 +16,8 @@ namespace {
 constexpr double rounding = 1e-14;
 /// Corrections that no longer shrink are accepted as rounding below this fraction of the scale.
 constexpr double rounding_floor = 1e-9;
+/// Residuals below this fraction of the scale are.
+constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
 
 /// Typical magnitudes at the guess. Coordinates of a model share one unit, so they share one scale.
@@ -138,6 +141,14 @@ KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const Stea
 /// multipliers are judged by the reaction A^T lambda, which is all that the equations see of them (redundant
 /// constraints leave lambda itself undetermined).
 bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
+  // Rounding of nearly parallel constraints moves positions by more than that of the positions themselves.
+  const auto floor = [&](const SteadyResidual& residual) {
+    const bool solved =
+        residual.force.col(0).lpNorm<Eigen::Infinity>() <= rounded * scales.force &&
+        (residual.constraint.col(0).cwiseAbs().array() <= rounded * scales.constraint.array()).all();
+    const double moves = rounding / result.kkt.constraints().independence();
+    return solved ? std::max(rounding_floor, moves) : rounding_floor;
+  };
   double last = INFINITY;
   SteadyResidual residual;
   for (int i = 0; i < max_corrections; ++i) {
@@ -153,10 +164,10 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     result.x += dx;
     result.lambda += dl;
     if (size <= rounding) return true;
-    if (size > 0.5 * last) return size < rounding_floor;
+    if (size > 0.5 * last) return size < floor(residual);
     last = size;
   }
-  return last < rounding_floor;
+  return last < floor(residual);
 }
 
 std::string failure_message(const KinsolResult& kinsol, const SteadyReport& report) {
@@ -173,10 +184,8 @@ Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   return result;
 }
 
-}  // namespace
-
-Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
-                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
+Equilibrium solve_from(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
+                       const SteadyOptions& options, EvaluationCounts& counts) {
   Equilibrium result;
   result.x = x;
   result.lambda = lambda;
@@ -205,6 +214,35 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   const bool converged = polished && result.report.residual < rounding_floor;
   result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
   if (!converged) result.report.message = failure_message(kinsol, result.report);
+  return result;
+}
+
+}  // namespace
+
+Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
+                              const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
+  Equilibrium result = solve_from(model, parameters, x, lambda, options, counts);
+  if (result.status == SteadyStatus::converged || !options.relax) return result;
+  SteadyReport report = result.report;
+  Vector rested = x;
+  Vector reactions;
+  // Nearly at rest may do, and where forces circulate there may be no more to be had.
+  for (const double rest : {1e-2, 1e-5, 1e-8}) {
+    RelaxationOptions relaxation;
+    relaxation.tolerance = rest;
+    if (!relax(model, parameters, relaxation, rested, reactions, counts)) return result;
+    Equilibrium relaxed = solve_from(model, parameters, rested, reactions, options, counts);
+    report.iterations += relaxed.report.iterations;
+    report.factorizations += relaxed.report.factorizations;
+    report.residual_evaluations += relaxed.report.residual_evaluations;
+    if (relaxed.status != SteadyStatus::converged) continue;
+    report.residual = relaxed.report.residual;
+    report.worst_equation = relaxed.report.worst_equation;
+    report.message.clear();
+    report.relaxed = true;
+    relaxed.report = report;
+    return relaxed;
+  }
   return result;
 }
 

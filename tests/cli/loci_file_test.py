@@ -115,7 +115,7 @@ class InH5py(unittest.TestCase):
         self.assertEqual(options, {
             "parameter": "omega", "from": "100", "to": "5", "tolerance": "1e-08", "modes": "all", "order": "3",
             "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000",
-            "certify": "true"})
+            "branch": "auto", "certify": "true"})
         self.assertGreater(attributes["reference"], 0.0)
         self.assertEqual(attributes["notes"], "")
 

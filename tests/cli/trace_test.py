@@ -196,6 +196,25 @@ class TraceThatEndsEarly(CommandTest):
         for row in rows:
             self.assertAlmostEqual(float(row["imag"]), expected, places=7)
 
+    def test_at_a_pitchfork_another_branch_can_be_taken(self):
+        """On from the pitchfork straight down, where s^2 = -(m g / l - k) / m; the run says what there was to choose."""
+        run = self.run_program("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10", "--branch", "2")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for text in ("branch 1 is straight on", "branch 2 leaves it (k falls)", "branch 3", "the trace took 2"):
+            self.assertIn(text, run.stdout)
+        events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
+        self.assertEqual([event["kind"] for event in events], ["pitchfork"])
+        self.assertAlmostEqual(float(events[0]["parameter"]), 13.08, places=11)
+        stiffness = {20.0: (20.0 - 13.08) * (20.0 + 13.08) / 40.0, 13.09: 0.01 * 26.17 / 26.18,
+                     13.07: 0.005, 11.0: 1.04}
+        for k, expected in stiffness.items():
+            rows = list(csv.DictReader(io.StringIO(self.run_well("eval", "loci.h5", "--at", k, "--csv"))))
+            self.assertEqual(len(rows), 1)
+            self.assertAlmostEqual(float(rows[0]["imag"]), math.sqrt(expected), places=7)
+        at_branch_point = self.run_well("eval", "loci.h5", "--at", float(events[0]["parameter"]), "--csv")
+        for row in csv.DictReader(io.StringIO(at_branch_point)):
+            self.assertAlmostEqual(float(row["imag"]), 0.0, places=6)
+
 
 if __name__ == "__main__":
     unittest.main()

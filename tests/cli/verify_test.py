@@ -7,6 +7,39 @@ import h5py
 from program import BIRTH, BLADE, CROSSING, FAMILY, ProgramTest
 
 
+# sin(angle) = p: hanging up to p = 1, standing on the way back.
+PUSHED_PENDULUM = """
+[parameters]
+g = 9.81
+p = 0.0
+[trace]
+parameter = "p"
+from = 0
+to = 1.2
+tolerance = 1e-2
+[gravity]
+acceleration = [0, 0, "-g"]
+[[point]]
+name = "bob"
+mass = 1.0
+position = [0, 0, -1]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.0
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p*g"
+angle = "-pi/2"
+axis = [0, 1, 0]
+"""
+
+
 class Verify(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -41,6 +74,10 @@ class Verify(ProgramTest):
 
     def test_a_crossing_passes(self):
         self.assert_passes(CROSSING)
+
+    def test_a_path_that_turns_back_passes(self):
+        """Long steps round the fold at p = 1: the equilibrium nearest in p may be that of the way back."""
+        self.assert_passes(PUSHED_PENDULUM)
 
     def assert_fails(self):
         run = self.verify()

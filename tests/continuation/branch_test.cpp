@@ -2,6 +2,7 @@
 // other.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
 
@@ -178,6 +179,81 @@ TEST(BranchPoint, OfAWhirlingPendulum) {
     expect_squares(swings, below, {hanging(below)});
     expect_squares(stays, above, {hanging(above)});
     expect_squares(swings, above, {-hanging(above) * (1.0 + cosine)});
+  }
+}
+
+/// Steep von Mises truss: unit springs from (-1, 0) and (1, 0) to an apex of unit mass, free at height 4.
+/// Under its load it gives way to the side before it reaches the limit load, where L^3 = L0 w^2, L^2 = 1 +
+/// w^2.
+const double free_length = std::sqrt(17.0);
+
+Setting steep_truss(const std::string& branch) {
+  const std::string spring = "to = \"apex\"\nstiffness = 1.0\nfree_length = \"sqrt(17)\"\n";
+  return make_setting(
+      "[parameters]\nload = 0.0\n[trace]\nparameter = \"load\"\nfrom = 0\nto = 4\ntolerance = 1e-9\nbranch "
+      "= " +
+      branch +
+      "\n[[point]]\nname = \"apex\"\nmass = 1.0\nposition = [0, 0, 4]\n[[spring]]\nfrom = [-1, 0, 0]\n" +
+      spring + "[[spring]]\nfrom = [1, 0, 0]\n" + spring +
+      "[[force]]\npoint = \"apex\"\ncomponents = [0, 0, \"-load\"]\n[[plane]]\npoint = \"apex\"\nnormal = "
+      "[0, 1, 0]\n");
+}
+
+/// Loads at which the truss gives way sideways on its symmetric path, from above.
+std::vector<double> sideways_loads() {
+  std::vector<double> loads;
+  for (auto [low, high] : {std::pair(3.0, 4.0), std::pair(0.1, 3.0)}) {
+    const auto stiffness = [](double w) { return std::pow(1.0 + w * w, 1.5) - free_length * w * w; };
+    const double sign = stiffness(high);
+    for (int i = 0; i < 100; ++i) {
+      const double w = 0.5 * (low + high);
+      (stiffness(w) * sign > 0.0 ? high : low) = w;
+    }
+    loads.push_back(2.0 * low * (free_length / std::sqrt(1.0 + low * low) - 1.0));
+  }
+  return loads;
+}
+
+/// Forces and stiffness of the two springs at a place of the apex.
+void springs_at(const Vector& x, Vector& force, Matrix& stiffness) {
+  force = Vector::Zero(2);
+  stiffness = Matrix::Zero(2, 2);
+  for (const double support : {-1.0, 1.0}) {
+    const Vector d{{x[0] - support, x[2]}};
+    const double ratio = free_length / d.norm();
+    force -= (1.0 - ratio) * d;
+    stiffness += (1.0 - ratio) * Matrix::Identity(2, 2) + ratio / d.squaredNorm() * d * d.transpose();
+  }
+}
+
+TEST(BranchPoint, OfATrussThatGivesWaySideways) {
+  const std::vector<double> loads = sideways_loads();
+  for (const std::string branch : {"1", "2", "3"}) {
+    const auto trace = record_trace(steep_truss(branch));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    std::vector<double> found;
+    for (const Event& event : trace.result.events) {
+      if (event.kind == EventKind::pitchfork) found.push_back(event.p);
+    }
+    ASSERT_EQ(found.size(), branch == "1" ? 2U : 1U);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], loads[i], 1e-11);
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < trace.nodes.size(); ++i) {
+      const Vector x = trace.nodes[i].path.x.col(0);
+      if (std::abs(x[0]) > std::abs(farthest)) farthest = x[0];
+      Vector force;
+      Matrix stiffness;
+      springs_at(x, force, stiffness);
+      EXPECT_LT((force - Vector{{0.0, trace.nodes[i].p}}).norm(), 1e-11) << "point " << i;
+      for (const ModeState& state : trace.modes[i]) {
+        const Complex determinant =
+            (stiffness.cast<Complex>() + state.s * state.s * ComplexMatrix::Identity(2, 2)).determinant();
+        EXPECT_LT(std::abs(determinant), 1e-11) << "point " << i << " mode " << state.mode;
+      }
+    }
+    if (branch == "1") EXPECT_LT(std::abs(farthest), 1e-9);
+    if (branch == "2") EXPECT_GT(farthest, 0.5);
+    if (branch == "3") EXPECT_LT(farthest, -0.5);
   }
 }
 

@@ -127,6 +127,14 @@ TEST(ConstraintFactorization, OfOneRowHasClosedForm) {
   EXPECT_NEAR(lambda[0], 2.0, rounding);
 }
 
+TEST(ConstraintFactorization, IndependenceIsTheAngleBetweenTwoRows) {
+  for (const double angle : {1.0, 1e-3, 1e-8}) {
+    const Matrix A{{2.0, 0.0, 0.0}, {3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0}};
+    EXPECT_NEAR(ConstraintFactorization(A).independence(), std::sin(angle), 1e-15) << angle;
+  }
+  EXPECT_EQ(ConstraintFactorization(Matrix(0, 3)).independence(), 1.0);
+}
+
 TEST(ConstraintFactorization, WithoutConstraintsLeavesEverythingFree) {
   const ConstraintFactorization factorization(Matrix(0, 4));
   EXPECT_EQ(factorization.rank(), 0);

@@ -69,16 +69,6 @@ HardCase spring_pendulum(const std::string& name, const std::string& to, double 
   return result;
 }
 
-HardCase spring_pendulum_to_pitchfork() {
-  HardCase result = spring_pendulum("C04_spring_pendulum_to_pitchfork", "mass * g / length", 1.0);
-  result.has_branches = true;
-  result.branches = {[](double k) {
-    const Wide stiffness = spring_pendulum_stiffness(k, 0).real();
-    return Complex(0.0, static_cast<double>(std::sqrt(std::max(stiffness, Wide(0)))));
-  }};
-  return result;
-}
-
 /// Pendulum of unit length and mass pushed along its circle with p times its weight: sin(angle) = p,
 /// s^2 = -g cos(angle); branch 0 hangs, branch 1 stands.
 HardCase pushed_pendulum() {
@@ -194,7 +184,7 @@ HardCase pendulum_with_second_rod(const std::string& name, const std::string& as
 
 std::vector<HardCase> constrained_cases() {
   const std::string in_plane = "[[fixed]]\npoint = \"bob\"\ncoordinate = \"y\"\n";
-  return {spring_pendulum_to_pitchfork(),
+  return {spring_pendulum("C04_spring_pendulum_to_pitchfork", "mass * g / length", 1.0),
           spring_pendulum("C04_spring_pendulum_beyond_pitchfork", "0.5 * mass * g / length", 0.5),
           pushed_pendulum(),
           truss(),

@@ -19,7 +19,6 @@ const std::map<std::string, std::string>& open_cases() {
   static const std::map<std::string, std::string> cases{
       {"H19_pair_through_zero",
        "the pair crosses the imaginary axis where it is defective: no flutter event"},
-      {"C07_second_rod_1em8", "KINSOL finds no isolated equilibrium at some lengths"},
       {"whirl_through_zero", "a pair that passes zero without coalescing is called a collision"},
       {"free_chain", "a freedom that is free throughout joins blocks that do not converge"},
       {"near_exceptional_1em8", "flutter located to 1e-9 only: its slope is 2e-8"},

@@ -220,7 +220,28 @@ TEST_P(RodsAtAnAngle, AreOneConstraintTooManyInAPlane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle, testing::Values(1e-2, 1e-4, 1e-6, 1e-8, 1e-10));
+INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle,
+                         testing::Values(1e-2, 1e-4, 1e-6, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9, 1e-10));
+
+/// Rounding of their lengths moves the bob along y by 1e-16 / angle: corrections of that size are no lack of
+/// convergence, at any length.
+TEST(Equilibrium, BetweenNearlyParallelRodsIsFoundAtEveryLength) {
+  for (const double angle : {1e-7, 1e-8, 1e-9}) {
+    const Setting setting = make_setting(plain_pendulum + rod_at_angle(angle));
+    EvaluationCounts counts = setting.model->new_counts();
+    Vector parameters = setting.scene.parameters.declared_values();
+    for (int i = 0; i < 200; ++i) {
+      const double length = 0.5 + 0.0173 * i;
+      parameters[setting.parameter("length")] = length;
+      const Equilibrium found = solve_equilibrium(
+          *setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {}, counts);
+      ASSERT_EQ(found.status, SteadyStatus::converged)
+          << angle << ' ' << length << ' ' << found.report.message;
+      EXPECT_NEAR(found.x[2], -length, 1e-12);
+      EXPECT_NEAR(found.x[1], 0.0, 1e-15 * length / angle);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace eigentrail::test

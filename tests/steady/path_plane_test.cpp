@@ -292,6 +292,23 @@ TEST(KernelShare, TellsAFoldFromAPitchfork) {
               0.0, tolerance);
 }
 
+/// The spring pendulum at its pitchfork: tilting keeps k, hanging straight moves nothing while k changes.
+TEST(PathPlane, DirectionsAtAPitchforkAreThoseOfBothPaths) {
+  OnPlane pendulum(scene_setting("spring_pendulum"));
+  pendulum.p = m * g / length;
+  const Equilibrium straight =
+      keep_equilibrium(*pendulum.setting.model, pendulum.parameters(), Vector{{0.0, 0.0, -length}},
+                       Vector::Zero(2), pendulum.counts);
+  const Path point{pendulum.parameters(), straight.x, straight.lambda};
+  const Matrix directions =
+      directions_at_branch_point(*pendulum.setting.model, point, pendulum.traced(), straight.linearization,
+                                 straight.kkt.constraints().null_basis(), pendulum.counts);
+  ASSERT_EQ(directions.cols(), 2);
+  EXPECT_NEAR(std::abs(directions(0, 0)), 1.0, tolerance);
+  EXPECT_LT(directions.col(0).tail(3).norm(), tolerance);
+  EXPECT_LT((directions.col(1) - Vector{{0.0, 0.0, 0.0, 1.0}}).norm(), tolerance);
+}
+
 TEST(PathPlane, ThatThePathNeverMeetsIsReported) {
   // The bob cannot rise above its length.
   OnPlane on(pushed_pendulum());

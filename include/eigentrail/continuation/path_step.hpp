@@ -36,6 +36,9 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
 ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_left,
                                const ComplexVector& at_right, double t);
 
+/// Whether the coordinate of the step is the parameter itself.
+bool follows_parameter(const PathStep& step);
+
 /// The values of t in [0, 1] where the step passes the parameter value p; more than one near a fold.
 std::vector<double> step_positions(const PathStep& step, double p);
 

@@ -25,6 +25,10 @@ class ConstraintFactorization {
 
   Eigen::Index rank() const { return rank_; }
 
+  /// Smallest pivot over the largest, of the independent rows at unit length: about the least angle between
+  /// constraints. Rounding of c moves positions by its reciprocal. 1 without constraints.
+  double independence() const { return independence_; }
+
   /// Orthonormal basis Q2 of the null space of A, n x (n - rank).
   const Matrix& null_basis() const { return null_basis_; }
 
@@ -36,6 +40,7 @@ class ConstraintFactorization {
 
  private:
   Eigen::Index rank_ = 0;
+  double independence_ = 1.0;
   Vector row_scale_;  ///< 1 / row norm of A
   Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition_;
   Matrix null_basis_;

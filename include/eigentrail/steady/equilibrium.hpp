@@ -12,6 +12,8 @@ struct SteadyOptions {
   int max_iterations = 200;  ///< of KINSOL, >= 1
   double tolerance =
       1e-12;  ///< KINSOL stops when every equation's residual is below this fraction of its scale, > 0
+  bool relax =
+      true;  ///< where KINSOL fails, begin again from where the mechanism comes to rest (relaxation.hpp)
 };
 
 enum class SteadyStatus { converged, not_converged, not_finite };
@@ -21,6 +23,7 @@ struct SteadyReport {
   int iterations = 0;      ///< of KINSOL
   int factorizations = 0;  ///< of the KKT matrix, polishing included
   int residual_evaluations = 0;
+  bool relaxed = false;        ///< found from a relaxed guess
   double residual = 0.0;       ///< largest scaled residual at the end
   std::string worst_equation;  ///< the equation it belongs to
   std::string message;         ///< reason of a failure, in words
@@ -37,7 +40,8 @@ struct [[nodiscard]] Equilibrium {
 
 /// Solves the steady equations at given parameters (declared units) from the guess (x, lambda): KINSOL with
 /// line search and the exact Jacobian, then Newton corrections until they reach rounding. An empty `lambda`
-/// guess is replaced by the least-squares multipliers (Eq. 15) at x.
+/// guess is replaced by the least-squares multipliers (Eq. 15) at x. Where that fails the guess is relaxed
+/// first.
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 

@@ -1,0 +1,151 @@
+#include "eigentrail/steady/relaxation.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_projections = 50;
+constexpr double on_manifold = 1e-10;  ///< |c| relative to |A row| times the length
+constexpr double overshoot = 0.3;      ///< the force along a step may turn by this share
+constexpr double first_delta = 1.0;    ///< of the magnitude of the stiffness
+constexpr double smallest_delta = 1e-12;
+constexpr double largest_delta = 1e12;
+
+/// A place on the manifold and what acts there.
+struct Place {
+  Vector x, lambda;
+  Linearization linearization;
+  ConstraintFactorization constraints;
+  Vector pull;         ///< Q2^T (f - A^T lambda)
+  double force = 0.0;  ///< magnitude of the forces that balance
+};
+
+class Relaxation {
+ public:
+  Relaxation(const Model& model, const Vector& parameters, EvaluationCounts& counts)
+      : model_(model), counts_(counts) {
+    path_.parameters = parameters;
+  }
+
+  /// Moves x to the manifold by minimum-norm corrections, halved where they do not help.
+  bool project(Vector& x, double length) {
+    double share = 1.0;
+    Vector start = x;
+    Vector correction = Vector::Zero(x.size());
+    double last = INFINITY;
+    for (int i = 0; i < most_projections; ++i) {
+      SteadyResidual residual;
+      Linearization linearization;
+      path_.x = x;
+      path_.lambda = Vector::Zero(model_.n_constraints());
+      if (model_.residual(path_, 0, residual, counts_) || model_.linearize(path_, 0, linearization, counts_))
+        return false;
+      if (residual.constraint.rows() == 0) return true;
+      const Vector rows = linearization.A[0].rowwise().norm();
+      const Vector miss = residual.constraint.col(0).cwiseAbs().cwiseQuotient(
+          (rows * length).unaryExpr([](double size) { return size > 0.0 ? size : 1.0; }));
+      const double size = miss.maxCoeff();
+      if (!std::isfinite(size)) return false;
+      if (size <= on_manifold) return true;
+      if (size >= last) {
+        share *= 0.5;
+        if (share < 1e-3) return false;
+        x = start + share * correction;
+        continue;
+      }
+      last = size;
+      start = x;
+      share = 1.0;
+      correction =
+          -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(residual.constraint.col(0));
+      x += correction;
+    }
+    return false;
+  }
+
+  std::optional<Place> at(const Vector& x) {
+    Place place;
+    place.x = x;
+    path_.x = x;
+    path_.lambda = Vector::Zero(model_.n_constraints());
+    SteadyResidual residual;
+    if (model_.residual(path_, 0, residual, counts_) ||
+        model_.linearize(path_, 0, place.linearization, counts_))
+      return std::nullopt;
+    place.constraints = ConstraintFactorization(place.linearization.A[0]);
+    const Vector load = -residual.force.col(0);
+    place.lambda = place.constraints.transposed_pseudo_inverse_times(load);
+    // The stiffness of the constraint forces belongs to it.
+    path_.lambda = place.lambda;
+    if (model_.linearize(path_, 0, place.linearization, counts_)) return std::nullopt;
+    place.pull = place.constraints.null_basis().transpose() * load;
+    place.force = load.norm();
+    return place;
+  }
+
+ private:
+  const Model& model_;
+  EvaluationCounts& counts_;
+  Path path_;
+};
+
+/// The implicit step with the least damping from `delta` on that goes downhill.
+Vector downhill_step(const Place& place, double scale, double& delta) {
+  const Matrix& Q2 = place.constraints.null_basis();
+  const Matrix K = Q2.transpose() * place.linearization.K[0] * Q2;
+  const Matrix identity = Matrix::Identity(K.rows(), K.cols());
+  for (; delta <= largest_delta; delta *= 4.0) {
+    const Eigen::LLT<Matrix> symmetric(0.5 * (K + K.transpose()) + delta * scale * identity);
+    if (symmetric.info() != Eigen::Success || !(symmetric.rcond() > smallest_delta)) continue;
+    // Forces that circulate have a skew part, which turns the step but not against the pull.
+    return Eigen::PartialPivLU<Matrix>(K + delta * scale * identity).solve(place.pull);
+  }
+  return Vector::Zero(place.pull.size());
+}
+
+}  // namespace
+
+bool relax(const Model& model, const Vector& parameters, const RelaxationOptions& options, Vector& x,
+           Vector& lambda, EvaluationCounts& counts) {
+  const auto positive = [](double size) { return size > 0.0 && std::isfinite(size) ? size : 1.0; };
+  Relaxation relaxation(model, parameters, counts);
+  const double length = positive(x.lpNorm<Eigen::Infinity>());
+  if (!relaxation.project(x, length)) return false;
+  std::optional<Place> here = relaxation.at(x);
+  double delta = first_delta;
+  double largest_force = 0.0;
+  for (int i = 0; here && i < options.max_steps; ++i) {
+    x = here->x;
+    lambda = here->lambda;
+    // Without constraints the forces themselves vanish at rest.
+    largest_force = std::max(largest_force, here->force);
+    if (here->pull.norm() <= options.tolerance * largest_force) return true;
+    const double scale = positive(here->linearization.K[0].lpNorm<Eigen::Infinity>());
+    Vector step = downhill_step(*here, scale, delta);
+    const double size = step.lpNorm<Eigen::Infinity>();
+    if (!(size > 0.0)) return false;
+    step *= std::min(1.0, options.longest_move * length / size);
+    const Vector move = here->constraints.null_basis() * step;
+    Vector ahead = here->x + move;
+    std::optional<Place> there;
+    if (relaxation.project(ahead, length)) there = relaxation.at(ahead);
+    // Downhill for as long as the force still points ahead.
+    const double before = here->pull.dot(step);
+    const double behind = there ? (there->constraints.null_basis() * there->pull).dot(move) : -INFINITY;
+    if (behind < -overshoot * before) {
+      delta = std::max(4.0 * delta, 1e-3);
+      if (delta > largest_delta) return false;
+      continue;
+    }
+    delta = std::max(0.4 * delta, smallest_delta);
+    here = std::move(there);
+  }
+  return false;
+}
+
+}  // namespace eigentrail
