@@ -11,7 +11,9 @@
 namespace eigentrail {
 namespace {
 
-constexpr int max_depth = 3;              ///< a step is halved up to this often
+constexpr int max_depth = 6;  ///< a step is halved up to this often
+/// Where the tube is only too long its bound falls with its length; where modes meet it does not.
+constexpr double falling = 0.75;
 constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
 constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
@@ -50,11 +52,7 @@ class Tube {
     fix_basis(W_, right_Z_, right_Lambda_);
   }
 
-  bool closes(double begin, double end, int depth) {
-    const double middle = 0.5 * (begin + end);
-    if (piece_closes(begin, middle, end)) return true;
-    return depth < max_depth && closes(begin, middle, depth + 1) && closes(middle, end, depth + 1);
-  }
+  bool closes() { return closes(0.0, 1.0, 0, INFINITY); }
 
  private:
   struct State {
@@ -115,7 +113,16 @@ class Tube {
     return F;
   }
 
-  bool piece_closes(double begin, double middle, double end) {
+  /// `last` is the bound Z1 of the piece that was halved.
+  bool closes(double begin, double end, int depth, double last) {
+    const double middle = 0.5 * (begin + end);
+    double Z1 = 0.0;
+    if (piece_closes(begin, middle, end, Z1)) return true;
+    if (depth == max_depth || (Z1 >= 1.0 && Z1 > falling * last)) return false;
+    return closes(begin, middle, depth + 1, Z1) && closes(middle, end, depth + 1, Z1);
+  }
+
+  bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
     const double size = std::max(centre.Lambda.norm(), 1e-300);
     const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
@@ -123,7 +130,6 @@ class Tube {
     const Eigen::PartialPivLU<ComplexMatrix> lu(J);
     ++counts_.certificate_factorizations;
     double Y = lu.solve(residual(centre)).norm();
-    double Z1 = 0.0;
     const std::array<double, 4> samples{begin, 0.5 * (begin + middle), 0.5 * (middle + end), end};
     for (const double t : samples) {
       const State s = state(t);
@@ -230,7 +236,7 @@ StepPencil::Matrices StepPencil::at(double t) const {
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
                   RunCounts& counts) {
   const StageTimer timer(counts.certificate_seconds);
-  return Tube(pencil, left, right, gap, counts).closes(0.0, 1.0, 0);
+  return Tube(pencil, left, right, gap, counts).closes();
 }
 
 }  // namespace eigentrail
