@@ -108,6 +108,14 @@ void classify(const std::vector<Complex>& roots, double resolution, double noise
   }
 }
 
+/// Two eigenvalues that coincide all along meet nowhere.
+bool vanishes(const ComplexVector& gap, double reach, double scale) {
+  constexpr double coinciding = 1e-9;
+  double size = 0.0;
+  for (Eigen::Index k = gap.size() - 1; k >= 0; --k) size = size * std::abs(reach) + std::abs(gap[k]);
+  return std::sqrt(size) <= coinciding * scale;
+}
+
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
   ComplexMatrix N = Lambda.back();
   for (std::size_t j = Lambda.size() - 1; j-- > 0;) N = N * h + Lambda[j];
@@ -204,7 +212,7 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   }
   Meeting meeting;
   const ComplexVector gap = gap_of(track, a, b);
-  if (gap.size() == 0) return meeting;
+  if (gap.size() == 0 || vanishes(gap, reach, track.pair.Lambda.norm())) return meeting;
   const std::vector<Complex> roots = roots_by_magnitude(gap, reach);
   if (roots.empty() || std::abs(roots[0]) > 2.0 * std::abs(reach)) return meeting;
   meeting.found = true;

@@ -58,23 +58,57 @@ ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
   return roots;
 }
 
-/// Whether no difference of two roots changes on the way from one set to the next by more than a part of
-/// itself. Those that coincide in all sets are not told apart.
-bool is_resolved(const std::array<const ComplexVector*, 3>& sets) {
-  constexpr double coinciding = 1e-9;
-  const double scale = coinciding * sets[0]->cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < sets[0]->size(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      const auto difference = [&](std::size_t k) { return (*sets[k])[i] - (*sets[k])[j]; };
-      const double least =
-          std::min({std::abs(difference(0)), std::abs(difference(1)), std::abs(difference(2))});
-      const double change =
-          std::max(std::abs(difference(1) - difference(0)), std::abs(difference(2) - difference(1)));
-      if (change > largest_change * least && least + change > scale) return false;
-    }
+/// Differences of roots on their way from one end of a piece over its middle to the other.
+class Differences {
+ public:
+  explicit Differences(const ComplexVector& roots)
+      : scale_(coinciding * roots.cwiseAbs().maxCoeff()),
+        start_(roots),
+        unclear_(Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(roots.size(), roots.size(),
+                                                                              false)) {}
+
+  /// Whether none changes by more than a part of itself. Those that vanish all along do not count.
+  bool are_resolved(const std::array<const ComplexVector*, 3>& sets) const {
+    return (changes(sets) <= 1.0 || magnitudes(sets) <= scale_).all();
   }
-  return true;
-}
+
+  /// The piece is taken as it is.
+  void accept(const std::array<const ComplexVector*, 3>& sets) { unclear_ = unclear_ || changes(sets) > 1.0; }
+
+  /// Whether no two that are distinct at both ends were unclear on the way.
+  bool were_told_apart(const ComplexVector& end) const {
+    return !(unclear_ && between(start_) > scale_ && between(end) > scale_).any();
+  }
+
+ private:
+  static constexpr double coinciding = 1e-9;
+
+  static Eigen::ArrayXXd between(const ComplexVector& roots) {
+    return (roots.rowwise().replicate(roots.size()) - roots.transpose().colwise().replicate(roots.size()))
+        .cwiseAbs();
+  }
+  static ComplexMatrix signed_differences(const ComplexVector& roots) {
+    return roots.rowwise().replicate(roots.size()) - roots.transpose().colwise().replicate(roots.size());
+  }
+  static Eigen::ArrayXXd magnitudes(const std::array<const ComplexVector*, 3>& sets) {
+    return between(*sets[0]).max(between(*sets[1])).max(between(*sets[2]));
+  }
+  /// Largest change in units of what is allowed; 0 on the diagonal.
+  static Eigen::ArrayXXd changes(const std::array<const ComplexVector*, 3>& sets) {
+    const ComplexMatrix first = signed_differences(*sets[0]);
+    const ComplexMatrix second = signed_differences(*sets[1]);
+    const ComplexMatrix third = signed_differences(*sets[2]);
+    const Eigen::ArrayXXd least =
+        first.cwiseAbs().array().min(second.cwiseAbs().array()).min(third.cwiseAbs().array());
+    const Eigen::ArrayXXd change =
+        (second - first).cwiseAbs().array().max((third - second).cwiseAbs().array());
+    return (change > 0.0).select(change / (largest_change * least).max(1e-300), 0.0);
+  }
+
+  double scale_;
+  ComplexVector start_;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> unclear_;
+};
 
 /// p(t) - p on a step, as seen from the nearer end: accurate relatively to the distance from the value there,
 /// so that positions beside a fold that a step begins or ends with are as accurate as that allows.
@@ -148,9 +182,11 @@ Complex chart_value(Complex s, Chart chart) {
 }
 
 ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
-                           double to) {
+                           double to, bool* told_apart) {
   const HermiteInterpolant functions(length, block.left, block.right);
+  if (told_apart != nullptr) *told_apart = true;
   if (block.size() == 1) return block_roots(functions(to));
+  Differences differences(roots);
   ComplexVector current = roots;
   double t = from;
   double piece = to - from;
@@ -161,14 +197,17 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
     // happens; its middle tells.
     const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
     const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
-    if (!is_resolved({&current, &middle, &ahead}) && std::abs(piece) > shortest) {
+    const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
+    if (!differences.are_resolved(sets) && std::abs(piece) > shortest) {
       piece *= 0.5;
       continue;
     }
+    differences.accept(sets);
     t = piece == to - t ? to : t + piece;
     current = ahead;
     piece *= 2.0;
   }
+  if (told_apart != nullptr) *told_apart = differences.were_told_apart(current);
   return current;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "continuation/strands.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -207,6 +208,36 @@ double error_in_other_chart(const PathProblem& problem, const PathNode& left, co
   return HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
 }
 
+namespace {
+
+/// Where the modes of some tracks that meet at the node are told apart; empty when none of them meet.
+std::optional<double> departure_distance(const PathNode& node, const std::vector<std::size_t>& members) {
+  std::optional<double> distance;
+  for (const std::size_t i : members) {
+    const auto& departure = node.tracks[i].departure;
+    if (departure && (!distance || std::abs(departure->distance) < std::abs(*distance)))
+      distance = departure->distance;
+  }
+  return distance;
+}
+
+/// Roots of a track there, in the order of its modes.
+ComplexVector roots_at_departure(const Track& track, double distance) {
+  double position = 0.0;
+  const ComplexVector start = departing_roots(track, distance / farthest_departure, position);
+  const ComplexVector roots = block_roots(evaluate_series(track.functions, distance));
+  return in_order_of(start, roots);
+}
+
+void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, std::vector<Complex>& all) {
+  const std::size_t first = all.size();
+  for (const Complex root : roots) all.push_back(other_chart ? 1.0 / root : root);
+  if (!with_conjugates) return;
+  for (std::size_t i = first, end = all.size(); i < end; ++i) all.push_back(std::conj(all[i]));
+}
+
+}  // namespace
+
 bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
           RunCounts& counts) {
   const StageTimer timer(counts.modes_seconds);
@@ -223,27 +254,29 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     if (pairs.back().chart != node.tracks[index].pair.chart) pairs.back() = in_other_chart(pairs.back());
   }
   std::vector<const InvariantPair*> parts;
-  std::vector<Complex> known;
-  std::vector<int> modes;
+  std::vector<Complex> known, departing;
+  std::vector<int> modes, met;
+  const std::optional<double> departure = departure_distance(node, members);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Track& track = node.tracks[members[i]];
     parts.push_back(&pairs[i]);
-    for (Eigen::Index j = 0; j < track.size(); ++j) {
-      const bool same_chart = track.pair.chart == node.tracks[index].pair.chart;
-      known.push_back(same_chart ? track.roots[j] : 1.0 / track.roots[j]);
-      modes.push_back(track.modes[static_cast<std::size_t>(j)]);
-    }
-    if (!make_real || track.pair.is_real) continue;
-    for (Eigen::Index j = 0; j < track.size(); ++j) {
-      known.push_back(std::conj(known[known.size() - static_cast<std::size_t>(track.size())]));
-      modes.push_back(Track::no_mode);
-    }
+    const bool other_chart = track.pair.chart != node.tracks[index].pair.chart;
+    const bool with_conjugates = make_real && !track.pair.is_real;
+    for (const int j : track.met) met.push_back(static_cast<int>(known.size()) + j);
+    append(track.roots, other_chart, with_conjugates, known);
+    if (departure) append(roots_at_departure(track, *departure), other_chart, with_conjugates, departing);
+    modes.insert(modes.end(), track.modes.begin(), track.modes.end());
+    if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
   }
   if (static_cast<Eigen::Index>(known.size()) > std::min(largest_block, 2 * node.pencil.size())) return false;
   Track joined;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
   if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
+  joined.met = std::move(met);
+  if (departure)
+    joined.departure =
+        Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
   replace(node, members, std::move(joined));
   return true;
 }
@@ -362,6 +395,16 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
     Track track;
     if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
       return {};
+    if (block.departure) {
+      ComplexVector departing(known.size());
+      for (std::size_t i = 0; i < members.size(); ++i)
+        departing[static_cast<Eigen::Index>(i)] = block.departure->roots[members[i]];
+      track.departure = Track::Departure{block.departure->distance, std::move(departing)};
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (std::find(block.met.begin(), block.met.end(), members[i]) != block.met.end())
+        track.met.push_back(static_cast<int>(i));
+    }
     parts.push_back(std::move(track));
   }
   return parts;

@@ -14,8 +14,6 @@ namespace {
 /// Relative distance below which two eigenvalues coincide; double ones that are defective are told to the
 /// root of rounding only.
 constexpr double coinciding = 1e-7;
-/// A departure farther than this share of the step is looked at again nearer by.
-constexpr double farthest_departure = 0.1;
 
 }  // namespace
 
@@ -24,7 +22,7 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
   if (!track.departure) return track.roots;
   const Track::Departure& departure = *track.departure;
   position = departure.distance / h;
-  if (std::abs(position) < farthest_departure) return departure.roots;
+  if (std::abs(position) <= farthest_departure * (1.0 + 1e-9)) return departure.roots;
   // Both roots and square roots only shrink towards the mean: their order is kept.
   const double share = 0.1 * farthest_departure / std::abs(position);
   position *= share;

@@ -32,6 +32,9 @@ class StrandSampler {
   std::map<double, ComplexVector> known_;  ///< by t
 };
 
+/// A departure farther than this share of a step is looked at again nearer by.
+constexpr double farthest_departure = 0.1;
+
 /// Where the eigenvalues of a track are told apart at the left end of a step of length h: at the end itself,
 /// or a little behind it where some meet there. `position` is a share of the step.
 ComplexVector departing_roots(const Track& track, double h, double& position);

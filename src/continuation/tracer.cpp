@@ -394,8 +394,8 @@ bool Tracer::accept(double h, PathNode next, double next_step) {
   }
   if (on_branch_point(coordinate(next.path.x.col(0), next.p))) ++branch_points_;
   const std::size_t before = next.tracks.size();
-  part(problem_, &node_, next, next_step, h, part_reach_,
-       accepted_share * options_.tolerance, result_.counts);
+  part(problem_, &node_, next, next_step, h, part_reach_, accepted_share * options_.tolerance,
+       result_.counts);
   result_.regroupings.parted += static_cast<int>(next.tracks.size() - std::min(before, next.tracks.size()));
   if (next.tracks.size() == before) join_limiting_modes(h, next, next_step);
   longest_step_ = std::max(std::abs(h), 0.85 * longest_step_);

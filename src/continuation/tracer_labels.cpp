@@ -32,7 +32,8 @@ void Tracer::label_arrival(double h, PathNode& next) const {
     if (right.size() == 1) continue;
     double from = 0.0;
     const ComplexVector start = departing_roots(left, h, from);
-    right.roots = in_order_of(follow_roots(block_on_step(node_, next, i), h, start, from, 1.0), right.roots);
+    const DenseBlock block = block_on_step(node_, next, i);
+    right.roots = in_order_of(follow_roots(block, h, start, from, 1.0, &right.told_apart), right.roots);
   }
 }
 
@@ -128,7 +129,7 @@ PathStep Tracer::make_step(double h, const PathNode& next) const {
     DenseBlock block = block_on_step(node_, next, i);
     block.left = block.left.leftCols(count).eval();
     block.right = block.right.leftCols(count).eval();
-    block.certified = i < certified_.size() && certified_[i];
+    block.certified = i < certified_.size() && certified_[i] && next.tracks[i].told_apart;
     for (const int mode : track.modes) {
       if (mode >= 0) block.modes.push_back(mode);
     }

@@ -59,7 +59,7 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
     const bool is_wide = meeting.kind == EventKind::veering && meeting.half_width > narrow * std::abs(h);
     if (is_wide && (move < 0.1 * std::abs(h) || retrackings > 0)) return Approach::nothing;
     // Settled, or no longer getting nearer at the level of rounding.
-    if (move <= resolution || (move > 0.5 * last_move && move <= 1e-7 * std::abs(h))) {
+    if (move <= resolution || (move > 0.5 * last_move && move <= at_point * coordinate_range())) {
       // The meeting on which the last step ended is known.
       return std::abs(distance) > at_point * coordinate_range() ? Approach::reached : Approach::nothing;
     }

@@ -31,7 +31,8 @@ struct Track {
     ComplexVector roots;    ///< in the order of `modes`
   };
   std::optional<Departure> departure;
-  std::vector<int> met;  ///< indices of the roots that meet at the point, or veer closely
+  bool told_apart = true;  ///< its roots were, all the way from the last point
+  std::vector<int> met;    ///< indices of the roots that meet at the point, or veer closely
 
   Eigen::Index size() const { return pair.size(); }
 };

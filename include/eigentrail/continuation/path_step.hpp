@@ -26,9 +26,10 @@ struct PathStep {
 };
 
 /// Eigenvalues of a block in its chart, followed from one end of a step (t = from) to t = to: `roots` at
-/// `from` give the order. `left`, `right` as in DenseBlock.
+/// `from` give the order. `left`, `right` as in DenseBlock. `told_apart`, when given, says whether any two
+/// that are distinct at both ends were told apart all the way.
 ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
-                           double to);
+                           double to, bool* told_apart = nullptr);
 
 /// Eigenvalues of all modes at t in [0, 1]; NaN where a mode does not exist on the step. `at_left` and
 /// `at_right` are the eigenvalues of all modes at the ends; they tell which eigenvalue of a block is which
