@@ -8,25 +8,15 @@
 
 #include <Eigen/SVD>
 
-#include "properties/planted_family.hpp"
+#include "properties/blocks.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-constexpr double quantum = 0x1p-36;  ///< of all coefficients of blocks
 constexpr double low = -0.5, high = 0.5;
 constexpr int most_points = 6;            ///< planted; crossings with other modes come on top
 constexpr std::size_t most_special = 14;  ///< with those
 constexpr double largest_condition = 30;  ///< of the mixing matrices
-
-Wide rounded(Wide value, Wide unit = quantum) {
-  return std::round(value / unit) * unit;
-}
-
-Polynomial rounded(Polynomial a, Wide unit = quantum) {
-  for (Wide& coefficient : a.c) coefficient = rounded(coefficient, unit);
-  return a;
-}
 
 /// Numbers that are the same with every standard library.
 class Random {
@@ -39,120 +29,18 @@ class Random {
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
   double power_of_ten(double a, double b) { return std::pow(10.0, uniform(a, b)); }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
+  /// Of either sign, with a magnitude in the interval.
+  double magnitude(double a, double b) {
+    const double side = sign();
+    return side * uniform(a, b);
+  }
+  double power_of_ten_or_minus(double a, double b) {
+    const double side = sign();
+    return side * power_of_ten(a, b);
+  }
 
  private:
   std::mt19937_64 engine_;
-};
-
-PlantedBlock single(const std::string& kind, const Polynomial& damping, const Polynomial& stiffness) {
-  return {kind, 1, rounded(damping), {rounded(stiffness)}, {}};
-}
-
-/// Roots with Im >= 0 of factor - shift and factor + shift, of degree one or two, with the mean eigenvalue
-/// there.
-void add_exceptional(PlantedBlock& block, const Polynomial& factor, WideComplex shift) {
-  const Polynomial twice_mean = block.K(0, 0) + block.K(1, 1);
-  for (const Wide sign : {1, -1}) {
-    const WideComplex square = factor.c.size() > 2 ? factor.c[2] : 0;
-    for (const WideComplex p : roots_of_quadratic(factor.c[0] - sign * shift, factor.c[1], square)) {
-      if (p.imag() >= 0) block.exceptional.push_back({p, twice_mean(p) / Wide(2)});
-    }
-  }
-}
-
-/// [[mean + g, e], [+-e, mean - g]]: veerings where g = +-j e, or exceptional points where g = +-e.
-PlantedBlock two_coupled(const std::string& kind, Wide c, const Polynomial& mean, Polynomial g, Wide e,
-                         bool symmetric) {
-  g = rounded(g);
-  e = rounded(e);
-  if (e < 4 * quantum) throw UnusableFamily("coupling below the quantum");
-  PlantedBlock block{kind, 2, rounded(Polynomial(c)), {}, {}};
-  const Polynomial m = rounded(mean);
-  block.stiffness = {m + g, Polynomial(e), Polynomial(symmetric ? e : -e), m - g};
-  add_exceptional(block, g, symmetric ? WideComplex(0, e) : WideComplex(e));
-  return block;
-}
-
-/// [[mean, b], [delta / b, mean]] with b a power of two: exceptional points where delta vanishes.
-PlantedBlock companion(const std::string& kind, Wide c, const Polynomial& mean, Polynomial delta) {
-  constexpr Wide b = 0.25;
-  delta = rounded(delta);
-  PlantedBlock block{kind, 2, rounded(Polynomial(c)), {}, {}};
-  const Polynomial m = rounded(mean);
-  block.stiffness = {m, Polynomial(b), Polynomial(1 / b) * delta, m};
-  const std::vector<Wide> roots = real_roots(delta, 2 * low, 2 * high);
-  if (roots.size() + 1 != delta.c.size()) throw UnusableFamily("rounding made two roots complex");
-  for (const Wide p : roots) block.exceptional.push_back({p, m(p)});
-  return block;
-}
-
-/// A steep mode that meets two others at `first` and `second`: [[a, e1, e2], [e1, b, 0], [e2, 0, d]].
-class Arrow {
- public:
-  Arrow(Wide base, Wide slope, Wide first, Wide second, Wide e1, Wide e2)
-      : base_(rounded(base)),
-        a_(rounded(Polynomial(base) + Polynomial(slope) * from_root(first))),
-        d_(rounded(base + slope * (second - first))),
-        e1_(rounded(e1)),
-        e2_(rounded(e2)) {
-    if (e1_ < 4 * quantum || e2_ < 4 * quantum) throw UnusableFamily("coupling below the quantum");
-  }
-
-  PlantedBlock block(Wide c) const {
-    PlantedBlock result{"shared veerings", 3, rounded(Polynomial(c)), {}, {}};
-    const Polynomial zero;
-    result.stiffness = {
-        a_,   Polynomial(e1_), Polynomial(e2_), Polynomial(e1_), Polynomial(base_), zero, Polynomial(e2_),
-        zero, Polynomial(d_)};
-    const Wide slope = a_.c[1];
-    for (const auto& [level, e] : {std::pair{base_, e1_}, std::pair{d_, e2_}}) {
-      const Wide p = (level - a_.c[0]) / slope;
-      result.exceptional.push_back(refined({p, 2 * e / std::abs(slope)}, level));
-    }
-    const auto& found = result.exceptional;
-    if (std::abs(found[0].p - found[1].p) < std::abs((d_ - base_) / slope) / 2)
-      throw UnusableFamily("two veerings are one");
-    return result;
-  }
-
- private:
-  /// Newton's method on f = f_x = 0, f = det(K - (level + x) I) written so that nothing cancels near the
-  /// level.
-  PlantedBlock::Exceptional refined(WideComplex p, Wide level) const {
-    const WideComplex half(Wide(0.5));
-    const Wide slope = a_.c[1];
-    // p = centre + u, a - level = slope u + rest.
-    const Wide centre = p.real();
-    const Wide rest = a_(centre) - level;
-    WideComplex u = p - centre;
-    WideComplex x = half * (slope * u + rest);
-    const WideComplex B = base_ - level;
-    const WideComplex D = d_ - level;
-    const WideComplex f1 = e1_ * e1_;
-    const WideComplex f2 = e2_ * e2_;
-    for (int i = 0; i < 60; ++i) {
-      const WideComplex A = slope * u + rest;
-      const WideComplex f = (A - x) * (B - x) * (D - x) - f1 * (D - x) - f2 * (B - x);
-      const WideComplex fx = -(B - x) * (D - x) - (A - x) * (D - x) - (A - x) * (B - x) + f1 + f2;
-      const WideComplex fxx = Wide(2) * ((A - x) + (B - x) + (D - x));
-      const WideComplex fu = slope * (B - x) * (D - x);
-      const WideComplex fxu = -slope * ((D - x) + (B - x));
-      const WideComplex det = fx * fxu - fu * fxx;
-      const WideComplex dx = (f * fxu - fu * fx) / det;
-      const WideComplex du = (fx * fx - fxx * f) / det;
-      x -= dx;
-      u -= du;
-      if (std::abs(du) <= Wide(1e-17) * std::abs(u)) {
-        if (u.imag() < 0) return {std::conj(centre + u), std::conj(level + x)};
-        return {centre + u, level + x};
-      }
-    }
-    throw UnusableFamily("no exceptional point found near the planted veering");
-  }
-
-  Wide base_;
-  Polynomial a_;
-  Wide d_, e1_, e2_;
 };
 
 class Generator {
@@ -184,8 +72,8 @@ class Generator {
     const int count = random_.integer(1, most_points);
     for (int i = 0; i < count; ++i) {
       const bool beside = i > 0 && random_.chance(0.5);
-      const double p = beside ? points_.back() + random_.sign() * random_.power_of_ten(-4.0, -1.0)
-                              : random_.uniform(-0.47, 0.47);
+      const double p =
+          beside ? points_.back() + random_.power_of_ten_or_minus(-4.0, -1.0) : random_.uniform(-0.47, 0.47);
       points_.push_back(p);
     }
   }
@@ -197,11 +85,14 @@ class Generator {
   }
 
   Wide level() { return random_.uniform(2.0, 8.0); }
-  Wide steep() { return random_.sign() * random_.uniform(0.3, 2.5); }
+  Wide steep() { return random_.magnitude(0.3, 2.5); }
   Polynomial line(Wide value, Wide slope, Wide at) {
     return Polynomial(value) + Polynomial(slope) * from_root(at);
   }
-  Polynomial drifting_level() { return line(level(), random_.uniform(-0.3, 0.3), 0); }
+  Polynomial drifting_level() {
+    const Wide slope = random_.uniform(-0.3, 0.3);
+    return line(level(), slope, 0);
+  }
   /// The damping that blocks share, so that they can cross, or one of their own.
   Wide damping() { return random_.chance(0.6) ? group_ : Wide(random_.uniform(0.02, 0.15)); }
 
@@ -254,7 +145,8 @@ class Generator {
       blocks_.push_back(single("crossing", group_, partner));
       partner = blocks_.back().K(0, 0);
     }
-    const Polynomial shape = Polynomial(steep()) + Polynomial(random_.uniform(-0.5, 0.5)) * from_root(p);
+    const Wide curvature = random_.uniform(-0.5, 0.5);
+    const Polynomial shape = Polynomial(steep()) + Polynomial(curvature) * from_root(p);
     blocks_.push_back(single("crossing", group_, partner + shape * from_root(p)));
   }
 
@@ -280,14 +172,16 @@ class Generator {
   void veering(Wide p) {
     const Wide slope = steep() / 2;
     const Wide half_width = random_.power_of_ten(-9.0, -1.0);
-    blocks_.push_back(two_coupled("veering", damping(), drifting_level(), Polynomial(slope) * from_root(p),
+    const Polynomial mean = drifting_level();
+    blocks_.push_back(two_coupled("veering", damping(), mean, Polynomial(slope) * from_root(p),
                                   std::abs(slope) * half_width, true));
   }
 
   void veering_twice(Wide p, Wide q) {
     const Wide curvature = steep();
     const Wide half_width = random_.power_of_ten(-9.0, -1.0);
-    blocks_.push_back(two_coupled("two veerings", damping(), drifting_level(),
+    const Polynomial mean = drifting_level();
+    blocks_.push_back(two_coupled("two veerings", damping(), mean,
                                   Polynomial(curvature) * from_root(p) * from_root(q),
                                   std::abs(curvature * (p - q)) * half_width, true));
   }
@@ -299,20 +193,23 @@ class Generator {
     };
     const Wide e1 = coupling();
     const Wide e2 = coupling();
-    blocks_.push_back(Arrow(level(), slope, p, q, e1, e2).block(damping()));
+    const Wide base = level();
+    blocks_.push_back(test::shared_veerings(damping(), base, slope, p, q, e1, e2));
   }
 
   void exceptional(const double* p, int count) {
-    Polynomial delta(random_.sign() * random_.power_of_ten(-1.5, -0.3));
+    Polynomial delta(random_.power_of_ten_or_minus(-1.5, -0.3));
     for (int i = 0; i < count; ++i) delta = delta * from_root(p[i]);
     const char* const names[] = {"exceptional point", "two exceptional points", "three exceptional points"};
-    blocks_.push_back(companion(names[count - 1], damping(), drifting_level(), delta));
+    const Polynomial mean = drifting_level();
+    blocks_.push_back(companion(names[count - 1], damping(), mean, delta));
   }
 
   /// [[m + g, e], [-e, m - g]]: the pair is coupled between the two points.
   void exceptional_pair(Wide p, Wide q) {
     const Wide slope = steep() / 2;
-    blocks_.push_back(two_coupled("pair of exceptional points", damping(), drifting_level(),
+    const Polynomial mean = drifting_level();
+    blocks_.push_back(two_coupled("pair of exceptional points", damping(), mean,
                                   Polynomial(slope) * from_root((p + q) / 2), std::abs(slope * (p - q)) / 2,
                                   false));
   }
@@ -321,7 +218,7 @@ class Generator {
 
   void collision(const double* p, int count) {
     const Wide c = heavy_damping();
-    Polynomial excess(random_.sign() * random_.uniform(0.05, 0.5));
+    Polynomial excess(random_.magnitude(0.05, 0.5));
     for (int i = 0; i < count; ++i) excess = excess * from_root(p[i]);
     blocks_.push_back(
         single(count == 1 ? "real collision" : "two real collisions", c, Polynomial(c * c) - excess));
@@ -336,13 +233,13 @@ class Generator {
   }
 
   void flutter(Wide p) {
-    const Wide slope = random_.sign() * random_.uniform(0.05, 0.5);
+    const Wide slope = random_.magnitude(0.05, 0.5);
     blocks_.push_back(single("flutter", Polynomial(slope) * from_root(p), drifting_level()));
   }
 
   void divergence(Wide p) {
-    blocks_.push_back(single("divergence", heavy_damping(),
-                             Polynomial(random_.sign() * random_.uniform(0.05, 0.3)) * from_root(p)));
+    const Polynomial stiffness = Polynomial(random_.magnitude(0.05, 0.3)) * from_root(p);
+    blocks_.push_back(single("divergence", heavy_damping(), stiffness));
   }
 
   /// Modes beside: of the shared damping, of nearly the same, so that they come close to a crossing, or of
@@ -350,7 +247,7 @@ class Generator {
   void filler() {
     const bool same = random_.chance(0.3);
     const Wide c = same                  ? group_
-                   : random_.chance(0.5) ? group_ + Wide(random_.sign() * random_.power_of_ten(-4.0, -2.0))
+                   : random_.chance(0.5) ? group_ + Wide(random_.power_of_ten_or_minus(-4.0, -2.0))
                                          : Wide(random_.uniform(0.02, 0.15));
     const Wide slope = same ? Wide(random_.uniform(-0.2, 0.2)) : steep();
     blocks_.push_back(single(same ? "beside, shared damping" : "beside", c, line(level(), slope, 0)));
@@ -389,8 +286,12 @@ class Generator {
 
   /// Invertible for every p: a constant matrix, or that times I + p N with N nilpotent.
   MatrixSeries mixing(bool along) {
-    const Matrix constant =
-        along ? Matrix(permutation() * lower()) : Matrix(reflection() * permutation() * lower());
+    // One after the other: the order in which a product evaluates its factors is not specified.
+    // One after the other: the order in which a product evaluates its factors is not specified.
+    const Matrix inner = lower();
+    const Matrix order = permutation();
+    const Matrix outer = along ? Matrix(Matrix::Identity(n_, n_)) : reflection();
+    const Matrix constant = outer * order * inner;
     MatrixSeries T{constant};
     if (along) {
       const Matrix N = lower() - Matrix::Identity(n_, n_);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
 
 #include "hard_cases/clear_parameters.hpp"
 #include "hard_cases/special_point_check.hpp"
@@ -155,7 +157,8 @@ TEST_P(PlantedFamilies, HaveNoOtherSpecialPoints) {
   EXPECT_EQ(scan.collisions, number_of({"collision"}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilies, testing::Range(1, 31));
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilies, testing::Range(1, 31),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 TEST(PlantedFamily, CoversEveryKindAndSize) {
   std::map<std::string, int> kinds;

@@ -1,6 +1,8 @@
 // Fifty families with planted special points, traced: every value, every event, every label.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "properties/run_family.hpp"
 
 namespace eigentrail::test {
@@ -16,7 +18,8 @@ TEST_P(PlantedFamilyTrace, HasExactValuesEventsAndLabels) {
   EXPECT_TRUE(report.passed()) << report.problems() << "\n" << family.description();
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51));
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace
 }  // namespace eigentrail::test
