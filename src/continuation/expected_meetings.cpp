@@ -14,8 +14,8 @@ namespace {
 /// Double roots of an interpolant may lie this share of an interval off the axis, or off its ends.
 constexpr double looked_into = 0.1;
 constexpr double beside = 0.05;
-constexpr double smallest_piece = 1e-8;  ///< of a step
-constexpr double coinciding = 1e-9;
+constexpr double smallest_piece = 1e-8;    ///< of a step
+constexpr double coinciding_share = 1e-9;  ///< of the size of a block: closer eigenvalues are one
 
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
   return std::any_of(strand.members.begin(), strand.members.end(),
@@ -124,7 +124,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          coinciding * track.pair.Lambda.norm());
+                          coinciding_share * track.pair.Lambda.norm());
         for (const Complex t : roots.find()) {
           if (t.real() > first && std::abs(t.imag()) <= looked_into)
             meetings.push_back({strands[b], strands[a], std::min(t.real(), 1.0) * length});
@@ -216,7 +216,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          coinciding * track.pair.Lambda.norm());
+                          coinciding_share * track.pair.Lambda.norm());
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }

@@ -77,14 +77,15 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
 }
 
 /// From the roots nearest to the point: one root on the axis, two that coincide there, or roots beside it.
-void classify(const std::vector<Complex>& roots, double resolution, double noise, bool defective,
-              Meeting& meeting) {
+void classify(const std::vector<Complex>& roots, double reach, double resolution, double noise,
+              bool defective, Meeting& meeting) {
   const Complex first = roots[0];
   const bool has_second =
       roots.size() > 1 && std::abs(roots[1]) <= 1e3 * std::max(std::abs(first), resolution);
   meeting.offset = first.real();
   if (!has_second) {
-    const bool on_axis = std::abs(first.imag()) <= noise;
+    constexpr double nearest = 1e-9;  // an exceptional point so near to the axis lies on it
+    const bool on_axis = std::abs(first.imag()) <= std::max(noise, nearest * reach);
     meeting.kind = on_axis ? EventKind::collision : EventKind::veering;
     meeting.half_width = on_axis ? 0.0 : std::abs(first.imag());
     return;
@@ -237,8 +238,25 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   } else if (rounding.slope > 0.0) {
     resolution = std::max(resolution, rounding.lambda / rounding.slope);
   }
-  classify(roots, resolution, noise, defective, meeting);
+  classify(roots, std::abs(reach), resolution, noise, defective, meeting);
   return meeting;
+}
+
+double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h) {
+  constexpr double nearby = 0.2;  // of the step: as far as the series tells
+  constexpr double apart = 1e-6;  // of the step: nearer ones are this one
+  constexpr double on_axis = 1e-2;
+  const ComplexVector gap = gap_of(track, a, b);
+  double offset = 0.0;
+  if (gap.size() == 0) return offset;
+  for (const Complex root : polynomial_roots(gap)) {
+    const bool is_earlier = root.real() * h < 0.0 && std::abs(root.imag()) <= on_axis * std::abs(root.real());
+    const double distance = std::abs(root.real());
+    if (is_earlier && distance > std::max(std::abs(offset), apart * std::abs(h)) &&
+        distance < nearby * std::abs(h))
+      offset = root.real();
+  }
+  return offset;
 }
 
 }  // namespace eigentrail

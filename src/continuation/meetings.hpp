@@ -42,6 +42,10 @@ struct Meeting {
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach);
 
+/// Offset of the farthest meeting on the real axis that a step of length h has passed on its way to the
+/// point; zero when there is none.
+double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h);
+
 /// ((s_a - s_b) / 2)^2 at a point; empty when the two cannot be told from the others there.
 ComplexVector gap_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b);
 

@@ -47,6 +47,7 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
   const std::size_t index = expected.a.track;
   const PathNode base = with_tracks(node_, {index});
   double last_move = INFINITY;
+  bool went_back = false;
   distance = expected.position.real();
   for (; retrackings < most_retrackings; ++retrackings) {
     std::optional<PathNode> point = probe(base, distance);
@@ -60,6 +61,14 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
     if (is_wide && (move < 0.1 * std::abs(h) || retrackings > 0)) return Approach::nothing;
     // Settled, or no longer getting nearer at the level of rounding.
     if (move <= resolution || (move > 0.5 * last_move && move <= at_point * coordinate_range())) {
+      // The iteration may have settled on one behind the first.
+      const double earlier = earlier_meeting(there, expected.a.members, expected.b.members, h);
+      if (earlier != 0.0 && (distance + earlier) / h > 1e-3 && !went_back) {
+        went_back = true;
+        last_move = INFINITY;
+        distance += earlier;
+        continue;
+      }
       // The meeting on which the last step ended is known.
       return std::abs(distance) > at_point * coordinate_range() ? Approach::reached : Approach::nothing;
     }

@@ -52,7 +52,7 @@ class PointwiseInterpolant {
 /// Whether a series, too, has its root about where the interpolant has: its terms still fall there, and
 /// cancel.
 bool confirms_root(const ComplexVector& series, Complex root) {
-  constexpr double share = 0.1;
+  constexpr double share = 0.02;
   double largest = 0.0;
   Complex term = 0.0;
   Complex sum = 0.0;
