@@ -48,7 +48,7 @@ void Tracer::label_departure(double h, PathNode& next, const std::vector<bool>& 
     const double distance = glimpse * h;
     double from = 0.0;
     const ComplexVector start = departing_roots(node_.tracks[i], h, from);
-    const ComplexVector before = follow_roots(block, h, start, from, 1.0 - glimpse);
+    const ComplexVector before = follow_roots(block, h, start, from, 1.0 - glimpse, &track.told_apart);
     const ComplexVector earlier = follow_roots(block, h, before, 1.0 - glimpse, 1.0 - 2.0 * glimpse);
     // Straight on through a crossing. At an exceptional point no order is the right one; this one is as good.
     const ComplexVector expected = before + 2.0 * (before - earlier);

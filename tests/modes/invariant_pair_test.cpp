@@ -352,5 +352,20 @@ TEST(InvariantPair, DependentColumnsAreSingular) {
   EXPECT_NE(correct_pair(PencilAtPoint(start), block, s_ref, {}, counts).status, PairStatus::converged);
 }
 
+TEST(EigenvalueRemainder, TellsTheRealPartOnTheImaginaryAxisToItsOwnDigits) {
+  // M = I, C = alpha I: Re s = -alpha / 2 in every mode, here far below the rounding of s itself.
+  const double alpha = 3e-17;
+  const ReducedPencil pencil{{Matrix::Identity(2, 2)},
+                             {alpha * Matrix::Identity(2, 2)},
+                             {Matrix{{2.0, -1.0 / 3.0}, {-1.0 / 3.0, 0.7}}}};
+  const PencilAtPoint point(pencil);
+  ModeCounts counts;
+  const ComplexVector z{{Complex(1.0, 0.3), Complex(-0.2, -0.06)}};
+  const InvariantPair mode = correct_mode(point, Complex(1e-3, 1.4), z, counts);
+  ASSERT_EQ(mode.status, PairStatus::converged);
+  const double corrected = (mode.eigenvalue() + eigenvalue_remainder(point, mode)).real();
+  EXPECT_LT(std::abs(corrected + 0.5 * alpha), 1e-18);
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -1,0 +1,110 @@
+#include "eigentrail/modes/block_parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr std::size_t count = 6;  ///< coefficients
+
+ComplexMatrix random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  return ComplexMatrix::NullaryExpr(rows, cols, [&] { return Complex(normal(engine), normal(engine)); });
+}
+
+/// S(h) D(h) S(h)^-1 with S = S0 + h S1, well conditioned.
+std::vector<ComplexMatrix> mixed(const std::vector<ComplexMatrix>& D, unsigned seed) {
+  const Eigen::Index k = D[0].rows();
+  const ComplexMatrix S0 = 2.0 * ComplexMatrix::Identity(k, k) + 0.3 * random_matrix(k, k, seed);
+  const ComplexMatrix S1 = 0.3 * random_matrix(k, k, seed + 1);
+  std::vector<ComplexMatrix> inverse{S0.inverse()};
+  for (std::size_t j = 1; j < count; ++j) inverse.emplace_back(-inverse[0] * S1 * inverse.back());
+  std::vector<ComplexMatrix> Lambda(count, ComplexMatrix::Zero(k, k));
+  for (std::size_t i = 0; i < D.size(); ++i) {
+    for (std::size_t j = 0; i + j < count; ++j) {
+      Lambda[i + j] += S0 * D[i] * inverse[j];
+      if (i + j + 1 < count) Lambda[i + j + 1] += S1 * D[i] * inverse[j];
+    }
+  }
+  return Lambda;
+}
+
+/// Two eigenvalues i +- sqrt(h + 1e-9 h^2), defective at h = 0, beside two others at 2i + h and 3i - h.
+std::vector<ComplexMatrix> with_exceptional_point() {
+  const Complex i(0.0, 1.0);
+  std::vector<ComplexMatrix> D(3, ComplexMatrix::Zero(4, 4));
+  D[0].diagonal() << i, i, 2.0 * i, 3.0 * i;
+  D[0](0, 1) = 1.0;
+  D[1](1, 0) = 1.0;
+  D[1](2, 2) = 1.0;
+  D[1](3, 3) = -1.0;
+  D[2](1, 0) = 1e-9;
+  return mixed(D, 3);
+}
+
+TEST(PartSeries, TellsAGapThroughAnExceptionalPointToFullAccuracy) {
+  const Complex i(0.0, 1.0);
+  const std::vector<ComplexMatrix> Lambda = with_exceptional_point();
+  const std::vector<ComplexMatrix> part = part_series(Lambda, {i, i});
+  ASSERT_EQ(part.size(), count);
+  const ComplexVector gap = gap_series(part, 1);
+  ComplexVector exact = ComplexVector::Zero(count);
+  exact[1] = 1.0;
+  exact[2] = 1e-9;
+  EXPECT_LT((gap - exact).norm(), 1e-13);
+  EXPECT_LT((mean_series(part) - i * ComplexVector::Unit(count, 0)).norm(), 1e-13);
+  // The eigenvalues themselves, and with them the product of their series, are lost there.
+  const ComplexVector roots = block_roots(Lambda[0].reshaped());
+  EXPECT_GT((in_order_of((ComplexVector(4) << i, i, 2.0 * i, 3.0 * i).finished(), roots).head(2).array() - i)
+                .abs()
+                .maxCoeff(),
+            1e-9)
+      << "the rival did not lose";
+}
+
+TEST(PartSeries, OfOneEigenvalueIsItsSeries) {
+  const ComplexVector series = mean_series(part_series(with_exceptional_point(), {Complex(0.0, 3.0)}));
+  ComplexVector exact = ComplexVector::Zero(count);
+  exact[0] = Complex(0.0, 3.0);
+  exact[1] = -1.0;
+  EXPECT_LT((series - exact).norm(), 1e-13);
+}
+
+TEST(PartSeries, OfAllIsTheBlock) {
+  const std::vector<ComplexMatrix> Lambda = with_exceptional_point();
+  EXPECT_EQ(part_series(Lambda, {0.0, 0.0, 0.0, 0.0})[1], Lambda[1]);
+}
+
+TEST(PartSeries, OfOneOfTwoThatCoincideIsEmpty) {
+  std::vector<ComplexMatrix> D(2, ComplexMatrix::Zero(3, 3));
+  D[0].diagonal() << 1.0, 1.0, 2.0;
+  D[1].diagonal() << 1.0, -1.0, 0.0;
+  EXPECT_TRUE(part_series(D, {1.0}).empty());
+}
+
+TEST(GapSeries, OfAPermanentDoubletAndAThird) {
+  // Doublet at i, third at i + h: ((s_a - s_b) / 2)^2 = h^2 / 4.
+  std::vector<ComplexMatrix> D(2, ComplexMatrix::Zero(3, 3));
+  D[0].diagonal().setConstant(Complex(0.0, 1.0));
+  D[1](2, 2) = 1.0;
+  const ComplexVector gap = gap_series(mixed(D, 8), 2);
+  EXPECT_LT(std::abs(gap[2] - 0.25), 1e-13);
+  EXPECT_LT(gap.head(2).norm() + gap.tail(3).norm(), 1e-13);
+}
+
+TEST(GapSeries, FromBothSeriesIsHalfTheirDifferenceSquared) {
+  const ComplexVector a{{3.0, 1.0, 0.0}};
+  const ComplexVector b{{1.0, -1.0, 2.0}};
+  const ComplexVector exact{{1.0, 2.0, -1.0}};
+  EXPECT_LT((gap_series(a, b) - exact).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
