@@ -14,8 +14,8 @@ namespace {
 /// Double roots of an interpolant may lie this share of an interval off the axis, or off its ends.
 constexpr double looked_into = 0.1;
 constexpr double beside = 0.05;
-constexpr double smallest_piece = 1e-8;    ///< of a step
-constexpr double coinciding_share = 1e-9;  ///< of the size of a block: closer eigenvalues are one
+constexpr double smallest_piece = 1e-8;     ///< of a step
+constexpr double coinciding_share = 1e-12;  ///< of the size of a block: closer eigenvalues are one
 
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
   return std::any_of(strand.members.begin(), strand.members.end(),
@@ -108,6 +108,33 @@ bool have_just_met(const Track& track, const std::vector<int>& a, const std::vec
   return met(a.front()) && met(b.front());
 }
 
+/// Whether sum_k c_k h^k has no root within r: the constant term outweighs all others.
+bool no_root_within(const ComplexVector& c, double r) {
+  double others = 0.0;
+  double power = 1.0;
+  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
+  return std::abs(c[0]) > others;
+}
+
+/// The series at the left end tells roots close to it that an interpolant over the whole step blurs.
+void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
+                       double length, std::vector<double>& found) {
+  constexpr double close = 0.2;    // of the step: as far as the series tells
+  constexpr double apart = 1e-6;   // of the step: nearer ones are at the end itself
+  constexpr double on_axis = 0.1;  // double roots split
+  constexpr double known = 0.1;
+  const ComplexVector gap = gap_of(track, a, b);
+  if (gap.size() == 0 || no_root_within(gap, close * std::abs(length))) return;
+  for (const Complex root : polynomial_roots(gap)) {
+    const Complex t = root / length;
+    if (t.real() < apart || t.real() > close || std::abs(t.imag()) > on_axis * t.real()) continue;
+    const auto is_known = [&](double position) {
+      return std::abs(position - root.real()) <= known * std::abs(root.real());
+    };
+    if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(root.real());
+  }
+}
+
 }  // namespace
 
 std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length) {
@@ -125,10 +152,13 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
                           coinciding_share * track.pair.Lambda.norm());
+        std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first && std::abs(t.imag()) <= looked_into)
-            meetings.push_back({strands[b], strands[a], std::min(t.real(), 1.0) * length});
+            found.push_back(std::min(t.real(), 1.0) * length);
         }
+        add_near_left_end(track, strands[a].members, strands[b].members, length, found);
+        for (const double position : found) meetings.push_back({strands[b], strands[a], position});
       }
     }
   }
@@ -154,14 +184,6 @@ ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
   const ComplexVector first = strand_series(node.tracks[a.track], a);
   const ComplexVector second = strand_series(node.tracks[b.track], b);
   return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
-}
-
-/// Whether sum_k c_k h^k has no root within r: the constant term outweighs all others.
-bool no_root_within(const ComplexVector& c, double r) {
-  double others = 0.0;
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
-  return std::abs(c[0]) > others;
 }
 
 /// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.

@@ -111,7 +111,7 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
 
 /// Two eigenvalues that coincide all along meet nowhere.
 bool vanishes(const ComplexVector& gap, double reach, double scale) {
-  constexpr double coinciding = 1e-9;
+  constexpr double coinciding = 1e-12;
   double size = 0.0;
   for (Eigen::Index k = gap.size() - 1; k >= 0; --k) size = size * std::abs(reach) + std::abs(gap[k]);
   return std::sqrt(size) <= coinciding * scale;

@@ -81,7 +81,7 @@ class Differences {
   }
 
  private:
-  static constexpr double coinciding = 1e-9;
+  static constexpr double coinciding = 1e-12;
 
   static Eigen::ArrayXXd between(const ComplexVector& roots) {
     return (roots.rowwise().replicate(roots.size()) - roots.transpose().colwise().replicate(roots.size()))

@@ -13,7 +13,7 @@ namespace {
 
 /// Relative distance below which two eigenvalues coincide; double ones that are defective are told to the
 /// root of rounding only.
-constexpr double coinciding = 1e-7;
+constexpr double coinciding = 1e-12;
 
 }  // namespace
 

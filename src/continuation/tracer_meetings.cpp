@@ -58,7 +58,8 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
     if (!meeting.found) return Approach::nothing;
     const double move = std::abs(meeting.offset);
     const bool is_wide = meeting.kind == EventKind::veering && meeting.half_width > narrow * std::abs(h);
-    if (is_wide && (move < 0.1 * std::abs(h) || retrackings > 0)) return Approach::nothing;
+    // Double roots look like wide veerings from afar.
+    if (is_wide && move < 2.0 * meeting.half_width) return Approach::nothing;
     // Settled, or no longer getting nearer at the level of rounding.
     if (move <= resolution || (move > 0.5 * last_move && move <= at_point * coordinate_range())) {
       // The iteration may have settled on one behind the first.

@@ -166,7 +166,10 @@ bool Tracer::has_jumped(const Track& from, const Track& to, double distance) con
   const ComplexVector mean = mean_series(from.series.Lambda);
   const Complex expected = evaluate_series(ComplexMatrix(mean.transpose()), distance)[0];
   const Eigen::Index last = mean.size() - 1;
-  const double uncertain = std::abs(mean[last]) * std::pow(std::abs(distance), static_cast<double>(last));
+  const double step = std::abs(distance);
+  // One of the last terms alone may happen to be small.
+  const double uncertain = std::pow(step, static_cast<double>(last)) *
+                           std::max(std::abs(mean[last]), std::abs(mean[last - 1]) / step);
   const double drift = std::abs(mean_series(to.series.Lambda)[0] - expected);
   return drift > 10.0 * uncertain + 1e-6 * std::max(std::abs(expected), problem_.s_ref);
 }

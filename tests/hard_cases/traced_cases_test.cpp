@@ -13,17 +13,6 @@ namespace {
 constexpr int random_samples = 500;
 constexpr double first_steps[] = {0.0, 1e-3, 0.03, 0.3};  ///< shares of the range; 0: the program's own
 
-/// Cases of which something does not hold yet. They run all the same, and the test fails when one of them
-/// starts to pass, so that it is taken off the list. docs/hard_cases.md says what is missing.
-const std::map<std::string, std::string>& open_cases() {
-  static const std::map<std::string, std::string> cases{
-      {"three_blade_cluster",
-       "the first of two veerings is missed at tolerance 1e-4, downwards, with a first step of 0.3 of the "
-       "range"},
-  };
-  return cases;
-}
-
 class TracedCase : public testing::TestWithParam<HardCase> {};
 
 std::string problems(const CaseReport& report) {
@@ -52,13 +41,7 @@ TEST_P(TracedCase, MatchesItsReference) {
       }
     }
   }
-  const auto open = open_cases().find(GetParam().name);
-  if (open == open_cases().end()) {
-    EXPECT_TRUE(found.empty()) << found;
-  } else {
-    EXPECT_FALSE(found.empty()) << "passes now; take it off the list of open cases: " << open->second;
-    std::printf("open: %s\n%s", open->second.c_str(), found.c_str());
-  }
+  EXPECT_TRUE(found.empty()) << found;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TracedCase, testing::ValuesIn(hard_cases()),

@@ -18,8 +18,6 @@ const std::map<int, std::string>& open_seeds() {
       {4, "modes that coincide at a complex parameter without influence on each other appear as a veering"},
       {7, "stalls where two real roots come close and a crossing lies beside them"},
       {11, "a crossing appears as a veering of half-width 1e-12 as well"},
-      {24, "one of three exceptional points of a pair within one percent of the range is missed"},
-      {36, "an exceptional point is missed at tolerance 1e-4"},
   };
   return seeds;
 }
@@ -42,6 +40,11 @@ TEST_P(PlantedFamilyTrace, HasExactValuesEventsAndLabels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+/// Two crossings of one pair so close to each other that the second was passed unnoticed, and labels behind
+/// it were swapped.
+INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263, 637, 659),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace
