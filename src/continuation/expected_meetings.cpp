@@ -156,14 +156,6 @@ ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
   return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
 }
 
-/// Whether sum_k c_k h^k has no root within r: the constant term outweighs all others.
-bool no_root_within(const ComplexVector& c, double r) {
-  double others = 0.0;
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
-  return std::abs(c[0]) > others;
-}
-
 /// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
@@ -171,12 +163,12 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   if (left.size() == 0 && right.size() == 0) return {};
   if (left.size() == 0 || right.size() == 0) {
     const ComplexVector& gap = left.size() == 0 ? right : left;
-    if (no_root_within(gap, reach)) return {};
+    if (has_no_root_within(gap, reach)) return {};
     std::vector<Complex> roots = polynomial_roots(gap);
     for (Complex& root : roots) root += left.size() == 0 ? length : 0.0;
     return roots;
   }
-  if (no_root_within(left, reach) && no_root_within(right, reach)) return {};
+  if (has_no_root_within(left, reach) && has_no_root_within(right, reach)) return {};
   const HermiteInterpolant gap(length, left.transpose(), right.transpose());
   const int degree = 2 * static_cast<int>(left.size()) - 1;
   std::vector<Complex> roots =

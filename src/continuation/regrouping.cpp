@@ -26,21 +26,13 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
-/// Whether sum_k c_k h^k has no root within radius r: the constant term outweighs all others.
-bool no_root_within(const ComplexVector& c, double r) {
-  double others = 0.0;
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
-  return std::abs(c[0]) > others;
-}
-
 /// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
 /// is the square of the radius that blocks extend around their means.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
                         double limit) {
   ComplexVector delta = gap_series(a, b);
   delta[0] -= spread;
-  if (no_root_within(delta, std::abs(h) + limit)) return INFINITY;
+  if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;
   for (const Complex root : polynomial_roots(delta)) nearest = std::min(nearest, distance_to_step(root, h));
   return nearest;
