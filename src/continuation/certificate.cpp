@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuation/shared_basis.hpp"
+#include "core/matrix_series.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 
 namespace eigentrail {
@@ -17,18 +18,7 @@ constexpr double falling = 0.75;
 constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
 constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
-
-/// A(h)^-1 as a series.
-MatrixSeries inverse_series(const MatrixSeries& A) {
-  const Eigen::PartialPivLU<Matrix> lu(A[0]);
-  MatrixSeries result{lu.inverse()};
-  for (std::size_t k = 1; k < A.size(); ++k) {
-    Matrix sum = Matrix::Zero(A[0].rows(), A[0].cols());
-    for (std::size_t i = 1; i <= k; ++i) sum += A[i] * result[k - i];
-    result.emplace_back(-lu.solve(sum));
-  }
-  return result;
-}
+constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
 
 ComplexMatrix kronecker(const ComplexMatrix& A, const ComplexMatrix& B) {
   ComplexMatrix result(A.rows() * B.rows(), A.cols() * B.cols());
@@ -61,12 +51,12 @@ class Tube {
   };
 
   State state(double t) const {
-    StepPencil::Matrices m = pencil_.at(t);
-    if (chart_ == Chart::reciprocal) std::swap(m.M, m.K);
-    const Vector w = pencil_.weights(t);
+    const StepPencil::Sample& sample = pencil_.at(t);
+    const Vector& w = sample.weights;
     const auto count = static_cast<Eigen::Index>(left_Z_.size());
-    State state{std::move(m.M), std::move(m.C), std::move(m.K), ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
+    State state{sample.M, sample.C, sample.K, ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
                 ComplexMatrix::Zero(W_.cols(), W_.cols())};
+    if (chart_ == Chart::reciprocal) std::swap(state.M, state.K);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       state.Z += w[i] * left_Z_[at] + w[count + i] * right_Z_[at];
@@ -209,14 +199,6 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
             project(change, right.pencil.K, order)};
 }
 
-Vector StepPencil::weights(double t) const {
-  ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
-  ComplexMatrix right = left;
-  left.topRows(count_).setIdentity();
-  right.bottomRows(count_).setIdentity();
-  return HermiteInterpolant(length_, left, right)(t).real();
-}
-
 Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
                                const Vector& weights) const {
   if (left.size() == 1 && right.size() == 1) return left[0];
@@ -227,10 +209,23 @@ Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& rig
   return sum;
 }
 
-StepPencil::Matrices StepPencil::at(double t) const {
-  const Vector w = weights(t);
-  return {interpolate(left_.pencil.M, right_.M, w), interpolate(left_.pencil.C, right_.C, w),
-          interpolate(left_.pencil.K, right_.K, w)};
+StepPencil::Sample StepPencil::sample(double t) const {
+  ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
+  ComplexMatrix right = left;
+  left.topRows(count_).setIdentity();
+  right.bottomRows(count_).setIdentity();
+  Vector weights = HermiteInterpolant(length_, left, right)(t).real();
+  Matrix M = interpolate(left_.pencil.M, right_.M, weights);
+  Matrix C = interpolate(left_.pencil.C, right_.C, weights);
+  Matrix K = interpolate(left_.pencil.K, right_.K, weights);
+  return {std::move(weights), std::move(M), std::move(C), std::move(K)};
+}
+
+const StepPencil::Sample& StepPencil::at(double t) const {
+  const auto known = samples_.find(t);
+  if (known != samples_.end()) return known->second;
+  if (samples_.size() >= most_samples) samples_.clear();
+  return samples_.emplace(t, sample(t)).first->second;
 }
 
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,

@@ -193,12 +193,12 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   if (left.size() == 0 && right.size() == 0) return {};
   if (left.size() == 0 || right.size() == 0) {
     const ComplexVector& gap = left.size() == 0 ? right : left;
-    if (no_root_within(gap, reach)) return {};
+    if (has_no_root_within(gap, reach)) return {};
     std::vector<Complex> roots = polynomial_roots(gap);
     for (Complex& root : roots) root += left.size() == 0 ? length : 0.0;
     return roots;
   }
-  if (no_root_within(left, reach) && no_root_within(right, reach)) return {};
+  if (has_no_root_within(left, reach) && has_no_root_within(right, reach)) return {};
   const HermiteInterpolant gap(length, left.transpose(), right.transpose());
   const int degree = 2 * static_cast<int>(left.size()) - 1;
   std::vector<Complex> roots =

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "continuation/grouping_errors.hpp"
 #include "continuation/strands.hpp"
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -26,21 +26,13 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
-/// Whether sum_k c_k h^k has no root within radius r: the constant term outweighs all others.
-bool no_root_within(const ComplexVector& c, double r) {
-  double others = 0.0;
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
-  return std::abs(c[0]) > others;
-}
-
 /// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
 /// is the square of the radius that blocks extend around their means.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
                         double limit) {
   ComplexVector delta = gap_series(a, b);
   delta[0] -= spread;
-  if (no_root_within(delta, std::abs(h) + limit)) return INFINITY;
+  if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;
   for (const Complex root : polynomial_roots(delta)) nearest = std::min(nearest, distance_to_step(root, h));
   return nearest;
@@ -52,10 +44,9 @@ double square_radius(const Track& track) {
   return track.size() == 1 ? 0.0 : radius;
 }
 
-/// Mean of a track as a series of s, also when it is followed as 1/s; empty at infinity.
-ComplexVector mean_series(const Track& track, Chart chart) {
-  ComplexVector mean(track.functions.cols());
-  for (Eigen::Index k = 0; k < mean.size(); ++k) mean[k] = block_mean(track.functions.col(k));
+/// Mean of a track in a chart; empty where it is at infinity there.
+ComplexVector mean_in(const Track& track, Chart chart) {
+  const ComplexVector mean = mean_series(track.series.Lambda);
   if (track.pair.chart == chart) return mean;
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
@@ -86,7 +77,7 @@ bool settle(const PathProblem& problem, const PathNode& node, const InvariantPai
 std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
   const Track& track = node.tracks[index];
   const double limit = reach * std::abs(h);
-  const ComplexVector mean = mean_series(track, track.pair.chart);
+  const ComplexVector mean = mean_series(track.series.Lambda);
   std::vector<Partner> partners;
   const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
     if (other.size() == 0) return;
@@ -99,7 +90,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const Track& other = node.tracks[i];
     const double spread =
         i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
-    const ComplexVector series = mean_series(other, track.pair.chart);
+    const ComplexVector series = mean_in(other, track.pair.chart);
     if (i != index) consider(series, spread, {false, i});
     if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
     nearest_conjugate =
@@ -109,103 +100,6 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   std::sort(partners.begin(), partners.end(),
             [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
   return partners;
-}
-
-namespace {
-
-/// Series of every eigenvalue of a track in a chart; empty when one of them cannot be told.
-std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
-  std::vector<ComplexVector> all;
-  for (const Complex root : track.roots) {
-    ComplexVector series = root_series(track.functions, root);
-    if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
-    all.push_back(track.pair.chart == chart ? series : reciprocal_series(series));
-  }
-  return all;
-}
-
-/// Mean and power means of the distances from it: the smooth functions of a block as far as single
-/// eigenvalues tell.
-ComplexMatrix symmetric_functions(const std::vector<ComplexVector>& series) {
-  const auto k = static_cast<Eigen::Index>(series.size());
-  ComplexVector mean = ComplexVector::Zero(series.front().size());
-  for (const ComplexVector& s : series) mean += s / static_cast<double>(k);
-  ComplexMatrix functions(k, mean.size());
-  functions.row(0) = mean.transpose();
-  std::vector<ComplexVector> powers(series.size(), ComplexVector::Unit(mean.size(), 0));
-  for (Eigen::Index j = 1; j <= k; ++j) {
-    ComplexVector sum = ComplexVector::Zero(mean.size());
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      powers[i] = multiply_series(powers[i], series[i] - mean);
-      sum += powers[i] / static_cast<double>(k);
-    }
-    if (j >= 2) functions.row(j - 1) = sum.transpose();
-  }
-  return functions;
-}
-
-/// How far errors of the symmetric functions move their roots: through the characteristic polynomial, whose
-/// slope at a root is the product of the distances to the others.
-double symmetric_root_error(const ComplexVector& roots, const Vector& errors, double least_gap) {
-  const Eigen::Index k = roots.size();
-  const Complex mean = roots.mean();
-  double worst = 0.0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    double slope = 1.0;
-    for (Eigen::Index j = 0; j < k; ++j) {
-      if (j != i) slope *= std::max(std::abs(roots[i] - roots[j]), least_gap);
-    }
-    double change = 0.0;
-    for (Eigen::Index j = 2; j <= k; ++j) {
-      const double power =
-          std::pow(std::max(std::abs(roots[i] - mean), least_gap), static_cast<double>(k - j));
-      change += static_cast<double>(k) / static_cast<double>(j) * errors[j - 1] * power;
-    }
-    worst = std::max(worst, change / slope);
-  }
-  return errors[0] + worst;
-}
-
-}  // namespace
-
-double error_as_block(const PathNode& left, const PathNode& right, std::size_t index,
-                      const std::vector<Partner>& partners, double h, double least_gap) {
-  const Chart chart = right.tracks[index].pair.chart;
-  const auto members = [&](const PathNode& node) {
-    std::vector<ComplexVector> all = eigenvalue_series(node.tracks[index], chart);
-    for (const Partner& partner : partners) {
-      std::vector<ComplexVector> more = eigenvalue_series(node.tracks[partner.track], chart);
-      for (ComplexVector& series : more)
-        all.push_back(partner.conjugate ? ComplexVector(series.conjugate()) : series);
-      if (more.empty()) return std::vector<ComplexVector>{};
-    }
-    return all;
-  };
-  const std::vector<ComplexVector> at_left = members(left);
-  const std::vector<ComplexVector> at_right = members(right);
-  if (at_left.empty() || at_left.size() != at_right.size()) return INFINITY;
-  const ComplexMatrix from = symmetric_functions(at_left);
-  const ComplexMatrix to = symmetric_functions(at_right);
-  const Vector errors = HermiteInterpolant(h, from, to).error_without_last();
-  double worst = 0.0;
-  for (const auto* end : {&at_left, &at_right}) {
-    ComplexVector roots(static_cast<Eigen::Index>(end->size()));
-    for (std::size_t i = 0; i < end->size(); ++i) roots[static_cast<Eigen::Index>(i)] = (*end)[i][0];
-    worst = std::max(worst, symmetric_root_error(roots, errors, least_gap));
-  }
-  return std::isfinite(worst) ? worst : INFINITY;
-}
-
-double error_in_other_chart(const PathProblem& problem, const PathNode& left, const PathNode& right,
-                            std::size_t index, double h) {
-  const Track& a = left.tracks[index];
-  const Track& b = right.tracks[index];
-  if (a.size() != 1 || b.size() != 1 || a.roots[0] == 0.0 || b.roots[0] == 0.0) return INFINITY;
-  const Chart other = b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite;
-  const ComplexMatrix from = reciprocal_series(a.functions.row(0).transpose()).transpose();
-  const ComplexMatrix to = reciprocal_series(b.functions.row(0).transpose()).transpose();
-  const double scale = std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(other));
-  return HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
 }
 
 namespace {
@@ -315,34 +209,6 @@ std::vector<std::vector<int>> groups(const Track& track, double h, double reach)
     if (!members.empty()) result.push_back(std::move(members));
   }
   return result;
-}
-
-/// Estimated errors of the eigenvalues of a block if each had been followed by itself on the step of length h
-/// that ended at the node, relative to max(|mu|, reference), in the better chart for each.
-Vector errors_as_singles(const PathProblem& problem, const PathNode& left, const PathNode& right,
-                         std::size_t index, double h) {
-  const Track& a = left.tracks[index];
-  const Track& b = right.tracks[index];
-  Vector errors = Vector::Constant(b.size(), INFINITY);
-  if (a.size() != b.size()) return errors;
-  for (Eigen::Index i = 0; i < b.size(); ++i) {
-    ComplexMatrix from = root_series(a.functions, a.roots[i]).transpose();
-    ComplexMatrix to = root_series(b.functions, b.roots[i]).transpose();
-    if (from.cols() == 0 || to.cols() == 0) continue;
-    for (const Chart chart :
-         {b.pair.chart, b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite}) {
-      if (chart != b.pair.chart) {
-        if (from(0, 0) == 0.0 || to(0, 0) == 0.0) continue;
-        from = reciprocal_series(from.row(0).transpose()).transpose().eval();
-        to = reciprocal_series(to.row(0).transpose()).transpose().eval();
-      }
-      const double scale =
-          std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(chart));
-      const double error = HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
-      if (error < errors[i]) errors[i] = error;
-    }
-  }
-  return errors;
 }
 
 /// A block without the eigenvalues that could have done alone.

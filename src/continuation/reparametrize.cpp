@@ -8,8 +8,8 @@
 namespace eigentrail {
 namespace {
 
-/// Series of the old coordinate in the new one: inverse of sigma(h), sigma_0 = 0.
-Vector inverse_series(const Vector& sigma) {
+/// Series of the old coordinate in the new one: the inverse function of sigma(h), sigma_0 = 0.
+Vector reversion(const Vector& sigma) {
   const Eigen::Index count = sigma.size();
   Vector h = Vector::Zero(count);
   h[1] = 1.0 / sigma[1];
@@ -64,6 +64,22 @@ void compose(std::vector<Coefficient>& series, const Matrix& table) {
   }
 }
 
+void compose(Path& path, const Matrix& table) {
+  compose_columns(path.parameters, table);
+  compose_columns(path.x, table);
+  compose_columns(path.lambda, table);
+}
+
+/// The plane's coordinate, zero at the point, as a series in the path's own.
+Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, Eigen::Index count) {
+  Vector sigma = Vector::Zero(count);
+  for (Eigen::Index k = 1; k < count; ++k) {
+    sigma[k] = plane.p * coefficient(path.parameters, traced, k);
+    if (k < path.x.cols()) sigma[k] += plane.x.dot(path.x.col(k));
+  }
+  return sigma;
+}
+
 }  // namespace
 
 PathPlane plane_along(const Path& path, int traced, const PathScales& scales, double direction) {
@@ -73,19 +89,17 @@ PathPlane plane_along(const Path& path, int traced, const PathScales& scales, do
   return {dx / (scales.x * scales.x * norm), dp / (scales.p * scales.p * norm)};
 }
 
+void reparametrize(Path& path, const PathPlane& plane, int traced) {
+  const Vector sigma = coordinate_series(path, plane, traced, std::max<Eigen::Index>(2, path.x.cols()));
+  compose(path, powers(reversion(sigma)));
+}
+
 void reparametrize(PathNode& node, const PathPlane& plane, int traced) {
-  Eigen::Index count = 2;
+  Eigen::Index count = std::max<Eigen::Index>(2, node.path.x.cols());
   for (const Track& track : node.tracks) count = std::max(count, track.functions.cols());
-  count = std::max(count, node.path.x.cols());
-  Vector sigma = Vector::Zero(count);
-  for (Eigen::Index k = 1; k < count; ++k) {
-    sigma[k] = plane.p * coefficient(node.path.parameters, traced, k);
-    if (k < node.path.x.cols()) sigma[k] += plane.x.dot(node.path.x.col(k));
-  }
-  const Matrix table = powers(inverse_series(sigma));
-  compose_columns(node.path.parameters, table);
-  compose_columns(node.path.x, table);
-  compose_columns(node.path.lambda, table);
+  const Vector sigma = coordinate_series(node.path, plane, traced, count);
+  const Matrix table = powers(reversion(sigma));
+  compose(node.path, table);
   for (MatrixSeries* series :
        {&node.linearization.M, &node.linearization.C, &node.linearization.K, &node.linearization.A,
         &node.basis.T, &node.pencil.M, &node.pencil.C, &node.pencil.K})

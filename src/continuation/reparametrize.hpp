@@ -17,6 +17,9 @@ PathPlane plane_along(const Path& path, int traced, const PathScales& scales, do
 /// Rewrites every series of the point in the plane's coordinate.
 void reparametrize(PathNode& node, const PathPlane& plane, int traced);
 
+/// The same for the path alone.
+void reparametrize(Path& path, const PathPlane& plane, int traced);
+
 /// Whether the last term of x falls much faster in the coordinate of `turned` than in that of `path` on a
 /// step whose length in the latter is h.
 bool falls_faster(const Path& turned, const Path& path, int traced, const PathScales& scales, double h);

@@ -36,14 +36,14 @@ bool Tracer::turn_to_plane(double h) {
   if (plane_ || problem_.structure.fixed_equilibrium || problem_.structure.known_equilibrium) return false;
   if (bridge_ && bridge_->covers(node_.p)) return false;
   const auto plane = plane_along(node_.path, problem_.traced, path_scales(), direction_);
-  PathNode turned = node_;
+  Path turned = node_.path;
   reparametrize(turned, plane, problem_.traced);
-  if (!falls_faster(turned.path, node_.path, problem_.traced, path_scales(), h)) return false;
+  if (!falls_faster(turned, node_.path, problem_.traced, path_scales(), h)) return false;
   plane_ = plane;
   bridge_.reset();
   direction_ = 1.0;
-  turned_step_ = std::abs(h / coefficient(turned.path.parameters, problem_.traced, 1));
-  node_ = std::move(turned);
+  turned_step_ = std::abs(h / coefficient(turned.parameters, problem_.traced, 1));
+  reparametrize(node_, plane, problem_.traced);
   ++result_.regroupings.planes;
   return true;
 }

@@ -105,4 +105,12 @@ std::vector<Complex> polynomial_roots(const ComplexVector& coefficients) {
   return eigenvalues(companion);
 }
 
+bool has_no_root_within(const ComplexVector& coefficients, double radius) {
+  double others = 0.0;
+  double power = 1.0;
+  for (Eigen::Index k = 1; k < coefficients.size(); ++k)
+    others += std::abs(coefficients[k]) * (power *= radius);
+  return std::abs(coefficients[0]) > others;
+}
+
 }  // namespace eigentrail

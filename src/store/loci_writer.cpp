@@ -9,10 +9,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/modes/normalization.hpp"
+#include "store/loci_summary.hpp"
 
 namespace eigentrail {
 namespace {
@@ -52,9 +54,9 @@ const std::array<std::string, 31> reserved = {"node",
                                               "event_puiseux",
                                               "event_node"};
 
-std::vector<std::int64_t> count_from(std::int64_t first, std::size_t n) {
+std::vector<std::int64_t> count_from(std::uint64_t first, std::size_t n) {
   std::vector<std::int64_t> list(n);
-  for (std::size_t i = 0; i < n; ++i) list[i] = first + static_cast<std::int64_t>(i);
+  std::iota(list.begin(), list.end(), static_cast<std::int64_t>(first));
   return list;
 }
 
@@ -72,8 +74,10 @@ struct Buffer {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::string mode_name(std::size_t index) {
-  return "mode " + std::to_string(index + 1);
+std::vector<std::string> mode_names(std::size_t first, std::size_t end) {
+  std::vector<std::string> names;
+  for (std::size_t i = first; i < end; ++i) names.push_back("mode " + std::to_string(i + 1));
+  return names;
 }
 
 }  // namespace
@@ -137,12 +141,10 @@ struct LociWriter::Implementation {
   }
 
   void create_dimensions(const ModelDescription& description, const TraceOptions& options) {
-    std::vector<std::string> modes;
-    for (std::size_t i = 0; i < n_modes; ++i) modes.push_back(mode_name(i));
     create_dimension("node", ElementType::integer, count_from(0, 0), "path point", true);
     create_dimension("step", ElementType::integer, count_from(0, 0), "step from a path point to the next",
                      true);
-    create_dimension("mode", ElementType::text, modes, "mode", true);
+    create_dimension("mode", ElementType::text, mode_names(0, n_modes), "mode", true);
     create_dimension("function", ElementType::integer, count_from(0, n_functions),
                      "smooth function of a mode or of a block of modes", true);
     create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"}, "end of a step");
@@ -222,13 +224,9 @@ struct LociWriter::Implementation {
     if (wanted <= current) return;
     flush();
     if (dimension == "mode") {
-      std::vector<std::string> names;
-      for (std::size_t i = current; i < wanted; ++i) names.push_back(mode_name(i));
-      file.write_rows(dimension, current, names);
+      file.write_rows(dimension, current, mode_names(current, wanted));
     } else {
-      std::vector<std::int64_t> numbers;
-      for (std::size_t i = current; i < wanted; ++i) numbers.push_back(static_cast<std::int64_t>(i));
-      file.write_rows(dimension, current, numbers);
+      file.write_rows(dimension, current, count_from(current, wanted - current));
     }
     for (const auto& [name, axis] : extensible[dimension]) file.extend(name, axis, wanted);
     current = wanted;
@@ -364,7 +362,7 @@ void LociWriter::Implementation::flush() {
   const std::size_t n = buffer.points();
   last_flush = std::chrono::steady_clock::now();
   if (n == 0) return;
-  file.write_rows("node", points, count_from(static_cast<std::int64_t>(points), n));
+  file.write_rows("node", points, count_from(points, n));
   file.write_rows(parameter, points, buffer.parameter);
   file.write_rows("eigenvalue", points, buffer.eigenvalue);
   file.write_rows("eigenvalue_derivative", points, buffer.eigenvalue_derivative);
@@ -376,7 +374,7 @@ void LociWriter::Implementation::flush() {
   file.write_rows("equilibrium", points, buffer.equilibrium);
   if (has_constraints) file.write_rows("multiplier", points, buffer.multiplier);
   if (buffer.steps() > 0) {
-    file.write_rows("step", steps, count_from(static_cast<std::int64_t>(steps), buffer.steps()));
+    file.write_rows("step", steps, count_from(steps, buffer.steps()));
     file.write_rows("step_length", steps, buffer.step_length);
     file.write_rows("step_parameter", steps, buffer.step_parameter);
     file.write_rows("dense_output", steps, buffer.dense_output);
@@ -391,61 +389,11 @@ void LociWriter::Implementation::flush() {
   buffer = {};
 }
 
-namespace {
-
-void write_events(Hdf5File& file, const std::vector<Event>& events) {
-  if (events.empty()) return;
-  std::vector<std::string> lines;
-  std::vector<double> parameters, half_widths;
-  std::vector<Complex> eigenvalues, puiseux;
-  std::vector<std::int64_t> nodes;
-  for (const Event& event : events) {
-    lines.push_back(event_line(event));
-    parameters.push_back(event.p);
-    half_widths.push_back(event.kind == EventKind::veering ? event.half_width : nan);
-    eigenvalues.push_back(event.s);
-    puiseux.push_back(event.puiseux == 0.0 ? Complex(nan, nan) : event.puiseux);
-    nodes.push_back(event.node);
-  }
-  file.write_rows("event", 0, count_from(0, events.size()));
-  file.write_rows("events", 0, lines);
-  file.write_rows("event_parameter", 0, parameters);
-  file.write_rows("event_eigenvalue", 0, eigenvalues);
-  file.write_rows("event_half_width", 0, half_widths);
-  file.write_rows("event_puiseux", 0, puiseux);
-  file.write_rows("event_node", 0, nodes);
-}
-
-}  // namespace
-
 void LociWriter::finish(const TraceResult& result) {
   implementation_->flush();
-  Hdf5File& file = implementation_->file;
-  write_events(file, result.events);
-  const auto count = [&file](const std::string& name, std::uint64_t value) {
-    file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
-  };
-  std::string notes;
-  for (const std::string& note : result.notes) notes += (notes.empty() ? "" : "; ") + note;
-  file.set_attribute("status", result.status == TraceStatus::completed ? "completed" : "ended early");
-  file.set_attribute("message", result.message);
-  file.set_attribute("notes", notes);
-  file.set_attribute("seconds", result.seconds);
-  count("nodes", static_cast<std::uint64_t>(result.nodes));
-  count("events", result.events.size());
-  count("rejected_steps", static_cast<std::uint64_t>(result.rejections.total()));
-  count("modes_available", static_cast<std::uint64_t>(result.n_available));
-  count("mode_steps", static_cast<std::uint64_t>(result.mode_steps));
-  count("certified_mode_steps", static_cast<std::uint64_t>(result.certified_steps));
-  count("mode_factorizations", result.counts.modes.factorizations);
-  count("mode_iterations", result.counts.modes.iterations);
-  count("mode_solves", result.counts.modes.solves);
-  count("certificate_factorizations", result.counts.certificate_factorizations);
-  count("event_factorizations", result.counts.event_factorizations);
-  count("spectra", result.counts.spectra);
-  count("equilibrium_iterations", result.counts.equilibrium_iterations);
-  count("equilibrium_factorizations", result.counts.equilibrium_factorizations);
-  file.flush();
+  write_events(implementation_->file, result.events);
+  write_summary(implementation_->file, result);
+  implementation_->file.flush();
 }
 
 }  // namespace eigentrail

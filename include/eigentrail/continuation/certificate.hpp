@@ -9,36 +9,38 @@
 // The bounds are sampled, and norms are estimated by power iteration: evidence, not interval arithmetic.
 #pragma once
 
+#include <map>
+
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
 
 /// The pencil between two neighbouring points, in the reduced coordinates of the left one. Costs no model
-/// evaluation.
+/// evaluation. Keeps what it has computed: not for use by several threads at once.
 class StepPencil {
  public:
   /// `length` is the step in the path's coordinate; both points must outlive the object.
   StepPencil(const PathNode& left, const PathNode& right, double length);
 
-  /// M, C, K at t in [0, 1].
-  struct Matrices {
+  /// What is interpolated at one place of the step.
+  struct Sample {
+    Vector weights;  ///< of the coefficients at both ends, left, then right
     Matrix M, C, K;
   };
-  Matrices at(double t) const;
+  /// At t in [0, 1]; refers to what is valid until the next call.
+  const Sample& at(double t) const;
 
-  double length() const { return length_; }
   const PathNode& left() const { return left_; }
 
-  /// Weights of the coefficients at both ends (left, then right) in the value at t.
-  Vector weights(double t) const;
-
  private:
+  Sample sample(double t) const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
 
   const PathNode& left_;
   double length_;
   Eigen::Index count_;  ///< coefficients at each end
   ReducedPencil right_;
+  mutable std::map<double, Sample> samples_;  ///< by t: every block of a step looks at the same places
 };
 
 /// Whether the tube closes on the whole step from `left` to `right`, the same block at both ends. `gap` is

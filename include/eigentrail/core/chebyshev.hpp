@@ -20,4 +20,8 @@ std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients);
 /// All roots of sum_k coefficients[k] h^k.
 std::vector<Complex> polynomial_roots(const ComplexVector& coefficients);
 
+/// Whether such a polynomial certainly has no root with |h| <= radius: its constant term outweighs all others
+/// there.
+bool has_no_root_within(const ComplexVector& coefficients, double radius);
+
 }  // namespace eigentrail

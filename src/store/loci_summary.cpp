@@ -1,0 +1,58 @@
+#include "store/loci_summary.hpp"
+
+#include <limits>
+
+namespace eigentrail {
+
+void write_events(Hdf5File& file, const std::vector<Event>& events) {
+  if (events.empty()) return;
+  std::vector<std::string> lines;
+  std::vector<double> parameters, half_widths;
+  std::vector<Complex> eigenvalues, puiseux;
+  std::vector<std::int64_t> numbers, nodes;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Event& event : events) {
+    numbers.push_back(static_cast<std::int64_t>(numbers.size()));
+    lines.push_back(event_line(event));
+    parameters.push_back(event.p);
+    half_widths.push_back(event.kind == EventKind::veering ? event.half_width : nan);
+    eigenvalues.push_back(event.s);
+    puiseux.push_back(event.puiseux == 0.0 ? Complex(nan, nan) : event.puiseux);
+    nodes.push_back(event.node);
+  }
+  file.write_rows("event", 0, numbers);
+  file.write_rows("events", 0, lines);
+  file.write_rows("event_parameter", 0, parameters);
+  file.write_rows("event_eigenvalue", 0, eigenvalues);
+  file.write_rows("event_half_width", 0, half_widths);
+  file.write_rows("event_puiseux", 0, puiseux);
+  file.write_rows("event_node", 0, nodes);
+}
+
+void write_summary(Hdf5File& file, const TraceResult& result) {
+  const auto count = [&file](const std::string& name, std::uint64_t value) {
+    file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
+  };
+  std::string notes;
+  for (const std::string& note : result.notes) notes += (notes.empty() ? "" : "; ") + note;
+  file.set_attribute("status", result.status == TraceStatus::completed ? "completed" : "ended early");
+  file.set_attribute("message", result.message);
+  file.set_attribute("notes", notes);
+  file.set_attribute("seconds", result.seconds);
+  count("nodes", static_cast<std::uint64_t>(result.nodes));
+  count("events", result.events.size());
+  count("rejected_steps", static_cast<std::uint64_t>(result.rejections.total()));
+  count("modes_available", static_cast<std::uint64_t>(result.n_available));
+  count("mode_steps", static_cast<std::uint64_t>(result.mode_steps));
+  count("certified_mode_steps", static_cast<std::uint64_t>(result.certified_steps));
+  count("mode_factorizations", result.counts.modes.factorizations);
+  count("mode_iterations", result.counts.modes.iterations);
+  count("mode_solves", result.counts.modes.solves);
+  count("certificate_factorizations", result.counts.certificate_factorizations);
+  count("event_factorizations", result.counts.event_factorizations);
+  count("spectra", result.counts.spectra);
+  count("equilibrium_iterations", result.counts.equilibrium_iterations);
+  count("equilibrium_factorizations", result.counts.equilibrium_factorizations);
+}
+
+}  // namespace eigentrail
