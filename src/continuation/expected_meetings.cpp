@@ -108,14 +108,6 @@ bool have_just_met(const Track& track, const std::vector<int>& a, const std::vec
   return met(a.front()) && met(b.front());
 }
 
-/// Whether sum_k c_k h^k has no root within r: the constant term outweighs all others.
-bool no_root_within(const ComplexVector& c, double r) {
-  double others = 0.0;
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < c.size(); ++k) others += std::abs(c[k]) * (power *= r);
-  return std::abs(c[0]) > others;
-}
-
 /// The series at the left end tells roots close to it that an interpolant over the whole step blurs.
 void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                        double length, std::vector<double>& found) {
@@ -124,7 +116,7 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   constexpr double on_axis = 0.1;  // double roots split
   constexpr double known = 0.1;
   const ComplexVector gap = gap_of(track, a, b);
-  if (gap.size() == 0 || no_root_within(gap, close * std::abs(length))) return;
+  if (gap.size() == 0 || has_no_root_within(gap, close * std::abs(length))) return;
   for (const Complex root : polynomial_roots(gap)) {
     const Complex t = root / length;
     if (t.real() < apart || t.real() > close || std::abs(t.imag()) > on_axis * t.real()) continue;
