@@ -178,6 +178,9 @@ ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
   return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
 }
 
+/// Roots of an interpolant where its last term is a larger share than this are its own, not the function's.
+constexpr double told_by_series = 0.05;
+
 /// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
@@ -195,6 +198,7 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   const int degree = 2 * static_cast<int>(left.size()) - 1;
   std::vector<Complex> roots =
       chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
+  std::erase_if(roots, [&](Complex t) { return gap.last_share(0, t) > told_by_series; });
   for (Complex& root : roots) root *= length;
   return roots;
 }
