@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuation/shared_basis.hpp"
+#include "core/matrix_series.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 
 namespace eigentrail {
@@ -18,18 +19,6 @@ constexpr int power_iterations = 4;       ///< of a norm estimate, which approac
 constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
 constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
-
-/// A(h)^-1 as a series.
-MatrixSeries inverse_series(const MatrixSeries& A) {
-  const Eigen::PartialPivLU<Matrix> lu(A[0]);
-  MatrixSeries result{lu.inverse()};
-  for (std::size_t k = 1; k < A.size(); ++k) {
-    Matrix sum = Matrix::Zero(A[0].rows(), A[0].cols());
-    for (std::size_t i = 1; i <= k; ++i) sum += A[i] * result[k - i];
-    result.emplace_back(-lu.solve(sum));
-  }
-  return result;
-}
 
 ComplexMatrix kronecker(const ComplexMatrix& A, const ComplexMatrix& B) {
   ComplexMatrix result(A.rows() * B.rows(), A.cols() * B.cols());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/matrix_series.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -118,8 +119,7 @@ bool vanishes(const ComplexVector& gap, double reach, double scale) {
 }
 
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
-  ComplexMatrix N = Lambda.back();
-  for (std::size_t j = Lambda.size() - 1; j-- > 0;) N = N * h + Lambda[j];
+  ComplexMatrix N = evaluate_series(Lambda, h);
   N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
   return N;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "core/matrix_series.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -61,11 +62,9 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
 /// Series of V = T Z.
 std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, const std::vector<ComplexMatrix>& Z) {
   if (basis.is_identity) return Z;
-  std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(basis.T[0].rows(), Z[0].cols()));
-  for (std::size_t j = 0; j < basis.T.size() && j < Z.size(); ++j) {
-    for (std::size_t i = 0; i + j < Z.size(); ++i) V[i + j] += basis.T[j].cast<Complex>() * Z[i];
-  }
-  return V;
+  std::vector<ComplexMatrix> T;
+  for (const Matrix& coefficient : basis.T) T.emplace_back(coefficient.cast<Complex>());
+  return multiply_series(T, Z, Z.size());
 }
 
 bool is_finite(const Track& track) {

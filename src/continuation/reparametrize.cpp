@@ -8,8 +8,8 @@
 namespace eigentrail {
 namespace {
 
-/// Series of the old coordinate in the new one: inverse of sigma(h), sigma_0 = 0.
-Vector inverse_series(const Vector& sigma) {
+/// Series of the old coordinate in the new one: the inverse function of sigma(h), sigma_0 = 0.
+Vector reversion(const Vector& sigma) {
   const Eigen::Index count = sigma.size();
   Vector h = Vector::Zero(count);
   h[1] = 1.0 / sigma[1];
@@ -91,14 +91,14 @@ PathPlane plane_along(const Path& path, int traced, const PathScales& scales, do
 
 void reparametrize(Path& path, const PathPlane& plane, int traced) {
   const Vector sigma = coordinate_series(path, plane, traced, std::max<Eigen::Index>(2, path.x.cols()));
-  compose(path, powers(inverse_series(sigma)));
+  compose(path, powers(reversion(sigma)));
 }
 
 void reparametrize(PathNode& node, const PathPlane& plane, int traced) {
   Eigen::Index count = std::max<Eigen::Index>(2, node.path.x.cols());
   for (const Track& track : node.tracks) count = std::max(count, track.functions.cols());
   const Vector sigma = coordinate_series(node.path, plane, traced, count);
-  const Matrix table = powers(inverse_series(sigma));
+  const Matrix table = powers(reversion(sigma));
   compose(node.path, table);
   for (MatrixSeries* series :
        {&node.linearization.M, &node.linearization.C, &node.linearization.K, &node.linearization.A,

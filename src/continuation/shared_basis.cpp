@@ -1,6 +1,6 @@
 #include "continuation/shared_basis.hpp"
 
-#include <Eigen/LU>
+#include "core/matrix_series.hpp"
 
 namespace eigentrail {
 
@@ -16,28 +16,14 @@ std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<C
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda) {
   const std::size_t count = Z.size();
   const Eigen::Index n = Z[0].rows();
-  const Eigen::Index k = Z[0].cols();
-  const auto product = [count](const std::vector<ComplexMatrix>& A, const std::vector<ComplexMatrix>& B) {
-    std::vector<ComplexMatrix> C(count, ComplexMatrix::Zero(A[0].rows(), B[0].cols()));
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; i + j < count; ++j) C[i + j] += A[i] * B[j];
-    }
-    return C;
-  };
-  const std::vector<ComplexMatrix> ZL = product(Z, Lambda);
+  const std::vector<ComplexMatrix> ZL = multiply_series(Z, Lambda, count);
   std::vector<ComplexMatrix> N(count);
   for (std::size_t i = 0; i < count; ++i) {
     N[i] = W.topRows(n).adjoint() * Z[i] + W.bottomRows(n).adjoint() * ZL[i];
   }
-  const Eigen::PartialPivLU<ComplexMatrix> lu(N[0]);
-  std::vector<ComplexMatrix> S{lu.inverse()};
-  for (std::size_t i = 1; i < count; ++i) {
-    ComplexMatrix sum = ComplexMatrix::Zero(k, k);
-    for (std::size_t j = 1; j <= i; ++j) sum += N[j] * S[i - j];
-    S.emplace_back(-lu.solve(sum));
-  }
-  Z = product(Z, S);
-  Lambda = product(N, product(Lambda, S));
+  const std::vector<ComplexMatrix> S = inverse_series(N);
+  Z = multiply_series(Z, S, count);
+  Lambda = multiply_series(N, multiply_series(Lambda, S, count), count);
 }
 
 DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_t index) {

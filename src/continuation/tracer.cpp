@@ -9,6 +9,7 @@
 #include "continuation/regrouping.hpp"
 #include "continuation/reparametrize.hpp"
 #include "continuation/shared_basis.hpp"
+#include "core/matrix_series.hpp"
 #include "eigentrail/continuation/certificate.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -160,12 +161,8 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
     InvariantPair pair;
     pair.chart = track.pair.chart;
     pair.is_real = track.pair.is_real;
-    pair.Z = track.series.Z.back();
-    pair.Lambda = track.series.Lambda.back();
-    for (std::size_t k = track.series.Z.size() - 1; k-- > 0;) {
-      pair.Z = pair.Z * h + track.series.Z[k];
-      pair.Lambda = pair.Lambda * h + track.series.Lambda[k];
-    }
+    pair.Z = evaluate_series(track.series.Z, h);
+    pair.Lambda = evaluate_series(track.series.Lambda, h);
     prediction.pairs.push_back(std::move(pair));
   }
   return prediction;

@@ -8,6 +8,7 @@
 
 #include "continuation/event_tools.hpp"
 #include "continuation/tracer.hpp"
+#include "core/matrix_series.hpp"
 
 namespace eigentrail {
 namespace {
@@ -41,12 +42,6 @@ struct Determinant {
   double relative_to(const Determinant& other) const { return sign * std::exp(logarithm - other.logarithm); }
 };
 
-Matrix evaluate(const MatrixSeries& series, double h) {
-  Matrix value = series.back();
-  for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
-  return value;
-}
-
 double slope(const VectorSeries& series, Eigen::Index row, double h) {
   double value = 0.0;
   for (Eigen::Index k = series.cols() - 1; k > 0; --k)
@@ -74,7 +69,7 @@ bool Tracer::on_branch_point(double coordinate) const {
 std::optional<double> Tracer::expect_branch_point(double h, const PathNode* next) const {
   const auto test = [&](const PathNode& node, double distance, double& divisor) {
     divisor = plane_ ? slope(node.path.parameters, problem_.traced, distance) : 1.0;
-    return Determinant(evaluate(node.pencil.K, distance), Determinant::norm(node.linearization.K[0]));
+    return Determinant(evaluate_series(node.pencil.K, distance), Determinant::norm(node.linearization.K[0]));
   };
   double heading = 1.0;
   const Determinant begin = test(node_, within_step * h, heading);

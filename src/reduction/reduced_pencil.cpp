@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/matrix_series.hpp"
+
 namespace eigentrail {
 
 MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
@@ -11,10 +13,7 @@ MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order
   };
   if (basis.is_identity) return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(top(B.size(), 1)) + 1};
 
-  MatrixSeries BT(top(B.size() + T.size(), 2) + 1, Matrix::Zero(B[0].rows(), T[0].cols()));
-  for (std::size_t j = 0; j < B.size(); ++j) {
-    for (std::size_t l = 0; l < T.size() && j + l < BT.size(); ++l) BT[j + l].noalias() += B[j] * T[l];
-  }
+  const MatrixSeries BT = multiply_series(B, T, top(B.size() + T.size(), 2) + 1);
   MatrixSeries result(top(BT.size() + T.size(), 2) + 1, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {
     for (std::size_t j = 0; j < BT.size() && i + j < result.size(); ++j) {

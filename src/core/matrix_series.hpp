@@ -1,0 +1,43 @@
+// Arithmetic of power series with matrix coefficients, truncated.
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+/// Value at h by Horner's rule.
+template <class Coefficient>
+Coefficient evaluate_series(const std::vector<Coefficient>& series, double h) {
+  Coefficient value = series.back();
+  for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
+  return value;
+}
+
+/// The first `count` coefficients of A(h) B(h); those that a factor lacks are zero.
+template <class Coefficient>
+std::vector<Coefficient> multiply_series(const std::vector<Coefficient>& A, const std::vector<Coefficient>& B,
+                                         std::size_t count) {
+  std::vector<Coefficient> product(count, Coefficient::Zero(A[0].rows(), B[0].cols()));
+  for (std::size_t i = 0; i < A.size(); ++i) {
+    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) product[i + j].noalias() += A[i] * B[j];
+  }
+  return product;
+}
+
+/// A(h)^-1 with as many coefficients as A has; A(0) must be regular.
+template <class Coefficient>
+std::vector<Coefficient> inverse_series(const std::vector<Coefficient>& A) {
+  const Eigen::PartialPivLU<Coefficient> lu(A[0]);
+  std::vector<Coefficient> inverse{lu.inverse()};
+  for (std::size_t k = 1; k < A.size(); ++k) {
+    Coefficient sum = Coefficient::Zero(A[0].rows(), A[0].cols());
+    for (std::size_t i = 1; i <= k; ++i) sum += A[i] * inverse[k - i];
+    inverse.emplace_back(-lu.solve(sum));
+  }
+  return inverse;
+}
+
+}  // namespace eigentrail
