@@ -44,10 +44,9 @@ double square_radius(const Track& track) {
   return track.size() == 1 ? 0.0 : radius;
 }
 
-/// Mean of a track as a series of s, also when it is followed as 1/s; empty at infinity.
-ComplexVector mean_series(const Track& track, Chart chart) {
-  ComplexVector mean(track.functions.cols());
-  for (Eigen::Index k = 0; k < mean.size(); ++k) mean[k] = block_mean(track.functions.col(k));
+/// Mean of a track in a chart; empty where it is at infinity there.
+ComplexVector mean_in(const Track& track, Chart chart) {
+  const ComplexVector mean = mean_series(track.series.Lambda);
   if (track.pair.chart == chart) return mean;
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
@@ -78,7 +77,7 @@ bool settle(const PathProblem& problem, const PathNode& node, const InvariantPai
 std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
   const Track& track = node.tracks[index];
   const double limit = reach * std::abs(h);
-  const ComplexVector mean = mean_series(track, track.pair.chart);
+  const ComplexVector mean = mean_series(track.series.Lambda);
   std::vector<Partner> partners;
   const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
     if (other.size() == 0) return;
@@ -91,7 +90,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const Track& other = node.tracks[i];
     const double spread =
         i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
-    const ComplexVector series = mean_series(other, track.pair.chart);
+    const ComplexVector series = mean_in(other, track.pair.chart);
     if (i != index) consider(series, spread, {false, i});
     if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
     nearest_conjugate =
@@ -188,16 +187,30 @@ double error_as_block(const PathNode& left, const PathNode& right, std::size_t i
   return std::isfinite(worst) ? worst : INFINITY;
 }
 
+namespace {
+
+/// Estimated error of an eigenvalue from its series at both ends of a step, relative to max(|mu|, reference).
+double relative_error(const ComplexVector& from, const ComplexVector& to, double h, double reference) {
+  const double scale = std::max(std::min(std::abs(from[0]), std::abs(to[0])), reference);
+  return HermiteInterpolant(h, from.transpose(), to.transpose()).error_without_last()[0] / scale;
+}
+
+/// The same for 1/mu; infinite where mu vanishes.
+double relative_error_of_reciprocal(const ComplexVector& from, const ComplexVector& to, double h,
+                                    double reference) {
+  if (from[0] == 0.0 || to[0] == 0.0) return INFINITY;
+  return relative_error(reciprocal_series(from), reciprocal_series(to), h, reference);
+}
+
+}  // namespace
+
 double error_in_other_chart(const PathProblem& problem, const PathNode& left, const PathNode& right,
                             std::size_t index, double h) {
   const Track& a = left.tracks[index];
   const Track& b = right.tracks[index];
-  if (a.size() != 1 || b.size() != 1 || a.roots[0] == 0.0 || b.roots[0] == 0.0) return INFINITY;
-  const Chart other = b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite;
-  const ComplexMatrix from = reciprocal_series(a.functions.row(0).transpose()).transpose();
-  const ComplexMatrix to = reciprocal_series(b.functions.row(0).transpose()).transpose();
-  const double scale = std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(other));
-  return HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
+  if (a.size() != 1 || b.size() != 1) return INFINITY;
+  return relative_error_of_reciprocal(a.functions.row(0).transpose(), b.functions.row(0).transpose(), h,
+                                      problem.reference(other(b.pair.chart)));
 }
 
 namespace {
@@ -315,24 +328,17 @@ Vector errors_as_singles(const PathProblem& problem, const PathNode& left, const
                          std::size_t index, double h) {
   const Track& a = left.tracks[index];
   const Track& b = right.tracks[index];
+  const Chart chart = b.pair.chart;
   Vector errors = Vector::Constant(b.size(), INFINITY);
   if (a.size() != b.size()) return errors;
   for (Eigen::Index i = 0; i < b.size(); ++i) {
-    ComplexMatrix from = root_series(a.functions, a.roots[i]).transpose();
-    ComplexMatrix to = root_series(b.functions, b.roots[i]).transpose();
-    if (from.cols() == 0 || to.cols() == 0) continue;
-    for (const Chart chart :
-         {b.pair.chart, b.pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite}) {
-      if (chart != b.pair.chart) {
-        if (from(0, 0) == 0.0 || to(0, 0) == 0.0) continue;
-        from = reciprocal_series(from.row(0).transpose()).transpose().eval();
-        to = reciprocal_series(to.row(0).transpose()).transpose().eval();
-      }
-      const double scale =
-          std::max(std::min(std::abs(from(0, 0)), std::abs(to(0, 0))), problem.reference(chart));
-      const double error = HermiteInterpolant(h, from, to).error_without_last()[0] / scale;
-      if (error < errors[i]) errors[i] = error;
-    }
+    const ComplexVector from = root_series(a.functions, a.roots[i]);
+    const ComplexVector to = root_series(b.functions, b.roots[i]);
+    if (from.size() == 0 || to.size() == 0) continue;
+    // NaN is no error that is known.
+    errors[i] = std::fmin(errors[i], relative_error(from, to, h, problem.reference(chart)));
+    errors[i] =
+        std::fmin(errors[i], relative_error_of_reciprocal(from, to, h, problem.reference(other(chart))));
   }
   return errors;
 }

@@ -103,8 +103,8 @@ void Tracer::locate_axis_crossing(double h, const PathNode& next, std::size_t in
     }
     if (pair && there.pair.is_real && there.size() == 2) {
       // The real part of a conjugate pair is its mean, smooth also where the pair is defective.
-      s.real(block_mean(there.functions.col(0)).real());
       series = mean_series(there.series.Lambda);
+      s.real(series[0].real());
     }
     const bool meets =
         series.size() < 2 || (there.roots.size() > 1 && least_gap(there.roots) <= 1e-7 * last_move);

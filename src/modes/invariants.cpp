@@ -9,6 +9,7 @@
 #include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
+
 Eigen::Index block_size(Eigen::Index functions) {
   return functions <= 2 ? functions
                         : static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(functions))));
@@ -39,12 +40,6 @@ ComplexVector block_roots(const ComplexVector& functions) {
   const ComplexMatrix Lambda = functions.reshaped(k, k);
   if (functions.imag().isZero(0.0)) return Eigen::EigenSolver<Matrix>(Lambda.real(), false).eigenvalues();
   return Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues();
-}
-
-Complex block_mean(const ComplexVector& functions) {
-  const Eigen::Index k = block_size(functions.size());
-  if (k <= 2) return functions[0];
-  return functions.reshaped(k, k).trace() / static_cast<double>(k);
 }
 
 double least_gap(const ComplexVector& roots) {

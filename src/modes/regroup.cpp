@@ -108,11 +108,11 @@ InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalue
 }
 
 InvariantPair in_other_chart(const InvariantPair& pair) {
-  InvariantPair other = pair;
-  other.chart = pair.chart == Chart::finite ? Chart::reciprocal : Chart::finite;
-  other.Lambda = pair.Lambda.inverse();
-  other.factors.reset();
-  return other;
+  InvariantPair result = pair;
+  result.chart = other(pair.chart);
+  result.Lambda = pair.Lambda.inverse();
+  result.factors.reset();
+  return result;
 }
 
 }  // namespace eigentrail

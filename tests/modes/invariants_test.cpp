@@ -51,10 +51,6 @@ TEST_P(Blocks, RootsOfTheFunctionsAreTheEigenvalues) {
   EXPECT_LT(matched_distance(list(eigenvalues), list(block_roots(functions))), 10.0 * rounding);
 }
 
-TEST_P(Blocks, MeanIsThatOfTheEigenvalues) {
-  EXPECT_LT(std::abs(block_mean(functions) - eigenvalues.mean()), 10.0 * rounding);
-}
-
 TEST_P(Blocks, RootErrorBoundsWhatErrorsOfTheFunctionsDo) {
   std::mt19937_64 engine(11);
   std::uniform_real_distribution<double> angle(0.0, 2.0 * M_PI);

@@ -39,6 +39,10 @@ struct ModeCounts {
 /// smooth: it is an eigenvalue of the pencil with M and K exchanged.
 enum class Chart { finite, reciprocal };
 
+constexpr Chart other(Chart chart) {
+  return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
+}
+
 /// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
 struct PencilAtPoint {
   const Matrix& M;

@@ -25,9 +25,6 @@ ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda);
 /// functions are real.
 ComplexVector block_roots(const ComplexVector& functions);
 
-/// Mean of the eigenvalues.
-Complex block_mean(const ComplexVector& functions);
-
 /// How far rounding of Lambda moves the functions: an error estimate below it means nothing. Where a block is
 /// defective that of delta counts, and the eigenvalues are known to the root of it only.
 Vector function_rounding(const ComplexMatrix& Lambda);
