@@ -20,15 +20,6 @@ struct Partner {
 /// The partners whose meeting with `track` lies within `reach` steps of the step [0, h], nearest first.
 std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
 
-/// Estimated error of the eigenvalues of a track and its partners if they had been followed as one block on
-/// the step of length h; infinite where it cannot be told.
-double error_as_block(const PathNode& left, const PathNode& right, std::size_t track,
-                      const std::vector<Partner>& partners, double h, double least_gap);
-
-/// The same for a single mode in its other chart, relative to its size.
-double error_in_other_chart(const PathProblem& problem, const PathNode& left, const PathNode& right,
-                            std::size_t track, double h);
-
 /// Joins `track` with its partners at the node. Returns false, and leaves the node alone, when the joint
 /// block does not converge or would exceed the largest size.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "continuation/grouping_errors.hpp"
 #include "continuation/regrouping.hpp"
 #include "continuation/reparametrize.hpp"
 #include "continuation/shared_basis.hpp"
