@@ -39,6 +39,10 @@ class Tracer {
     explicit operator bool() const { return kind != Kind::none; }
   };
 
+  /// A step is accepted up to this share of the tolerance: the estimate leaves out what follows the next
+  /// term.
+  static constexpr double accepted_share = 0.5;
+
   // tracer_start.cpp: the first point.
   bool start();
   std::optional<std::vector<StartingMode>> starting_modes(const ReducedPencil& pencil);
@@ -50,6 +54,12 @@ class Tracer {
   Prediction predict(const PathNode& base, double h) const;
   /// Computes and differentiates the point at distance h; the tracks' eigenvalues have their modes.
   Trouble attempt(double h, std::optional<PathNode>& next);
+  bool accept(double h, PathNode next, double next_step);
+  bool give_up(const Trouble& trouble);
+  double remaining() const;
+  double longest_allowed_step() const;
+
+  // tracer_judgement.cpp: whether a step is taken, and what may help where it is not.
   /// `error` is that of the dense output, as a fraction of what is accepted.
   Trouble judge(double h, const PathNode& next, double& error);
   /// Estimated error of one track's dense output on the step, as a fraction of what is accepted.
@@ -64,10 +74,6 @@ class Tracer {
                                         std::vector<Partner> candidates) const;
   /// Joins single modes at the end of the step that limit each other's accuracy.
   void join_limiting_modes(double h, PathNode& next, double next_step);
-  bool accept(double h, PathNode next, double next_step);
-  bool give_up(const Trouble& trouble);
-  double remaining() const;
-  double longest_allowed_step() const;
 
   // tracer_labels.cpp: which eigenvalue is which mode.
   void label_arrival(double h, PathNode& next) const;
