@@ -210,13 +210,14 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
   constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
   constexpr double on_axis = 1e-3;
   std::vector<ExpectedMeeting> meetings;
-  const auto expect = [&](const Strand& a, const Strand& b, Complex position) {
+  const auto expect = [&](const Strand& a, const Strand& b, Complex position,
+                          const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
     const double t = position.real() / length;
     const double off_axis = std::abs(position.imag());
     // Nearer ones within a block have a point of their own.
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
     if (t > -off_the_ends && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
-      meetings.push_back({a, b, position});
+      meetings.push_back({a, b, position, at_left, at_right});
   };
   std::vector<Strand> strands;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
@@ -247,7 +248,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       const ComplexVector at_left = gap_at(left, strands[b], strands[a]);
       const ComplexVector at_right = gap_at(right, strands[b], strands[a]);
       for (const Complex root : gap_roots(at_left, at_right, length, width))
-        expect(strands[b], strands[a], root);
+        expect(strands[b], strands[a], root, at_left, at_right);
     }
   }
   return meetings;

@@ -17,6 +17,7 @@ namespace eigentrail {
 struct ExpectedMeeting {
   Strand a, b;
   Complex position;
+  ComplexVector gap_at_left = {}, gap_at_right = {};  ///< series, where they were told
 };
 
 /// Meetings on or close to the real axis of two eigenvalues that are followed in one block, in the order in

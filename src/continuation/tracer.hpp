@@ -103,8 +103,9 @@ class Tracer {
   void find_veerings(double h, const PathNode& next);
   bool is_known_veering(Complex position, const std::vector<int>& modes) const;
   std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                       Complex& root);
-  void record_veering(const PathNode& base, std::size_t count, Complex root, const std::vector<int>& modes);
+                                       double& at);
+  void record_veering(const PathNode& base, double at, double h, const ExpectedMeeting& expected,
+                      const std::vector<int>& modes);
   bool has_jumped(const Track& from, const Track& to, double distance) const;
   double veering_width() const;
 
@@ -139,6 +140,7 @@ class Tracer {
   double coordinate(const Vector& x, double p) const;
   bool on_branch_point(double coordinate) const;
   std::optional<double> expect_branch_point(double h, const PathNode* next) const;
+  std::optional<Anchor> anchor_at(const PathPoint& point);
   std::optional<Anchor> anchor(double distance);
   Bridge::Sizes bridge_sizes();
   bool build_bridge(double guess, double h);

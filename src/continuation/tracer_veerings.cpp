@@ -22,13 +22,35 @@ class PointwiseInterpolant {
       x_.push_back(x);
       table_.push_back(series);
     }
+    refresh();
   }
+  bool empty() const { return x_.empty(); }
+
+  Complex operator()(Complex x) const {
+    Complex value = 0.0;
+    for (std::size_t i = coefficients_.size(); i-- > 0;) value = value * (x - x_[i]) + coefficients_[i];
+    return value;
+  }
+  /// What the last derivative that was added contributes at x, or the one before: about the error there.
+  double last_contribution(Complex x) const {
+    double product = 1.0;
+    double last = 0.0;
+    double before = 0.0;
+    for (std::size_t i = 0; i < coefficients_.size(); ++i) {
+      before = last;
+      last = product * std::abs(coefficients_[i]);
+      product *= std::abs(x - x_[i]);
+    }
+    return std::max(last, before);
+  }
+
+ private:
   /// Divided differences, confluent where points repeat.
-  void finish() {
+  void refresh() {
     const std::size_t n = x_.size();
     std::vector<Complex> column(n);
     for (std::size_t i = 0; i < n; ++i) column[i] = table_[i][0];
-    coefficients_.push_back(column[0]);
+    coefficients_ = {column[0]};
     for (std::size_t order = 1; order < n; ++order) {
       for (std::size_t i = 0; i + order < n; ++i) {
         column[i] = x_[i + order] == x_[i] ? table_[i][static_cast<Eigen::Index>(order)]
@@ -37,13 +59,7 @@ class PointwiseInterpolant {
       coefficients_.push_back(column[0]);
     }
   }
-  Complex operator()(Complex x) const {
-    Complex value = 0.0;
-    for (std::size_t i = coefficients_.size(); i-- > 0;) value = value * (x - x_[i]) + coefficients_[i];
-    return value;
-  }
 
- private:
   std::vector<double> x_;
   std::vector<ComplexVector> table_;
   std::vector<Complex> coefficients_;
@@ -90,6 +106,40 @@ Complex secant(const PointwiseInterpolant& f, Complex root, double width) {
   return root;
 }
 
+/// Error of a root of the interpolant, as its last terms tell; infinite where the slope is not told.
+double error_of_root(const PointwiseInterpolant& f, Complex root, double step) {
+  const double slope = std::abs(f(root + step) - f(root - step)) / (2.0 * step);
+  return slope > 0.0 ? f.last_contribution(root) / slope : INFINITY;
+}
+
+/// The gap as seen from both ends of a step of length h; an end next to where it is expected is left out,
+/// since points will follow there.
+PointwiseInterpolant gap_from_ends(const ExpectedMeeting& expected, double h) {
+  constexpr double next_to = 0.02;  // of the step
+  PointwiseInterpolant gap;
+  const auto add = [&](double position, const ComplexVector& series) {
+    const bool far = std::abs(position - expected.position.real()) > next_to * std::abs(h);
+    if (series.size() > 0 && far) gap.add(position, series);
+  };
+  add(0.0, expected.gap_at_left);
+  add(h, expected.gap_at_right);
+  return gap;
+}
+
+/// Where a point tells most about a root: below it, then on both sides of it; nothing when all of these are
+/// known.
+std::optional<double> next_probe(Complex root, const std::vector<double>& probed, double resolution) {
+  const double width = std::abs(root.imag());
+  for (const double side : {0.0, 1.0, -1.0}) {
+    const double position = root.real() + side * width;
+    const auto is_near = [&](double x) {
+      return std::abs(x - position) <= std::max(0.3 * width, resolution);
+    };
+    if (std::none_of(probed.begin(), probed.end(), is_near)) return position;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 double Tracer::veering_width() const {
@@ -97,15 +147,14 @@ double Tracer::veering_width() const {
   return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
 }
 
-/// A point whose only track is the two strands as one block. `root` is where they are expected to meet, in
-/// the end relative to that point.
+/// A point whose only track is the two strands as one block, and how far it lies from the last point.
 std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                             Complex& root) {
+                                             double& at) {
   const Strand& a = expected.a;
   const Strand& b = expected.b;
   const bool right = expected.position.real() / h > 0.5;
   const PathNode& nearer = right ? next : node_;
-  root = expected.position - (right ? h : 0.0);
+  at = right ? h : 0.0;
   if (a.track != b.track) {
     PathNode base = with_tracks(nearer, {});
     for (const Strand* strand : {&a, &b}) {
@@ -122,12 +171,12 @@ std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next, con
   const std::vector<int> members = united(a.members, b.members);
   if (static_cast<Eigen::Index>(members.size()) == base.tracks.front().size()) return base;
   // In a larger block the two are told from the others where they are close to each other.
-  std::optional<PathNode> point = probe(base, root.real());
+  std::optional<PathNode> point = probe(base, expected.position.real() - at);
   if (!point) return std::nullopt;
-  root -= root.real();
+  at = expected.position.real();
   Track& block = point->tracks.front();
   StrandSampler strands(node_, next, a.track, h);
-  block.roots = in_order_of(strands(std::clamp(expected.position.real() / h, 0.0, 1.0)), block.roots);
+  block.roots = in_order_of(strands(std::clamp(at / h, 0.0, 1.0)), block.roots);
   std::optional<Track> pair = separate(problem_, *point, block, members, result_.counts);
   if (!pair) return std::nullopt;
   point->tracks = {std::move(*pair)};
@@ -143,9 +192,8 @@ void Tracer::find_veerings(double h, const PathNode& next) {
     }
     modes = sorted_modes(modes);
     if (modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
-    Complex root;
-    if (const auto base = as_one_block(h, next, expected, root))
-      record_veering(*base, expected.a.members.size(), root, modes);
+    double at = 0.0;
+    if (const auto base = as_one_block(h, next, expected, at)) record_veering(*base, at, h, expected, modes);
   }
 }
 
@@ -174,53 +222,55 @@ bool Tracer::has_jumped(const Track& from, const Track& to, double distance) con
   return drift > 10.0 * uncertain + 1e-6 * std::max(std::abs(expected), problem_.s_ref);
 }
 
-/// The exceptional point of two modes beside the real axis. `base` holds them as one block, `count` of its
-/// eigenvalues being the one; `root` is where the point is expected, relative to it. The series at one point
-/// tells a near root well and a farther one poorly: points around it make it an interpolation.
-void Tracer::record_veering(const PathNode& base, std::size_t count, Complex root,
+/// The exceptional point of two modes beside the real axis. `base` holds them as one block, a distance `at`
+/// behind the last point. The series at both ends of the step tell roughly where it lies; points beside it
+/// are added until they tell it exactly.
+void Tracer::record_veering(const PathNode& base, double at, double h, const ExpectedMeeting& expected,
                             const std::vector<int>& modes) {
-  constexpr int rounds = 5;
+  constexpr int most_probes = 8;
   const double speed = std::abs(coefficient(base.path.parameters, problem_.traced, 1));
   const double widest = 2.0 * widest_veering * range() / speed;
   const double resolution = 1e-10 * range() / speed;
   const auto gap_there = [&](const PathNode& node) {
-    return gap_series(node.tracks.front().series.Lambda, static_cast<Eigen::Index>(count));
+    return gap_series(node.tracks.front().series.Lambda,
+                      static_cast<Eigen::Index>(expected.a.members.size()));
   };
+  PointwiseInterpolant gap = gap_from_ends(expected, h);
   Event event;
-  std::optional<PathNode> middle;
-  PointwiseInterpolant gap;
-  double position = 0.0;
+  Complex root = expected.position;
+  std::vector<double> probed;
+  std::optional<PathNode> nearest;  // of the points that were added
+  double nearest_position = 0.0;
   bool is_settled = false;
-  double last_move = INFINITY;
-  for (int round = 0; round < rounds && !is_settled; ++round) {
-    const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
-    gap = {};
-    for (const double offset : {-1.0, 1.0, 0.0}) {
-      position = root.real() + offset * width;
-      middle = probe(base, position);
-      ++event.retrackings;
-      if (!middle) return;
-      gap.add(position, gap_there(*middle));
-    }
-    gap.finish();
-    if (has_jumped(base.tracks.front(), middle->tracks.front(), position)) return;
-    const Complex refined = secant(gap, root, width);
-    if (!(std::abs(refined.imag()) < widest && std::abs(refined - root) < 3.0 * widest)) return;
-    // Settled, or no longer getting nearer at the level of rounding.
+  while (!is_settled) {
+    const std::optional<double> position = next_probe(root, probed, 10.0 * resolution);
+    if (!position || ++event.retrackings > most_probes) return;
+    std::optional<PathNode> point = probe(base, *position - at);
+    if (!point || has_jumped(base.tracks.front(), point->tracks.front(), *position - at)) return;
+    probed.push_back(*position);
+    gap.add(*position, gap_there(*point));
+    const Complex refined = secant(gap, root, std::max(std::abs(root.imag()), 1e-6 * widest));
     const double move = std::abs(refined - root);
-    is_settled = move <= resolution || (move > 0.5 * last_move && move <= 100.0 * resolution);
-    last_move = move;
+    if (!(std::abs(refined.imag()) < widest && move < 3.0 * widest)) return;
+    is_settled = move <= resolution || error_of_root(gap, refined, resolution) <= resolution;
     root = refined;
+    if (!nearest || std::abs(*position - root.real()) <= std::abs(nearest_position - root.real())) {
+      nearest = std::move(point);
+      nearest_position = *position;
+    }
   }
   // Another exceptional point as near as this one spoils the series: then nothing can be told.
-  if (!is_settled || is_double_root(gap, root) || !confirms_root(gap_there(*middle), root - position)) return;
-  const double speed_there = coefficient(middle->path.parameters, problem_.traced, 1);
+  const double offset = root.real() - nearest_position;
+  if (is_double_root(gap, root) || !confirms_root(gap_there(*nearest), root - nearest_position)) return;
+  const double speed_there = coefficient(nearest->path.parameters, problem_.traced, 1);
   event.kind = EventKind::veering;
   event.half_width = std::abs(root.imag() * speed_there);
   if (event.half_width > widest_veering * range() || event.half_width < resolution) return;
-  event.p = middle->p + (root.real() - position) * speed_there;
-  const Track& there = middle->tracks.front();
-  event.s = chart_value(mean_series(there.series.Lambda)[0], there.pair.chart);
+  event.p = nearest->p + offset * speed_there;
+  const Track& there = nearest->tracks.front();
+  event.s =
+      chart_value(evaluate_series(ComplexMatrix(mean_series(there.series.Lambda).transpose()), offset)[0],
+                  there.pair.chart);
   event.modes = modes;
   event.node = result_.nodes;
   add_event(std::move(event));
