@@ -216,7 +216,9 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     const double off_axis = std::abs(position.imag());
     // Nearer ones within a block have a point of their own.
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
-    if (t > -off_the_ends && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
+    // Beside a short step far ones are told poorly: the next, longer steps look back.
+    const double behind = std::max(off_the_ends, 0.2 * off_axis / std::abs(length));
+    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
       meetings.push_back({a, b, position, at_left, at_right});
   };
   std::vector<Strand> strands;

@@ -197,6 +197,7 @@ class Tracer {
   std::map<int, int> partners_;  ///< modes that shared a real block: who comes back when a pair parts again
   double part_reach_ = 3.0;      ///< steps: blocks part when their meetings are farther than this
   std::map<int, Complex> last_value_;  ///< of every mode, where its real part was last told from zero
+  std::vector<Event> no_veerings_;     ///< looked at, and none: too wide, or nothing to be told
   double next_checkpoint_ = 0.0;
   int merges_at_node_ = 0;
   double largest_position_ = 0.0;  ///< |x| on the path so far

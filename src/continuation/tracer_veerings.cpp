@@ -126,20 +126,6 @@ PointwiseInterpolant gap_from_ends(const ExpectedMeeting& expected, double h) {
   return gap;
 }
 
-/// Where a point tells most about a root: below it, then on both sides of it; nothing when all of these are
-/// known.
-std::optional<double> next_probe(Complex root, const std::vector<double>& probed, double resolution) {
-  const double width = std::abs(root.imag());
-  for (const double side : {0.0, 1.0, -1.0}) {
-    const double position = root.real() + side * width;
-    const auto is_near = [&](double x) {
-      return std::abs(x - position) <= std::max(0.3 * width, resolution);
-    };
-    if (std::none_of(probed.begin(), probed.end(), is_near)) return position;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 double Tracer::veering_width() const {
@@ -202,11 +188,13 @@ bool Tracer::is_known_veering(Complex position, const std::vector<int>& modes) c
   const double speed = coefficient(node_.path.parameters, problem_.traced, 1);
   const double p = node_.p + position.real() * speed;
   const double half_width = std::abs(position.imag() * speed);
-  return std::any_of(result_.events.begin(), result_.events.end(), [&](const Event& event) {
+  const auto is_it = [&](const Event& event) {
     const double slack = alike * event.half_width + 1e-6 * range();
     return event.modes == modes && std::abs(event.p - p) <= slack &&
            std::abs(event.half_width - half_width) <= slack;
-  });
+  };
+  return std::any_of(result_.events.begin(), result_.events.end(), is_it) ||
+         std::any_of(no_veerings_.begin(), no_veerings_.end(), is_it);
 }
 
 /// A block that has jumped to other modes is not the one that began: its mean does not fit the series.
@@ -223,11 +211,11 @@ bool Tracer::has_jumped(const Track& from, const Track& to, double distance) con
 }
 
 /// The exceptional point of two modes beside the real axis. `base` holds them as one block, a distance `at`
-/// behind the last point. The series at both ends of the step tell roughly where it lies; points beside it
-/// are added until they tell it exactly.
+/// behind the last point. A point below it and the series at both ends of the step tell a near one; a farther
+/// one is told by points around it.
 void Tracer::record_veering(const PathNode& base, double at, double h, const ExpectedMeeting& expected,
                             const std::vector<int>& modes) {
-  constexpr int most_probes = 8;
+  constexpr int rounds = 6;
   const double speed = std::abs(coefficient(base.path.parameters, problem_.traced, 1));
   const double widest = 2.0 * widest_veering * range() / speed;
   const double resolution = 1e-10 * range() / speed;
@@ -235,45 +223,54 @@ void Tracer::record_veering(const PathNode& base, double at, double h, const Exp
     return gap_series(node.tracks.front().series.Lambda,
                       static_cast<Eigen::Index>(expected.a.members.size()));
   };
-  PointwiseInterpolant gap = gap_from_ends(expected, h);
   Event event;
+  std::optional<PathNode> below;
+  PointwiseInterpolant gap = gap_from_ends(expected, h);
   Complex root = expected.position;
-  std::vector<double> probed;
-  std::optional<PathNode> nearest;  // of the points that were added
-  double nearest_position = 0.0;
+  double position = 0.0;
   bool is_settled = false;
-  while (!is_settled) {
-    const std::optional<double> position = next_probe(root, probed, 10.0 * resolution);
-    if (!position || ++event.retrackings > most_probes) return;
-    std::optional<PathNode> point = probe(base, *position - at);
-    if (!point || has_jumped(base.tracks.front(), point->tracks.front(), *position - at)) return;
-    probed.push_back(*position);
-    gap.add(*position, gap_there(*point));
-    const Complex refined = secant(gap, root, std::max(std::abs(root.imag()), 1e-6 * widest));
+  double last_move = INFINITY;
+  for (int round = 0; round < rounds && !is_settled; ++round) {
+    const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
+    if (round > 0) gap = {};
+    for (const double side : {-1.0, 1.0, 0.0}) {
+      if (round == 0 && side != 0.0) continue;
+      position = root.real() + side * width;
+      below = probe(base, position - at);
+      ++event.retrackings;
+      if (!below) return;
+      gap.add(position, gap_there(*below));
+    }
+    if (has_jumped(base.tracks.front(), below->tracks.front(), position - at)) return;
+    const Complex refined = secant(gap, root, width);
     const double move = std::abs(refined - root);
     if (!(std::abs(refined.imag()) < widest && move < 3.0 * widest)) return;
-    is_settled = move <= resolution || error_of_root(gap, refined, resolution) <= resolution;
+    // Settled, or no longer getting nearer at the level of rounding.
+    const bool narrow = std::abs(refined.imag()) <= 100.0 * resolution;
+    is_settled = move <= resolution || (!narrow && error_of_root(gap, refined, resolution) <= resolution) ||
+                 (move > 0.5 * last_move && move <= 100.0 * resolution);
+    last_move = move;
     root = refined;
-    if (!nearest || std::abs(*position - root.real()) <= std::abs(nearest_position - root.real())) {
-      nearest = std::move(point);
-      nearest_position = *position;
-    }
   }
-  // Another exceptional point as near as this one spoils the series: then nothing can be told.
-  const double offset = root.real() - nearest_position;
-  if (is_double_root(gap, root) || !confirms_root(gap_there(*nearest), root - nearest_position)) return;
-  const double speed_there = coefficient(nearest->path.parameters, problem_.traced, 1);
+  if (!is_settled) return;
+  const double offset = root.real() - position;
+  const double speed_there = coefficient(below->path.parameters, problem_.traced, 1);
   event.kind = EventKind::veering;
   event.half_width = std::abs(root.imag() * speed_there);
-  if (event.half_width > widest_veering * range() || event.half_width < resolution) return;
-  event.p = nearest->p + offset * speed_there;
-  const Track& there = nearest->tracks.front();
+  event.p = below->p + offset * speed_there;
+  const Track& there = below->tracks.front();
   event.s =
       chart_value(evaluate_series(ComplexMatrix(mean_series(there.series.Lambda).transpose()), offset)[0],
                   there.pair.chart);
   event.modes = modes;
   event.node = result_.nodes;
-  add_event(std::move(event));
+  // Another exceptional point as near as this one spoils the series: then nothing can be told.
+  const bool is_told = !is_double_root(gap, root) && confirms_root(gap_there(*below), root - position);
+  const bool is_wide = event.half_width > widest_veering * range();
+  if (is_told && !is_wide && event.half_width >= resolution)
+    add_event(std::move(event));
+  else
+    no_veerings_.push_back(std::move(event));
 }
 
 }  // namespace eigentrail
