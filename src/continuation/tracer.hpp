@@ -139,6 +139,7 @@ class Tracer {
   double coordinate(const Vector& x, double p) const;
   bool on_branch_point(double coordinate) const;
   std::optional<double> expect_branch_point(double h, const PathNode* next) const;
+  std::optional<Anchor> anchor_at(const PathPoint& point);
   std::optional<Anchor> anchor(double distance);
   Bridge::Sizes bridge_sizes();
   bool build_bridge(double guess, double h);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/positive_or_one.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -67,10 +69,6 @@ class BorderedKkt {
   Eigen::FullPivLU<Matrix> lu_;
 };
 
-double positive(double value) {
-  return value > 0.0 && std::isfinite(value) ? value : 1.0;
-}
-
 /// Least-squares multipliers (Eq. 15).
 EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
                                      EvaluationCounts& counts) {
@@ -94,7 +92,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   result.lambda = lambda;
   result.report.message = "the correction across the path did not converge";
   const double target = plane(x, p);
-  const double length = positive(x.lpNorm<Eigen::Infinity>());
+  const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   double last = INFINITY;
   SteadyResidual residual;
   Vector force, constraint, dx, dl;
@@ -122,7 +120,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     p += dp;
     ++result.report.iterations;
     // The multipliers and p are judged by the forces that they change.
-    const double scale = positive(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
+    const double scale = positive_or_one(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
     const Vector reaction = result.linearization.A[0].transpose() * dl + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
