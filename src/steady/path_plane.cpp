@@ -162,37 +162,46 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
   return {};
 }
 
+namespace {
+
+/// When the parameter changes by one: the least motion that keeps the constraints, and the force that then
+/// acts.
+EvaluationFault parameter_load(const Model& model, const Path& point, int traced,
+                               const Linearization& linearization, Vector& follow, Vector& load,
+                               EvaluationCounts& counts) {
+  Vector force, constraint;
+  if (auto fault = parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0),
+                                   traced, force, constraint, counts))
+    return fault;
+  follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
+  load = force + linearization.K[0] * follow;
+  return {};
+}
+
+}  // namespace
+
 double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
                                  const Linearization& linearization, const Matrix& tangent_basis,
                                  EvaluationCounts& counts) {
-  Vector force, constraint;
-  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
-                      constraint, counts))
-    return 1.0;
-  const Matrix& K = linearization.K[0];
-  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  const Vector change = force + K * follow;
-  const Vector tangential = tangent_basis.transpose() * change;
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis, Eigen::ComputeFullU);
+  Vector follow, load;
+  if (parameter_load(model, point, traced, linearization, follow, load, counts)) return 1.0;
+  const Vector tangential = tangent_basis.transpose() * load;
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
+                                     Eigen::ComputeFullU);
   const Vector kernel = svd.matrixU().col(tangential.size() - 1);
-  const double length = change.norm();
+  const double length = load.norm();
   return length > 0.0 ? std::abs(kernel.dot(tangential)) / length : 0.0;
 }
 
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
                                   const Linearization& linearization, const Matrix& tangent_basis,
                                   EvaluationCounts& counts) {
-  Vector force, constraint;
-  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
-                      constraint, counts))
-    return {};
-  const Matrix& K = linearization.K[0];
-  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis,
+  Vector follow, load;
+  if (parameter_load(model, point, traced, linearization, follow, load, counts)) return {};
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
                                      Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index regular = tangent_basis.cols() - 1;
-  const Vector loads =
-      svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * (force + K * follow);
+  const Vector loads = svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * load;
   const Vector y = svd.matrixV().leftCols(regular) * loads.cwiseQuotient(svd.singularValues().head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);
   directions.col(0) << tangent_basis * svd.matrixV().col(regular), 0.0;
