@@ -108,6 +108,14 @@ bool have_just_met(const Track& track, const std::vector<int>& a, const std::vec
   return met(a.front()) && met(b.front());
 }
 
+/// Adds a position unless one is there already, up to a share of it: two roots beside the axis are one place.
+void add_position(double position, std::vector<double>& found, double share = 1e-3) {
+  const auto is_there = [&](double other) {
+    return std::abs(other - position) <= share * std::abs(position);
+  };
+  if (std::none_of(found.begin(), found.end(), is_there)) found.push_back(position);
+}
+
 /// The series at the left end tells roots close to it that an interpolant over the whole step blurs.
 void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                        double length, std::vector<double>& found) {
@@ -120,10 +128,7 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   for (const Complex root : polynomial_roots(gap)) {
     const Complex t = root / length;
     if (t.real() < apart || t.real() > close || std::abs(t.imag()) > on_axis * t.real()) continue;
-    const auto is_known = [&](double position) {
-      return std::abs(position - root.real()) <= known * std::abs(root.real());
-    };
-    if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(root.real());
+    add_position(root.real(), found, known);
   }
 }
 
@@ -147,7 +152,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first && std::abs(t.imag()) <= looked_into)
-            found.push_back(std::min(t.real(), 1.0) * length);
+            add_position(std::min(t.real(), 1.0) * length, found);
         }
         add_near_left_end(track, strands[a].members, strands[b].members, length, found);
         for (const double position : found) meetings.push_back({strands[b], strands[a], position});

@@ -93,8 +93,8 @@ class Tracer {
   bool land_on_meeting(double& h, std::optional<PathNode>& next);
   void record_meetings_at_start();
   enum class Approach { reached, nothing, failed };
-  Approach approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
-                            double& distance, int& retrackings);
+  Approach approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
+                            StrandSampler& strands, double& distance, int& retrackings);
   void record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
                  std::vector<bool>& coincide);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);

@@ -40,9 +40,9 @@ void Tracer::record_meetings_at_start() {
   }
 }
 
-/// Follows a meeting to where it lies, by its offset as seen from ever nearer points.
-Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
-                                          double& distance, int& retrackings) {
+/// Follows a meeting to where it lies, by its offset as seen from ever nearer points of a step to `next`.
+Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
+                                          StrandSampler& strands, double& distance, int& retrackings) {
   const double resolution = plane_ ? settled : settled * std::max(range(), std::abs(node_.p));
   const std::size_t index = expected.a.track;
   const PathNode base = with_tracks(node_, {index});
@@ -50,7 +50,7 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
   bool went_back = false;
   distance = expected.position.real();
   for (; retrackings < most_retrackings; ++retrackings) {
-    std::optional<PathNode> point = probe(base, distance);
+    std::optional<PathNode> point = distance == h ? with_tracks(next, {index}) : probe(base, distance);
     if (!point) return Approach::failed;
     Track& there = point->tracks.front();
     there.roots = in_order_of(strands(distance / h), there.roots);
@@ -94,7 +94,7 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
     StrandSampler strands(node_, *next, expected[i].a.track, h);
     double distance = 0.0;
     int retrackings = 0;
-    const Approach approach = approach_meeting(expected[i], h, strands, distance, retrackings);
+    const Approach approach = approach_meeting(expected[i], h, *next, strands, distance, retrackings);
     if (approach == Approach::nothing) continue;
     // A block's modes are told apart at one end of a step at least: between two meetings there is a point.
     const bool between = approach == Approach::reached && node_.tracks[expected[i].a.track].departure;

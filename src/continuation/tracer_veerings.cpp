@@ -225,30 +225,37 @@ void Tracer::record_veering(const PathNode& base, double at, double h, const Exp
   };
   Event event;
   std::optional<PathNode> below;
-  PointwiseInterpolant gap = gap_from_ends(expected, h);
+  PointwiseInterpolant gap;
   Complex root = expected.position;
   double position = 0.0;
+  const auto look = [&](double where, PointwiseInterpolant& function) {
+    position = where;
+    below = probe(base, where - at);
+    ++event.retrackings;
+    if (!below || has_jumped(base.tracks.front(), below->tracks.front(), where - at)) return false;
+    function.add(where, gap_there(*below));
+    return true;
+  };
   bool is_settled = false;
   double last_move = INFINITY;
   for (int round = 0; round < rounds && !is_settled; ++round) {
     const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
-    if (round > 0) gap = {};
-    for (const double side : {-1.0, 1.0, 0.0}) {
-      if (round == 0 && side != 0.0) continue;
-      position = root.real() + side * width;
-      below = probe(base, position - at);
-      ++event.retrackings;
-      if (!below) return;
-      gap.add(position, gap_there(*below));
-    }
-    if (has_jumped(base.tracks.front(), below->tracks.front(), position - at)) return;
+    PointwiseInterpolant around;
+    const auto look_beside = [&](double offset) {
+      return look(root.real() + offset, around) || look(root.real() + 0.5 * offset, around);
+    };
+    const bool seen = round > 0 && look_beside(-width) && look_beside(width);
+    gap = seen ? around : gap_from_ends(expected, h);
+    if (!look(root.real(), gap)) return;
     const Complex refined = secant(gap, root, width);
     const double move = std::abs(refined - root);
     if (!(std::abs(refined.imag()) < widest && move < 3.0 * widest)) return;
+    const bool nears = move <= 0.5 * last_move;
+    if (!nears && round > 1 && move > 100.0 * resolution) return;
     // Settled, or no longer getting nearer at the level of rounding.
     const bool narrow = std::abs(refined.imag()) <= 100.0 * resolution;
     is_settled = move <= resolution || (!narrow && error_of_root(gap, refined, resolution) <= resolution) ||
-                 (move > 0.5 * last_move && move <= 100.0 * resolution);
+                 (!nears && move <= 100.0 * resolution);
     last_move = move;
     root = refined;
   }
