@@ -33,7 +33,7 @@ void read_attributes(const Hdf5File& file, LociFile& loci) {
 }
 
 void check_format(const Hdf5File& file, const std::string& path) {
-  if (!file.has_attribute("format") || file.text_attribute("format") != "eigentrail-loci") {
+  if (!file.has_attribute("format") || file.text_attribute("format") != loci_format) {
     throw InputError(path + ": is an HDF5 file, but no loci file of eigentrail");
   }
   const std::int64_t schema = file.integer_attribute("schema_version");
