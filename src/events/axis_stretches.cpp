@@ -108,11 +108,11 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
     const bool on_axis = std::abs(event.s.real()) <= axis_width * scale_of(event.s, accuracy);
     if (!turns && (!on_axis || event.kind == EventKind::veering)) continue;
     const bool passes = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
-    cuts.push_back(
-        {position_of(path, event), event.p, event.modes, event_name(event.kind), true, passes, turns});
+    cuts.push_back({position_of(path, event), event.p, event.s, event.modes, event_name(event.kind), true,
+                    passes, turns});
   }
-  cuts.push_back({{0, 0.0}, path.p.front(), {}, "start", false});
-  cuts.push_back({{path.steps.size() - 1, 1.0}, path.p.back(), {}, "end", false});
+  cuts.push_back({{0, 0.0}, path.p.front(), {}, {}, "start", false});
+  cuts.push_back({{path.steps.size() - 1, 1.0}, path.p.back(), {}, {}, "end", false});
   std::stable_sort(cuts.begin(), cuts.end(), [](const AxisCut& a, const AxisCut& b) { return a.at < b.at; });
   return cuts;
 }
@@ -184,8 +184,8 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   cut.at = position(inside);
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
-  const Complex s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = std::abs(s) > infinite_size * accuracy.reference ? "infinity" : "sign change";
+  cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
+  cut.cause = std::abs(cut.s) > infinite_size * accuracy.reference ? "infinity" : "sign change";
   return cut;
 }
 
@@ -298,12 +298,11 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   return stretches;
 }
 
-int count_growing(const AxisStretch& stretch, const RecordedPath& path, const PathPosition& at,
+int count_growing(const AxisStretch& stretch, const PathStep& step, const ComplexVector& s,
                   const EigenvalueAccuracy& accuracy) {
   if (stretch.stability != Stability::unstable) return 0;
-  const ComplexVector s = path.eigenvalues_at(at);
   int count = 0;
-  for (const DenseBlock& block : path.steps[at.step].blocks) {
+  for (const DenseBlock& block : step.blocks) {
     for (const int mode : block.modes) {
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;

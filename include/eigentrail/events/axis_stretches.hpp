@@ -25,6 +25,7 @@ std::string stability_name(Stability stability);
 struct AxisCut {
   PathPosition at;
   double p = 0.0;
+  Complex s = {};          ///< the eigenvalue there; of an end of the trace: not used
   std::vector<int> modes;  ///< from 0, ascending: those that meet the axis
   std::string cause;       ///< name of the event; "start", "end", "infinity" or "sign change"
   bool on_axis = true;     ///< some eigenvalue is on the imaginary axis there
@@ -65,9 +66,10 @@ struct EigenvalueAccuracy {
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 
-/// Number of modes that grow at a place of a stretch with the eigenvalues `s` there: those with a positive
-/// real part. Where it lies within the error of the dense output, the stretch as a whole tells.
-int count_growing(const AxisStretch& stretch, const RecordedPath& path, const PathPosition& at,
+/// Number of modes that grow at a place of a stretch, on the path's step `step`, with the eigenvalues `s`
+/// there: those with a positive real part. Where it lies within the error of the dense output, the stretch as
+/// a whole tells.
+int count_growing(const AxisStretch& stretch, const PathStep& step, const ComplexVector& s,
                   const EigenvalueAccuracy& accuracy);
 
 }  // namespace eigentrail
