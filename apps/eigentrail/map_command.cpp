@@ -95,9 +95,9 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
     std::printf("  margin from %s to %s 1/s\n", rounded(least).c_str(), rounded(largest).c_str());
 }
 
-/// A complex LU of size n + 1 takes 8/3 n^3 operations, QZ with vectors on the companion form about 60
-/// (2n)^3.
-constexpr int lu_per_qz = 180;
+/// A complex LU of size n + 1 takes 8/3 n^3 operations, QZ without vectors on the companion form 30 (2n)^3
+/// (Golub and Van Loan, section 7.7).
+constexpr int lu_per_qz = 90;
 
 void print_work(const StabilityMap& map, const MapTotals& totals) {
   Eigen::Index size = 0;
@@ -131,9 +131,11 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, const std::ve
   print_work(map, totals);
 }
 
-bool has_any_cell(const StabilityMap& map) {
-  const MapTotals totals = total(map);
-  return totals.unknown < totals.cells;
+/// Why no cell of a map is known.
+std::string failure(const StabilityMap& map) {
+  const std::string& message = map.lines.front().message;
+  return "no cell of the window is known, nothing is written; its first line: " +
+         (message.empty() ? "the trace missed a mode" : message);
 }
 
 int run_map(MapArguments& arguments) {
@@ -149,9 +151,10 @@ int run_map(MapArguments& arguments) {
     progress.update(static_cast<double>(lines) / setup.options.n_second, lines, "lines");
   });
   progress.finish();
-  if (!has_any_cell(map)) {
-    std::fprintf(stderr, "eigentrail: %s: no line of the window could be traced, nothing is written: %s\n",
-                 setup.trace.scene.path.c_str(), printable(map.lines.front().message).c_str());
+  const MapTotals totals = total(map);
+  if (totals.unknown == totals.cells) {
+    std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
+                 printable(failure(map)).c_str());
     return numbers_failed;
   }
   const std::vector<std::string> notes = notes_about(map, setup);

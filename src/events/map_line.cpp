@@ -17,26 +17,49 @@ struct LineTrace {
   RecordedPath path;
   std::vector<AxisStretch> stretches;
   EigenvalueAccuracy accuracy;
-  std::vector<bool> complete;  ///< per step: no mode is missing that is there on other steps
+  std::vector<bool> complete;  ///< per step: no mode is missing
 };
 
-/// Number of eigenvalues that a step follows, both members of a pair. Modes appear and vanish at nodes only.
-int eigenvalues_on_step(const RecordedPath& path, std::size_t step) {
-  int count = 0;
+struct EigenvalueCount {
+  int least = 0, most = 0;
+};
+
+/// Number of eigenvalues that a step follows, both members of a pair; beside the real axis rounding may have
+/// made one of the other. Modes appear and vanish at nodes only.
+EigenvalueCount eigenvalues_on_step(const RecordedPath& path, std::size_t step, double reference) {
+  constexpr double beside_real_axis = 1e-3;
+  EigenvalueCount count;
   for (const Complex s : path.eigenvalues_at({step, 0.5})) {
-    if (!std::isnan(s.real())) count += s.imag() != 0.0 ? 2 : 1;
+    if (std::isnan(s.real())) continue;
+    count.least += std::abs(s.imag()) > beside_real_axis * std::max(std::abs(s), reference) ? 2 : 1;
+    count.most += s.imag() != 0.0 ? 2 : 1;
   }
   return count;
 }
 
-std::vector<bool> complete_steps(const RecordedPath& path, bool all_followed) {
-  std::vector<bool> complete(path.steps.size(), true);
-  if (!all_followed) return complete;
-  std::vector<int> counts;
-  for (std::size_t step = 0; step < path.steps.size(); ++step)
-    counts.push_back(eigenvalues_on_step(path, step));
-  const int most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
-  for (std::size_t step = 0; step < counts.size(); ++step) complete[step] = counts[step] == most;
+/// Number of eigenvalues that a point must have; 0 when a singular mass matrix does not tell.
+int expected_eigenvalues(const ReducedPencil& pencil) {
+  constexpr double singular = 1e-12;
+  const Matrix& M = pencil.M[0];
+  return M.partialPivLu().rcond() > singular ? 2 * static_cast<int>(M.rows()) : 0;
+}
+
+/// Whether steps have as many eigenvalues as their ends must have (`expected` per node), or, where that is
+/// not known, as other steps.
+std::vector<bool> complete_steps(const RecordedPath& path, const std::vector<int>& expected,
+                                 double reference) {
+  std::vector<EigenvalueCount> counts;
+  int seen = 0;
+  for (std::size_t step = 0; step < path.steps.size(); ++step) {
+    counts.push_back(eigenvalues_on_step(path, step, reference));
+    seen = std::max(seen, counts.back().least);
+  }
+  std::vector<bool> complete;
+  for (std::size_t step = 0; step < counts.size(); ++step) {
+    const int needed = std::max(expected[step], expected[step + 1]);
+    const EigenvalueCount& count = counts[step];
+    complete.push_back(needed > 0 ? count.least <= needed && needed <= count.most : count.most >= seen);
+  }
   return complete;
 }
 
@@ -60,7 +83,7 @@ double margin(const ComplexVector& s, Stability stability) {
   }
   if (!std::isfinite(fastest)) return nan;
   if (stability == Stability::marginal) return 0.0;
-  return stability == Stability::stable ? std::max(-fastest, 0.0) : std::min(-fastest, 0.0);
+  return stability == Stability::stable ? std::max(0.0, -fastest) : std::min(0.0, -fastest);
 }
 
 /// The stretch of a place with `p`; on a cut that of its two with fewer growing modes.
@@ -87,7 +110,6 @@ const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, dou
 void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line) {
   const std::vector<PathPosition> places = trace.path.positions(p);
   if (places.empty()) return;
-  line.turned_back = line.turned_back || places.size() > 1;
   const PathPosition at = places.front();
   if (!trace.complete[at.step]) {
     ++line.doubtful_cells;
@@ -100,6 +122,10 @@ void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line
   line.margin[cell] = margin(s, stretch->stability);
   line.damping_ratio[cell] = least_damping_ratio(s);
   line.marginal_cells += stretch->stability == Stability::marginal ? 1 : 0;
+}
+
+bool turns_back(const std::vector<double>& p) {
+  return !std::is_sorted(p.begin(), p.end()) && !std::is_sorted(p.rbegin(), p.rend());
 }
 
 void add_axis_points(const std::vector<AxisStretch>& stretches, MapLine& line) {
@@ -117,9 +143,11 @@ MapLine map_line(const MapSetup& setup, double second, const std::vector<double>
   TraceOptions options = setup.trace.options;
   options.values[setup.options.second] = second;
   PathRecorder recorder;
+  std::vector<int> expected;
   TraceObserver observer;
-  observer.point = [&recorder](const TracePoint& point) {
+  observer.point = [&](const TracePoint& point) {
     recorder.append(point);
+    expected.push_back(expected_eigenvalues(point.node.pencil));
     return true;
   };
   const TraceResult result = trace(*setup.trace.model, options, observer);
@@ -139,7 +167,10 @@ MapLine map_line(const MapSetup& setup, double second, const std::vector<double>
 
   LineTrace traced{recorder.path(), {}, {options.tolerance, result.s_ref}, {}};
   traced.stretches = axis_stretches(traced.path, result.events, traced.accuracy);
-  traced.complete = complete_steps(traced.path, result.n_modes == result.n_available);
+  const bool all_followed = result.n_modes == result.n_available;
+  traced.complete = all_followed ? complete_steps(traced.path, expected, result.s_ref)
+                                 : std::vector<bool>(traced.path.steps.size(), true);
+  line.turned_back = turns_back(traced.path.p);
   for (std::size_t cell = 0; cell < first.size(); ++cell) fill_cell(traced, first[cell], cell, line);
   add_axis_points(traced.stretches, line);
   return line;
