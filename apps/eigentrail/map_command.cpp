@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -99,18 +100,22 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
 /// (Golub and Van Loan, section 7.7).
 constexpr int lu_per_qz = 90;
 
-void print_work(const StabilityMap& map, const MapTotals& totals) {
+void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
   Eigen::Index size = 0;
   for (const MapLine& line : map.lines) size = std::max(size, line.n_independent);
-  const double per_cell = static_cast<double>(totals.factorizations) / static_cast<double>(totals.cells);
+  const double cells = static_cast<double>(totals.cells);
   std::printf(
-      "  work  %zu traces for %zu cells, %llu complex LU of size %lld: %s per cell; a QZ in every cell costs "
-      "about %d\n",
+      "  work  %zu traces for %zu cells, %llu complex LU of size %lld: %s per cell (a QZ in every cell: "
+      "about %d)\n",
       map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
-      static_cast<long long>(size) + 1, rounded(per_cell, 3).c_str(), lu_per_qz);
+      static_cast<long long>(size) + 1,
+      rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str(), lu_per_qz);
+  std::printf("  time  %s s: %s ms per cell\n", rounded(seconds, 3).c_str(),
+              rounded(1e3 * seconds / cells, 3).c_str());
 }
 
-void print_summary(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes) {
+void print_summary(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes,
+                   double seconds) {
   const TraceSetup& trace = setup.trace;
   const MapOptions& options = setup.options;
   const auto window = [&](const std::string& name, double from, double to) {
@@ -128,7 +133,7 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, const std::ve
   const MapTotals totals = total(map);
   print_shares(map, totals);
   for (const std::string& note : notes) std::printf("  note  %s\n", printable(note).c_str());
-  print_work(map, totals);
+  print_work(map, totals, seconds);
 }
 
 /// Why no cell of a map is known.
@@ -147,10 +152,12 @@ int run_map(MapArguments& arguments) {
   check_output(arguments.output, arguments.force, {map_format, "stability map"});
   check_can_create(arguments.output);
   ProgressBar progress(arguments.quiet);
+  const auto start = std::chrono::steady_clock::now();
   const StabilityMap map = stability_map(setup, [&](int lines) {
     progress.update(static_cast<double>(lines) / setup.options.n_second, lines, "lines");
   });
   progress.finish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const MapTotals totals = total(map);
   if (totals.unknown == totals.cells) {
     std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
@@ -160,7 +167,7 @@ int run_map(MapArguments& arguments) {
   const std::vector<std::string> notes = notes_about(map, setup);
   write_map(arguments.output, setup, map, notes);
   if (!arguments.quiet) {
-    print_summary(setup, map, notes);
+    print_summary(setup, map, notes, seconds);
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   return done;
@@ -192,6 +199,9 @@ void add_map(CLI::App& program, int& exit_code) {
         },
         std::string(help) + " (overrides the scene)");
   }
+  command->add_flag_callback(
+      "--no-certify", [arguments] { arguments->trace_options["certify"] = "false"; },
+      "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
   command->add_option("--jobs", options.jobs, "threads; 0: one per core");
   command->add_flag("--force", arguments->force, "replace an existing output");
   command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
