@@ -1,16 +1,17 @@
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
+#include "ranges.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -27,25 +28,6 @@ struct TraceArguments {
 struct Ends {
   std::map<int, Complex> first, last;
 };
-
-void check_output(const TraceArguments& arguments) {
-  std::error_code error;
-  if (std::filesystem::is_directory(arguments.output, error)) {
-    throw InputError(arguments.output + ": is a folder; give the name of a file");
-  }
-  if (std::filesystem::exists(arguments.output, error)) {
-    if (!arguments.force) {
-      throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
-    }
-    if (!may_be_replaced(arguments.output)) {
-      throw InputError(arguments.output + ": is no readable loci file; --force replaces nothing else");
-    }
-  }
-  const auto folder = std::filesystem::path(arguments.output).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
-    throw InputError(arguments.output + ": the folder " + folder.string() + " does not exist");
-  }
-}
 
 /// A file that cannot be created is a matter of the command line; one that cannot be written to later is not.
 void create_output(std::optional<LociWriter>& writer, const std::string& path, const TraceSetup& setup,
@@ -130,8 +112,14 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
   std::printf("  evaluations  %s\n", line.c_str());
 }
 
+/// Of which modes the stable ranges speak, when not of all.
+std::string followed_modes(const TraceResult& result) {
+  if (result.n_modes == result.n_available) return "";
+  return std::to_string(result.n_modes) + " of " + std::to_string(result.n_available) + " modes followed";
+}
+
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
-                   const TraceResult& result, const Ends& ends) {
+                   const TraceResult& result, const Ends& ends, const std::vector<StableRange>& ranges) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   std::printf("  %s  %s -> %s%s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
@@ -155,23 +143,24 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   }
   print_table(rows);
   print_findings(options, result);
+  print_ranges(ranges, options.parameter, followed_modes(result));
   print_work(result);
   print_effects(model, result.counts.evaluations);
 }
 
 int run_trace(const TraceArguments& arguments) {
-  if (arguments.output.empty()) throw InputError("--output: expected the name of a file");
   const TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   const Scene& scene = setup.scene;
   const TraceOptions& options = setup.options;
   const Model& model = *setup.model;
   check_parameter_name(scene, options.parameter);
-  check_output(arguments);
+  check_output(arguments.output, arguments.force, {loci_format, "loci file"});
 
   std::optional<LociWriter> writer;
   std::optional<TraceStart> started;
   ProgressBar progress(arguments.quiet);
+  PathRecorder recorder;
   Ends ends;
   int points = 0;
   TraceObserver observer;
@@ -187,17 +176,20 @@ int run_trace(const TraceArguments& arguments) {
       ends.first = values();
     }
     writer->append(point);
+    recorder.append(point);
     ends.last = values();
     progress.update((point.node.p - options.from) / (options.to - options.from), ++points);
     return true;
   };
   const TraceResult result = trace(model, options, observer);
   if (!has_started(result.status)) throw InputError(scene.path + ": " + result.message);
-  writer->finish(result);
+  const std::vector<StableRange> ranges =
+      stable_ranges(recorder.path(), result.events, {options.tolerance, result.s_ref});
+  writer->finish(result, ranges);
   progress.finish();
 
   if (!arguments.quiet) {
-    print_summary(scene, model, options, result, ends);
+    print_summary(scene, model, options, result, ends, ranges);
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   if (result.status == TraceStatus::completed) return done;

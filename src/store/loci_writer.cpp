@@ -14,7 +14,9 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/modes/normalization.hpp"
+#include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
+#include "store/range_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -83,7 +85,9 @@ std::vector<std::string> mode_names(std::size_t first, std::size_t end) {
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
-  if (std::find(reserved.begin(), reserved.end(), parameter) == reserved.end()) return;
+  if (std::find(reserved.begin(), reserved.end(), parameter) == reserved.end() &&
+      !is_range_dataset(parameter))
+    return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {
     if (const Value* key = trace->find("parameter")) where = key->where;
@@ -91,15 +95,6 @@ void check_parameter_name(const Scene& scene, const std::string& parameter) {
   throw scene_error(scene, where,
                     "[trace] parameter: the traced parameter cannot be called '" + parameter +
                         "', the loci file has a dataset of that name; rename it");
-}
-
-bool may_be_replaced(const std::string& path) {
-  try {
-    const Hdf5File file = Hdf5File::open(path);
-    return file.has_attribute("format") && file.text_attribute("format") == "eigentrail-loci";
-  } catch (const Hdf5Error&) {
-    return false;
-  }
 }
 
 struct LociWriter::Implementation {
@@ -147,7 +142,8 @@ struct LociWriter::Implementation {
     create_dimension("mode", ElementType::text, mode_names(0, n_modes), "mode", true);
     create_dimension("function", ElementType::integer, count_from(0, n_functions),
                      "smooth function of a mode or of a block of modes", true);
-    create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"}, "end of a step");
+    create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"},
+                     "end of a step, or of a stable range");
     create_dimension("coordinate", ElementType::text, description.coordinate_names, "coordinate");
     create_dimension("order", ElementType::integer,
                      count_from(0, static_cast<std::size_t>(options.order) + 1),
@@ -160,7 +156,7 @@ struct LociWriter::Implementation {
   void create_datasets(const Model& model, const TraceOptions& options) {
     const ModelDescription& description = model.description();
     const Parameter& traced = description.parameters.at(options.parameter);
-    const std::string unit = traced.unit.empty() ? "1" : traced.unit;
+    const std::string unit = label_unit(traced.unit);
     has_constraints = model.n_constraints() > 0;
     n_coordinates = description.coordinate_names.size();
     create_dimensions(description, options);
@@ -246,7 +242,7 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   implementation_->n_modes = implementation_->n_functions = static_cast<std::size_t>(start.n_modes);
   try {
     Hdf5File& file = implementation_->file;
-    file.set_attribute("format", "eigentrail-loci");
+    file.set_attribute("format", std::string(loci_format));
     file.set_attribute("schema_version", std::int64_t{loci_schema_version});
     file.set_attribute("program_version", version());
     file.set_attribute("title", scene.title);
@@ -389,9 +385,10 @@ void LociWriter::Implementation::flush() {
   buffer = {};
 }
 
-void LociWriter::finish(const TraceResult& result) {
+void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges) {
   implementation_->flush();
   write_events(implementation_->file, result.events);
+  write_stable_ranges(implementation_->file, implementation_->parameter, ranges);
   write_summary(implementation_->file, result);
   implementation_->file.flush();
 }

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -90,6 +91,17 @@ def edited(scene, old, new):
     """The scene with its one occurrence of `old` replaced."""
     assert scene.count(old) == 1, f"{old!r} occurs {scene.count(old)} times"
     return scene.replace(old, new)
+
+
+def each_case(cases):
+    """Gives a class one test per case, so that each is reported by its name."""
+    def add(test_class):
+        for name, *details in cases:
+            method = "test_" + re.sub(r"\W+", "_", name)
+            assert not hasattr(test_class, method), method
+            setattr(test_class, method, lambda self, details=details: self.check(*details))
+        return test_class
+    return add
 
 
 class ProgramTest(unittest.TestCase):

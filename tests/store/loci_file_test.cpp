@@ -10,6 +10,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/output_file.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -33,14 +34,18 @@ class LociFileTest : public testing::Test {
     observer.point = [&](const TracePoint& point) {
       if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, *start);
       writer->append(point);
+      recorder.append(point);
       return true;
     };
     TraceResult result = trace(*setting.model, setting.options, observer);
-    writer->finish(result);
+    ranges = stable_ranges(recorder.path(), result.events, {setting.options.tolerance, result.s_ref});
+    writer->finish(result, ranges);
     return result;
   }
 
   std::string path;
+  PathRecorder recorder;
+  std::vector<StableRange> ranges;  ///< that were written
 };
 
 /// Equal, or both not a number.
@@ -93,6 +98,13 @@ void expect_equal_events(const std::vector<LociEvent>& found, const std::vector<
     const bool branches = event.puiseux != 0.0;
     EXPECT_TRUE(branches ? found[i].puiseux == event.puiseux : std::isnan(found[i].puiseux.real()));
   }
+}
+
+void expect_equal_ends(const RangeEnd& found, const RangeEnd& expected) {
+  EXPECT_EQ(found.p, expected.p);
+  EXPECT_EQ(found.cause, expected.cause);
+  EXPECT_EQ(found.margin, expected.margin);
+  EXPECT_EQ(found.mode, expected.mode);
 }
 
 /// s^2 + p s + 1 = 0, a pair that meets on the real axis at p = 2, beside two modes that coalesce at p = 1.
@@ -189,6 +201,29 @@ TEST_F(LociFileTest, ReadsBackBlocksAndEvents) {
   }
 }
 
+/// The damping p of one mode vanishes at p = 0; undamped ones are marginal beside.
+TEST_F(LociFileTest, ReadsBackStableRanges) {
+  const std::string oscillator =
+      "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\n"
+      "M = [ [[1]] ]\nC = [ [[0]], [[1]] ]\nK = [ [[1]] ]\n";
+  for (const std::string& scene : {oscillator, meeting_modes}) {
+    recorder = {};
+    ASSERT_EQ(write(make_setting(scene)).status, TraceStatus::completed);
+    const LociFile loci = read_loci(path);
+    ASSERT_TRUE(loci.ranges);
+    ASSERT_EQ(loci.ranges->size(), ranges.size());
+    ASSERT_EQ(ranges.size(), 1U);
+    const StableRange& found = loci.ranges->front();
+    EXPECT_EQ(found.kind, scene == oscillator ? Stability::stable : Stability::marginal);
+    EXPECT_EQ(found.kind, ranges[0].kind);
+    expect_equal_ends(found.from, ranges[0].from);
+    expect_equal_ends(found.to, ranges[0].to);
+    EXPECT_EQ(found.least_margin, ranges[0].least_margin);
+    EXPECT_EQ(found.largest_margin, ranges[0].largest_margin);
+    EXPECT_EQ(found.largest_at, ranges[0].largest_at);
+  }
+}
+
 TEST_F(LociFileTest, ModesThatDoNotExistAreNotANumber) {
   // s^2 + p s + 1 = 0 is a pair up to p = 2 and two real roots behind; the second is born there.
   ASSERT_EQ(write(make_setting(meeting_modes)).status, TraceStatus::completed);
@@ -279,17 +314,17 @@ TEST_F(LociFileTest, AttributesThatSomebodyAddedDoNotDisturb) {
 
 TEST_F(LociFileTest, OnlyLociFilesMayBeReplaced) {
   ASSERT_EQ(write(scene_setting("pendulum")).status, TraceStatus::completed);
-  EXPECT_TRUE(may_be_replaced(path));
+  EXPECT_TRUE(may_be_replaced(path, loci_format));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  EXPECT_FALSE(may_be_replaced(path)) << "damaged: somebody may want to save it";
+  EXPECT_FALSE(may_be_replaced(path, loci_format)) << "damaged: somebody may want to save it";
   std::filesystem::remove(path);
   Hdf5File::create(path).set_attribute("format", std::string("mine"));
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::filesystem::remove(path);
   Hdf5File::create(path).set_attribute("format", 3.0);
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::ofstream(path) << "a text";
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
 }
 
 }  // namespace
