@@ -32,7 +32,7 @@ void ProgressBar::finish() {
   drawn_ = false;
 }
 
-void ProgressBar::update(double fraction, int points) {
+void ProgressBar::update(double fraction, int count, const char* what) {
   if (!active_) return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < redraw_interval) return;
@@ -42,10 +42,10 @@ void ProgressBar::update(double fraction, int points) {
   const std::string remaining =
       fraction > 0.01 ? duration_text(elapsed * (1.0 - fraction) / fraction) + " left" : "";
   const int filled = std::clamp(static_cast<int>(fraction * bar_width), 0, bar_width);
-  std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %d points  %s",
+  std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %d %s  %s",
                std::string(static_cast<std::size_t>(filled), '#').c_str(),
                std::string(static_cast<std::size_t>(bar_width - filled), '.').c_str(), 100.0 * fraction,
-               points, remaining.c_str());
+               count, what, remaining.c_str());
   std::fflush(stderr);
 }
 

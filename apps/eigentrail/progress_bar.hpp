@@ -13,8 +13,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `fraction` done, 0 to 1, and the number of points so far.
-  void update(double fraction, int points);
+  /// `fraction` done, 0 to 1, and how many `what` there are so far.
+  void update(double fraction, int count, const char* what = "points");
 
   /// Wipes the bar, so that what is printed next begins on a clean line.
   void finish();

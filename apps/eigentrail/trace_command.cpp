@@ -1,10 +1,10 @@
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
@@ -27,25 +27,6 @@ struct TraceArguments {
 struct Ends {
   std::map<int, Complex> first, last;
 };
-
-void check_output(const TraceArguments& arguments) {
-  std::error_code error;
-  if (std::filesystem::is_directory(arguments.output, error)) {
-    throw InputError(arguments.output + ": is a folder; give the name of a file");
-  }
-  if (std::filesystem::exists(arguments.output, error)) {
-    if (!arguments.force) {
-      throw InputError(arguments.output + ": exists already; give another name, or --force to replace it");
-    }
-    if (!may_be_replaced(arguments.output)) {
-      throw InputError(arguments.output + ": is no readable loci file; --force replaces nothing else");
-    }
-  }
-  const auto folder = std::filesystem::path(arguments.output).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
-    throw InputError(arguments.output + ": the folder " + folder.string() + " does not exist");
-  }
-}
 
 /// A file that cannot be created is a matter of the command line; one that cannot be written to later is not.
 void create_output(std::optional<LociWriter>& writer, const std::string& path, const TraceSetup& setup,
@@ -160,14 +141,13 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
 }
 
 int run_trace(const TraceArguments& arguments) {
-  if (arguments.output.empty()) throw InputError("--output: expected the name of a file");
   const TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   const Scene& scene = setup.scene;
   const TraceOptions& options = setup.options;
   const Model& model = *setup.model;
   check_parameter_name(scene, options.parameter);
-  check_output(arguments);
+  check_output(arguments.output, arguments.force, {loci_format, "loci file"});
 
   std::optional<LociWriter> writer;
   std::optional<TraceStart> started;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -159,12 +160,18 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(positive(options.first_step), "first_step", "must be positive");
   require(positive(options.max_step), "max_step", "must be positive");
   require(options.max_nodes >= 2, "max_nodes", "must be at least 2");
+  for (const auto& [other, value] : options.values) {
+    const bool free = parameters.index(other) && !parameters.at(other).definition && other != name;
+    require(free, "values", "'" + other + "' is no parameter whose value can be given");
+    require(std::isfinite(value), "values", "the value of '" + other + "' is not a finite number");
+  }
   for (const int branch : options.branch)
     require(branch >= 1 && branch <= 3, "branch", "must be 1, 2 or 3; found " + std::to_string(branch));
   return faults;
 }
 
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used) {
+  read_event_options(scene);
   const Table merged = merged_table(scene, overrides);
   TableReader table(scene, merged, "[trace]", used);
   TraceOptions options;

@@ -21,6 +21,8 @@ constexpr double large_block_step = 0.05;   ///< of the range: longest step with
 Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                BasisChoice basis)
     : options_(options), observer_(observer), problem_(problem_along(model, options.parameter)) {
+  for (const auto& [name, value] : options.values)
+    problem_.parameters[model.description().parameters.index(name).value()] = value;
   problem_.order = options.order;
   problem_.basis = basis;
   result_.counts.evaluations = model.new_counts();

@@ -38,6 +38,10 @@ class BoundarySearch {
   void note(const std::string& text) {
     if (said_.insert(text).second) result_.notes.push_back(text);
   }
+  void fail(const std::string& message) {
+    result_.status = BoundaryStatus::incomplete;
+    if (result_.message.empty()) result_.message = message;
+  }
   void report(double share) const {
     if (progress_) progress_(share, points_);
   }
@@ -163,6 +167,7 @@ std::optional<CurvePoint> BoundarySearch::start_on(const BoundarySeed& seed,
   if (there.status != PointStatus::computed) {
     note("a change of stability (" + boundary_name(seed.kind) + ") near " + window_.text(seed.place) +
          " could not be followed: " + there.message);
+    fail("a change of stability could not be followed");
     return std::nullopt;
   }
   const double tau = there.functions(0, 0).real();
@@ -191,7 +196,6 @@ void BoundarySearch::follow(const BoundarySeed& seed) {
   const OnPoint on_point = [this] {
     ++points_;
     report(share_);
-    return true;
   };
   curves_.push_back(follow_curve(window_, function, {tolerance, options_.trace.max_nodes}, *start, on_point,
                                  result_.rejected_steps, result_.counts));
@@ -213,6 +217,8 @@ void BoundarySearch::finish() {
     curve.end = followed.end;
     curve.begin_reason = followed.begin_reason;
     curve.end_reason = followed.end_reason;
+    if (curve.begin == CurveEnd::lost) fail("a curve was lost: " + curve.begin_reason);
+    if (curve.end == CurveEnd::lost) fail("a curve was lost: " + curve.end_reason);
     result_.curves.push_back(std::move(curve));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -51,10 +52,11 @@ void check_second(const Scene& scene, const BoundaryOptions& options) {
                      suggestion(name, scene.parameters.names()));
   }
   if (name == options.trace.parameter)
-    throw InputError("--second: '" + name + "' is the first parameter already; name another one");
+    throw InputError("--second: '" + name +
+                     "' is the first parameter already; choose another one, or give --parameter");
   if (scene.parameters.at(name).definition) {
     throw InputError("--second: '" + name +
-                     "' is defined by an expression; give one of the parameters in it");
+                     "' is defined by an expression; vary one of the parameters in it");
   }
 }
 
@@ -63,14 +65,14 @@ void check_numbers(const BoundaryOptions& options) {
        {std::pair("--from", options.second_from), std::pair("--to", options.second_to)}) {
     if (!std::isfinite(value)) throw InputError(std::string(key) + ": is not a finite number");
   }
-  if (options.second_from == options.second_to)
-    throw InputError("--to: equals --from (" + exact_text(options.second_from) + "): the window is empty");
+  if (!(options.second_from < options.second_to))
+    throw InputError("--to: expected more than --from (" + exact_text(options.second_from) + "), found " +
+                     exact_text(options.second_to) + ": the window is empty");
   if (options.lines < 0 || options.lines > 1000)
     throw InputError("--lines: must lie between 0 and 1000; found " + std::to_string(options.lines));
-  if (!options.damping_ratio) return;
-  const double z = *options.damping_ratio;
-  if (!(std::abs(z) < 1.0))
-    throw InputError("--damping-ratio: must lie between -1 and 1; found " + exact_text(z));
+  if (options.damping_ratio && !is_damping_ratio(*options.damping_ratio))
+    throw InputError("--damping-ratio: must lie between -1 and 1; found " +
+                     exact_text(*options.damping_ratio));
 }
 
 /// Declared values with both parameters at places all over the window, its corners first.
@@ -105,8 +107,10 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   options.second = request.second;
   options.second_from = request.from;
   options.second_to = request.to;
+  options.damping_ratio =
+      request.damping_ratio ? request.damping_ratio : read_event_options(setup.scene).damping_ratio;
   // Modes of damping ratio zero are those on the imaginary axis.
-  if (request.damping_ratio && *request.damping_ratio != 0.0) options.damping_ratio = request.damping_ratio;
+  if (options.damping_ratio == 0.0) options.damping_ratio.reset();
   options.lines = request.lines.value_or(options.lines);
   check_second(setup.scene, options);
   check_numbers(options);

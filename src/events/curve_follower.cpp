@@ -150,7 +150,7 @@ bool Arm::advance(StepControl& control) {
   control.accept(h, error);
   points.push_back(std::move(*next));
   steps.push_back(*step);
-  if (!on_point_()) return stop(CurveEnd::lost, "stopped on request");
+  on_point_();
   if (static_cast<int>(points.size()) < options_.max_points) return true;
   return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
 }

@@ -24,7 +24,7 @@ struct FollowedCurve {
 };
 
 /// Called after every point; returns whether to go on.
-using OnPoint = std::function<bool()>;
+using OnPoint = std::function<void()>;
 
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
                            const FollowOptions& options, CurvePoint seed, const OnPoint& on_point,

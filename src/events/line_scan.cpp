@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "eigentrail/continuation/dense_output.hpp"
-#include "events/held_model.hpp"
 
 namespace eigentrail {
 namespace {
@@ -128,9 +127,9 @@ LineScan Scanner::run() {
 TraceResult Scanner::trace_line(double from, double to) {
   const Place held = window_.declared(line_.at(0.5));
   const int other = 1 - line_.along;
-  const HeldModel model(window_.model(), window_.indices()[static_cast<std::size_t>(other)], held[other]);
   TraceOptions options = options_.trace;
   options.parameter = window_.name(line_.along);
+  options.values[window_.name(other)] = held[other];
   options.from = window_.declared(line_.at(from))[line_.along];
   options.to = window_.declared(line_.at(to))[line_.along];
   options.tolerance = scan_tolerance;
@@ -147,7 +146,7 @@ TraceResult Scanner::trace_line(double from, double to) {
     scan_.s_ref = start.s_ref;
   };
   observer.point = [this](const TracePoint& point) { return take(point); };
-  TraceResult result = trace(model, options, observer);
+  TraceResult result = trace(window_.model(), options, observer);
   scan_.counts.modes.factorizations += result.counts.modes.factorizations;
   scan_.counts.spectra += result.counts.spectra;
   return result;

@@ -36,7 +36,6 @@ class Window {
     return place.minCoeff() >= -rounding && place.maxCoeff() <= 1.0 + rounding;
   }
 
-  const std::array<int, 2>& indices() const { return index_; }
   const Model& model() const { return problem_.model; }
   int order() const { return problem_.order; }
   void set_reference(double s_ref) { problem_.s_ref = s_ref; }

@@ -14,6 +14,7 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/modes/normalization.hpp"
+#include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
 
 namespace eigentrail {
@@ -93,15 +94,6 @@ void check_parameter_name(const Scene& scene, const std::string& parameter) {
                         "', the loci file has a dataset of that name; rename it");
 }
 
-bool may_be_replaced(const std::string& path) {
-  try {
-    const Hdf5File file = Hdf5File::open(path);
-    return file.has_attribute("format") && file.text_attribute("format") == "eigentrail-loci";
-  } catch (const Hdf5Error&) {
-    return false;
-  }
-}
-
 struct LociWriter::Implementation {
   Hdf5File file;
   std::string parameter;
@@ -160,7 +152,7 @@ struct LociWriter::Implementation {
   void create_datasets(const Model& model, const TraceOptions& options) {
     const ModelDescription& description = model.description();
     const Parameter& traced = description.parameters.at(options.parameter);
-    const std::string unit = traced.unit.empty() ? "1" : traced.unit;
+    const std::string unit = label_unit(traced.unit);
     has_constraints = model.n_constraints() > 0;
     n_coordinates = description.coordinate_names.size();
     create_dimensions(description, options);
@@ -246,7 +238,7 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   implementation_->n_modes = implementation_->n_functions = static_cast<std::size_t>(start.n_modes);
   try {
     Hdf5File& file = implementation_->file;
-    file.set_attribute("format", "eigentrail-loci");
+    file.set_attribute("format", std::string(loci_format));
     file.set_attribute("schema_version", std::int64_t{loci_schema_version});
     file.set_attribute("program_version", version());
     file.set_attribute("title", scene.title);

@@ -10,6 +10,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/output_file.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -279,17 +280,17 @@ TEST_F(LociFileTest, AttributesThatSomebodyAddedDoNotDisturb) {
 
 TEST_F(LociFileTest, OnlyLociFilesMayBeReplaced) {
   ASSERT_EQ(write(scene_setting("pendulum")).status, TraceStatus::completed);
-  EXPECT_TRUE(may_be_replaced(path));
+  EXPECT_TRUE(may_be_replaced(path, loci_format));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  EXPECT_FALSE(may_be_replaced(path)) << "damaged: somebody may want to save it";
+  EXPECT_FALSE(may_be_replaced(path, loci_format)) << "damaged: somebody may want to save it";
   std::filesystem::remove(path);
   Hdf5File::create(path).set_attribute("format", std::string("mine"));
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::filesystem::remove(path);
   Hdf5File::create(path).set_attribute("format", 3.0);
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::ofstream(path) << "a text";
-  EXPECT_FALSE(may_be_replaced(path));
+  EXPECT_FALSE(may_be_replaced(path, loci_format));
 }
 
 }  // namespace

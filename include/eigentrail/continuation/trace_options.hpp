@@ -2,6 +2,7 @@
 // provenance.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,10 @@ struct TraceOptions {
   std::vector<int> branch =
       {};  ///< which path to go on along at each branch point, in order, 1 to 3; a single
            ///< number holds for all; 1 is straight on, also after the last number
+
+  /// Other parameters at other values than the scene declares, in their units. Not an option of a scene: one
+  /// model serves many traces at different values, in several threads.
+  std::map<std::string, double> values = {};
 
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>
@@ -66,7 +71,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
 
 /// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers
 /// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
-/// Throws InputError listing what is wrong. `used` collects the parameters that the options name.
+/// Throws InputError listing what is wrong, in the scene's [events] too. `used` collects the parameters that
+/// the options name.
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used);
 
 /// A scene that is ready to be traced.

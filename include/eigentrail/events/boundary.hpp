@@ -91,7 +91,7 @@ struct Corner {
 enum class BoundaryStatus {
   completed,
   no_equilibrium,  ///< nowhere on the lines that were searched
-  stopped          ///< the observer asked to stop
+  incomplete       ///< a curve was lost, or a change of stability could not be followed
 };
 
 struct [[nodiscard]] BoundaryResult {

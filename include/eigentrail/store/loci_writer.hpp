@@ -9,13 +9,10 @@
 namespace eigentrail {
 
 inline constexpr int loci_schema_version = 1;
+inline constexpr const char* loci_format = "eigentrail-loci";
 
 /// Refuses names of the traced parameter that the loci file uses for something else. Throws InputError.
 void check_parameter_name(const Scene& scene, const std::string& parameter);
-
-/// Whether an existing file may be replaced by a loci file: it is one itself. A scene, a file of matrices, a
-/// damaged file or anything else that somebody wrote may not.
-bool may_be_replaced(const std::string& path);
 
 class LociWriter {
  public:
