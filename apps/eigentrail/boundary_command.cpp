@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -62,7 +63,9 @@ void print_corners(const BoundaryOptions& options, const BoundaryResult& result)
       {"corner", options.trace.parameter, options.second, "s", "curves"}};
   for (const Corner& corner : result.corners) {
     const auto root = [&corner](std::size_t i) {
-      return complex_text(corner.s[i].real(), corner.s[i].imag(), 8);
+      const Complex s = corner.s[i];
+      constexpr double rounding = 1e-12;
+      return complex_text(std::abs(s.real()) > rounding * std::abs(s) ? s.real() : 0.0, s.imag(), 8);
     };
     rows.push_back({corner_name(corner.kind), rounded(corner.place[0], 12), rounded(corner.place[1], 12),
                     root(0) + ", " + root(1),

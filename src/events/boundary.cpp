@@ -151,12 +151,15 @@ Situation BoundarySearch::correct_seed(const BoundarySeed& seed, const BoundaryF
   guess.block = starting_block(seed.kind, point, *nearest);
   guess.basis = point.basis.T[0];
   const Place gradient_itself = Place::Zero();
-  for (const Place& direction : {seed.direction, gradient_itself}) {
+  for (const Place& direction :
+       {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
     const Situation there = correct_along(window_, function, guess, direction, result_.counts);
     const bool near = there.status == PointStatus::computed && Window::contains(there.place) &&
                       (there.place - seed.place).norm() < longest_correction;
     if (near) return there;
-    failed.message = there.message;
+    failed.message = there.status == PointStatus::computed
+                         ? "Newton's method left for " + window_.text(there.place)
+                         : there.message;
   }
   return failed;
 }
@@ -265,6 +268,8 @@ std::string curve_end_name(CurveEnd end) {
       return "takens_bogdanov";
     case CurveEnd::equilibrium_ends:
       return "equilibrium_ends";
+    case CurveEnd::exceptional_point:
+      return "exceptional_point";
     default:
       return "lost";
   }

@@ -16,6 +16,7 @@ constexpr int most_corrections = 10;
 constexpr double settled = 1e-14;
 constexpr double stagnated = 1e-10;
 constexpr double same_corner = 1e-7;  ///< of the window
+constexpr double least_sine = 1e-3;   ///< of the angle between curves that cross rather than touch
 
 /// A step as a chain of straight pieces.
 struct Chain {
@@ -72,7 +73,10 @@ class CornerFinder {
   };
   bool are_neighbours(At a, At b) const;
   void look_at(At a, At b);
-  void locate(At a, At b, const Place& t);
+  /// Newton for both functions; false where that has no solution nearby.
+  bool locate(At a, At b, const Place& t);
+  /// Where the dense curves cross: for a function whose own curves cross, which Newton cannot find.
+  void locate_on_dense(At a, At b, Place t);
   PlaceGuess guess_at(At at, double t) const;
   /// The eigenvalue of a block with Im s >= 0.
   Complex eigenvalue(At at, const Situation& situation) const;
@@ -135,7 +139,9 @@ void CornerFinder::look_at(At a, At b) {
     for (std::size_t l = 0; l < pieces; ++l) {
       const auto shares =
           crossing(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
-      if (shares) locate(a, b, (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces);
+      if (!shares) continue;
+      const Place t = (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces;
+      if (!locate(a, b, t)) locate_on_dense(a, b, t);
     }
   }
 }
@@ -154,7 +160,7 @@ Complex CornerFinder::eigenvalue(At at, const Situation& situation) const {
 }
 
 /// Newton for g = 0 of both modes, tracked anew at every guess.
-void CornerFinder::locate(At a, At b, const Place& t) {
+bool CornerFinder::locate(At a, At b, const Place& t) {
   const std::array<At, 2> at{a, b};
   std::array<PlaceGuess, 2> guess{guess_at(a, t[0]), guess_at(b, t[1])};
   const Place start = guess[0].place;
@@ -168,9 +174,9 @@ void CornerFinder::locate(At a, At b, const Place& t) {
     for (std::size_t k = 0; k < 2; ++k) {
       const BoundaryFunction& function = curves_[at[k].curve].function;
       there[k] = compute_situation(window_, function, guess[k], counts_);
-      if (there[k].status != PointStatus::computed) return;
+      if (there[k].status != PointStatus::computed) return false;
       const auto gradients = function_gradients(window_, there[k], counts_);
-      if (!gradients) return;
+      if (!gradients) return false;
       const auto row = static_cast<Eigen::Index>(k);
       slopes.row(row) = gradient(function, there[k].functions, *gradients).transpose();
       const double scale = slopes.row(row).norm();
@@ -179,15 +185,33 @@ void CornerFinder::locate(At a, At b, const Place& t) {
     }
     const Place move = -slopes.inverse() * values;
     const double size = move.norm();
-    if (!((there[0].place + move - start).norm() <= reach)) return;
+    if (!((there[0].place + move - start).norm() <= reach)) return false;
     if (size <= settled || (size > 0.5 * last && last <= stagnated)) {
       if (Window::contains(there[0].place))
         add(CornerKind::crossing, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])}, a.curve,
             b.curve);
-      return;
+      return true;
     }
     last = size;
     for (std::size_t k = 0; k < 2; ++k) guess[k] = as_guess(there[k], there[k].place + move);
+  }
+  return false;
+}
+
+void CornerFinder::locate_on_dense(At a, At b, Place t) {
+  const ChordStep& first = curves_[a.curve].steps[a.step];
+  const ChordStep& second = curves_[b.curve].steps[b.step];
+  for (int i = 0; i < most_corrections; ++i) {
+    Eigen::Matrix2d slopes;
+    slopes << first.slope(t[0]), -second.slope(t[1]);
+    if (!(std::abs(slopes.determinant()) > least_sine * slopes.col(0).norm() * slopes.col(1).norm())) return;
+    const Place move = slopes.inverse() * (second.place(t[1]) - first.place(t[0]));
+    t = (t + move).cwiseMax(0.0).cwiseMin(1.0);
+    if (move.norm() > stagnated) continue;
+    if ((second.place(t[1]) - first.place(t[0])).norm() > same_corner) return;
+    const auto root = [](const Eigen::Vector4d& at) { return at[2] + std::sqrt(Complex(at[3])); };
+    add(CornerKind::crossing, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve, b.curve);
+    return;
   }
 }
 

@@ -12,9 +12,12 @@ constexpr double accepted_share = 0.5;  ///< of the tolerance, as in a trace
 constexpr double first_step = 0.02;     ///< of the window; likewise below
 constexpr double longest_step = 0.1;
 constexpr double shortest_step = 1e-9;
+constexpr double nearest_edge = 10.0 * shortest_step;
 constexpr double same_place = 1e-9;
 constexpr double bent_too_much = 30.0;  ///< a step whose ends look away from its chord counts as this error
 constexpr int samples_per_step = 16;
+/// Of |s|: at the shortest step from an exceptional point two eigenvalues are closer than this.
+constexpr double coalescing = 1e-3;
 constexpr double near_fold = 1e-3;  ///< reciprocal condition of the equilibrium's stiffness
 
 /// Whether a step's dense curve passes a place with this eigenvalue.
@@ -92,6 +95,10 @@ class Arm {
   Landing land_on_end(const ChordStep& step, double t);
   Landing close();
   Landing finish(const Situation& there, PointFlag flag, CurveEnd how);
+  /// Moves the last point along the curve onto an edge that is as near as the shortest step. Needed where the
+  /// function followed vanishes all along that edge, as in a system without damping: no Newton step leads
+  /// there.
+  bool snap_to_edge();
   bool reject(StepControl& control, double h, double error, const std::string& why,
               PointStatus status = PointStatus::mode_lost);
 
@@ -120,11 +127,14 @@ bool Arm::reject(StepControl& control, double h, double error, const std::string
   ++rejected;
   control.reject(h, error);
   if (!control.exhausted()) return true;
+  if (snap_to_edge()) return stop(CurveEnd::edge);
   const std::string where = window_.text(last().place);
   if (last().solves_equilibrium && last().equilibrium_condition < near_fold)
     return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + where);
   if (status == PointStatus::no_equilibrium)
     return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
+  if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
+    return stop(CurveEnd::exceptional_point, "its mode coalesces with another one near " + where);
   return stop(CurveEnd::lost, "the step became too small at " + where + ": " + why);
 }
 
@@ -206,6 +216,27 @@ Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
   if (there.status == PointStatus::computed && !Window::contains(there.place))
     there.status = PointStatus::mode_lost;
   return finish(there, edge_flag, CurveEnd::edge);
+}
+
+bool Arm::snap_to_edge() {
+  if (points.size() < 2) return false;
+  CurvePoint& point = points.back();
+  const Place ahead = sign_ * point.tangent;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double bound = ahead[axis] > 0.0 ? 1.0 : 0.0;
+    const double distance = (bound - point.place[axis]) / ahead[axis];
+    if (!(distance >= 0.0 && distance <= nearest_edge)) continue;
+    point.place += distance * ahead;
+    point.place[axis] = bound;
+    if (!Window::contains(point.place)) return false;
+    point.places.col(0) = point.place;
+    point.flags |= edge_flag;
+    const auto last_step = sign_ > 0.0 ? make_chord_step(points[points.size() - 2], point)
+                                       : make_chord_step(point, points[points.size() - 2]);
+    if (last_step) steps.back() = *last_step;
+    return true;
+  }
+  return false;
 }
 
 Arm::Landing Arm::land_on_end(const ChordStep& step, double t) {

@@ -48,7 +48,9 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
       spectrum.modes.begin(), spectrum.modes.end(),
       [&](const auto& a, const auto& b) { return std::abs(a.s - point.s) < std::abs(b.s - point.s); });
   point.number = static_cast<int>(nearest - spectrum.modes.begin()) + 1;
+  point.gap = INFINITY;
   for (auto mode = spectrum.modes.begin(); mode != spectrum.modes.end(); ++mode) {
+    if (mode != nearest) point.gap = std::min(point.gap, std::abs(mode->s - point.s));
     const double zero = vanishing * std::max(std::abs(mode->s), window.reference());
     if (mode != nearest && instability(function, mode->s) > zero) ++point.others;
   }

@@ -22,6 +22,7 @@ struct CurvePoint {
   Complex s;
   ComplexVector shape;  ///< physical coordinates
   int others = 0;       ///< other unstable modes
+  double gap = 0.0;     ///< distance of s from the nearest other eigenvalue with Im s >= 0
   int number = 0;       ///< of the mode by ascending |s|, from 1
   int flags = 0;
 

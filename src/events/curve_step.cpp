@@ -44,6 +44,8 @@ std::optional<ChordStep> make_chord_step(const CurvePoint& left, const CurvePoin
     return std::nullopt;
   step.left = in_chord(left, direction);
   step.right = in_chord(right, direction);
+  if (left.functions.rows() == 2)
+    step.rounding = function_rounding(left.mode.Lambda[0]).cwiseMax(function_rounding(right.mode.Lambda[0]));
   return step;
 }
 
@@ -51,16 +53,21 @@ Eigen::Vector4d ChordStep::operator()(double t) const {
   return interpolant(length, left, right, left.cols() - 1)(t).real();
 }
 
+Place ChordStep::slope(double t) const {
+  return interpolant(length, left, right, left.cols() - 1).slope(t).real().head<2>();
+}
+
 double ChordStep::error(double tolerance, double s_ref) const {
   const Vector errors = interpolant(length, left, right, left.cols()).error_without_last();
   const double place = std::max(errors[0], errors[1]) / tolerance;
+  const Vector of_functions = (errors.tail<2>() - rounding).cwiseMax(0.0);
   double roots = 0.0;
   for (const Matrix* end : {&left, &right}) {
     const ComplexVector functions = end->col(0).tail(2).cast<Complex>();
     const double s = block_roots(functions).cwiseAbs().maxCoeff();
     const double scale = std::max(s, s_ref);
     roots =
-        std::max(roots, root_error(functions, errors.tail(2), least_gap_share * scale) / (tolerance * scale));
+        std::max(roots, root_error(functions, of_functions, least_gap_share * scale) / (tolerance * scale));
   }
   return std::max(place, roots);
 }

@@ -8,10 +8,13 @@ namespace eigentrail {
 /// Coefficients of place, tau and delta in the distance along the chord from `left` to `right`.
 struct ChordStep {
   double length = 0.0;
-  Matrix left, right;  ///< 4 x (order + 2): scaled place, tau, delta
+  Matrix left, right;                                  ///< 4 x (order + 2): scaled place, tau, delta
+  Eigen::Vector2d rounding = Eigen::Vector2d::Zero();  ///< of tau and delta at the ends
 
   Eigen::Vector4d operator()(double t) const;
   Place place(double t) const { return (*this)(t).head<2>(); }
+  /// Derivative of the place by t.
+  Place slope(double t) const;
 
   /// Estimated error of the dense output of order q as a fraction of what `tolerance` allows.
   double error(double tolerance, double s_ref) const;

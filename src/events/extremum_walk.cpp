@@ -115,17 +115,19 @@ Place uphill(const Quadratic<double>& w, double sign, double radius) {
   return length > radius ? Place(radius / length * step) : step;
 }
 
-BoundarySeed seed_at(const BoundaryOptions& options, const Probe& there) {
+std::optional<BoundarySeed> seed_at(const Window& window, const BoundaryOptions& options,
+                                    const Probe& there) {
   const Complex s = there.s.value;
+  if (!passes_zero(options, s, window.reference())) return std::nullopt;
   const BoundaryKind kind = options.damping_ratio ? BoundaryKind::damping_ratio
                             : s.imag() == 0.0     ? BoundaryKind::divergence
                                                   : BoundaryKind::flutter;
-  return {there.place, Place::Zero(), kind, s, there.equilibrium, true};
+  return BoundarySeed{there.place, Place::Zero(), kind, s, there.equilibrium, true};
 }
 
 /// Between two probes with opposite signs; by sections until Newton can take over.
-BoundarySeed seed_between(const Window& window, const BoundaryOptions& options, Probe a, Probe b,
-                          RunCounts& counts) {
+std::optional<BoundarySeed> seed_between(const Window& window, const BoundaryOptions& options, Probe a,
+                                         Probe b, RunCounts& counts) {
   for (int i = 0; i < most_sections && (b.place - a.place).norm() > close_enough; ++i) {
     // Halving now and then keeps the secant from creeping.
     const double share = i % 3 == 2 ? 0.5 : std::clamp(a.w.value / (a.w.value - b.w.value), 0.02, 0.98);
@@ -133,7 +135,7 @@ BoundarySeed seed_between(const Window& window, const BoundaryOptions& options, 
     if (!middle) break;
     (middle->w.value * a.w.value > 0.0 ? a : b) = *middle;
   }
-  return seed_at(options, std::abs(a.w.value) < std::abs(b.w.value) ? a : b);
+  return seed_at(window, options, std::abs(a.w.value) < std::abs(b.w.value) ? a : b);
 }
 
 }  // namespace
@@ -142,7 +144,7 @@ std::optional<BoundarySeed> walk_to_boundary(const Window& window, const Boundar
                                              const LineExtremum& start, double radius, RunCounts& counts) {
   std::optional<Probe> here =
       probe(window, options, start.place, start.s, start.equilibrium, Matrix(), counts);
-  if (here && here->w.value * start.sign >= 0.0) return seed_at(options, *here);
+  if (here && here->w.value * start.sign >= 0.0) return seed_at(window, options, *here);
   const double longest = radius;
   for (int i = 0; here && i < most_steps && radius > smallest_radius; ++i) {
     const Place move = uphill(here->w, start.sign, radius);

@@ -201,8 +201,7 @@ void Scanner::add_seed(const SampledStep& step, Eigen::Index mode, double from, 
   const Sample there = step(to);
   const Complex s = there.s[mode];
   const bool pair = s.imag() != 0.0;
-  // A change of sign by way of infinity is none.
-  if (std::abs(instability(options_, s)) > largest_jump * std::max(std::abs(s), scan_.s_ref)) return;
+  if (!passes_zero(options_, s, scan_.s_ref)) return;
   // A real root has no damping ratio but one.
   if (!pair && options_.damping_ratio) return;
   const BoundaryKind kind = !pair                    ? BoundaryKind::divergence
@@ -239,6 +238,10 @@ void Scanner::report(const TraceResult& result) {
 
 double instability(const BoundaryOptions& options, Complex s) {
   return s.real() + options.damping_ratio.value_or(0.0) * std::abs(s);
+}
+
+bool passes_zero(const BoundaryOptions& options, Complex s, double s_ref) {
+  return std::abs(instability(options, s)) <= largest_jump * std::max(std::abs(s), s_ref);
 }
 
 LineScan scan_line(const Window& window, const BoundaryOptions& options, const ScanLine& line) {

@@ -49,4 +49,8 @@ LineScan scan_line(const Window& window, const BoundaryOptions& options, const S
 /// How far a mode is from the boundary, zero on it; positive where it is unstable, or less damped than asked.
 double instability(const BoundaryOptions& options, Complex s);
 
+/// Whether a mode whose instability changes sign here does so by passing zero, and not by a jump: through
+/// infinity, or from one mode to another.
+bool passes_zero(const BoundaryOptions& options, Complex s, double s_ref);
+
 }  // namespace eigentrail

@@ -31,11 +31,12 @@ std::string boundary_name(BoundaryKind kind);
 
 /// How a curve begins or ends.
 enum class CurveEnd {
-  edge,              ///< on the edge of the window
-  closed,            ///< it returns to its seed
-  takens_bogdanov,   ///< the frequency reaches zero
-  equilibrium_ends,  ///< a fold: no equilibrium beyond
-  lost               ///< it could not be followed any further; the reason is in words
+  edge,               ///< on the edge of the window
+  closed,             ///< it returns to its seed
+  takens_bogdanov,    ///< the frequency reaches zero
+  equilibrium_ends,   ///< a fold: no equilibrium beyond
+  exceptional_point,  ///< its mode coalesces with another one
+  lost                ///< it could not be followed any further; the reason is in words
 };
 std::string curve_end_name(CurveEnd end);
 
