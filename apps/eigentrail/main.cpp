@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   add_trace(program, exit_code);
   add_eval(program, exit_code);
   add_events(program, exit_code);
+  add_boundary(program, exit_code);
   add_map(program, exit_code);
   add_info(program, exit_code);
   add_explain(program, exit_code);

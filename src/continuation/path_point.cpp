@@ -38,13 +38,27 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
   return result;
 }
 
-/// Series of the equilibrium when `parameter` moves away from its value at the point.
-EvaluationFault series_along(const PathProblem& problem, const PathPoint& point, int parameter, int order,
-                             Path& path, RunCounts& counts) {
+/// All parameters when one of them moves away from its value at the point.
+VectorSeries straight_series(const PathProblem& problem, const PathPoint& point, int parameter) {
   VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
   parameters.col(0) = parameters_at(problem, point.p);
   parameters(parameter, 1) = 1.0;
-  if (problem.model.structure(parameter).fixed_equilibrium) {
+  return parameters;
+}
+
+/// Whether the equilibrium stays where it is along a series of parameters.
+bool keeps_equilibrium(const Model& model, const VectorSeries& parameters) {
+  for (Eigen::Index i = 0; i < parameters.rows(); ++i) {
+    const bool moves = !parameters.row(i).tail(parameters.cols() - 1).isZero(0.0);
+    if (moves && !model.structure(static_cast<int>(i)).fixed_equilibrium) return false;
+  }
+  return true;
+}
+
+/// Series of the equilibrium along `parameters`.
+EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
+                             const VectorSeries& parameters, int order, Path& path, RunCounts& counts) {
+  if (keeps_equilibrium(problem.model, parameters)) {
     path = {parameters, point.equilibrium.x, point.equilibrium.lambda};
     return {};
   }
@@ -127,7 +141,10 @@ EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& 
     path = *point.known;
     return {};
   }
-  if (!point.plane) return series_along(problem, point, problem.traced, order, path, counts);
+  if (!point.plane) {
+    const VectorSeries parameters = straight_series(problem, point, problem.traced);
+    return series_along(problem, point, parameters, order, path, counts);
+  }
   return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
                                       parameters_at(problem, point.p), problem.traced, order, path,
                                       counts.evaluations);
@@ -161,11 +178,6 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
   return point;
 }
 
-std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
-                                            RunCounts& counts) {
-  return differentiate_point(problem, point, problem.traced, counts);
-}
-
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
                           RunCounts& counts) {
   Track track;
@@ -178,23 +190,13 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, Inva
   return track;
 }
 
-std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
+namespace {
+
+/// What follows from the path of a node that has one.
+std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
                                             RunCounts& counts) {
-  const auto& parameters = problem.model.description().parameters;
-  if (parameters[static_cast<std::size_t>(parameter)].definition) {
-    throw std::invalid_argument("differentiate_point: '" +
-                                parameters.names()[static_cast<std::size_t>(parameter)] +
-                                "' is defined by other parameters; differentiate along one of those");
-  }
-  size_counters(problem, counts);
-  const StageTimer timer(counts.differentiation_seconds);
-  PathNode node;
-  node.p = point.p;
   const int order = problem.order + 1;
-  const bool along_path = parameter == problem.traced;
-  if (along_path ? equilibrium_series(problem, point, order, node.path, counts)
-                 : series_along(problem, point, parameter, order, node.path, counts))
-    return std::nullopt;
+  node.p = point.p;
   if (problem.model.linearize(node.path, order, node.linearization, counts.evaluations)) return std::nullopt;
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
@@ -204,6 +206,38 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
     if (!is_finite(node.tracks.back())) return std::nullopt;
   }
   return node;
+}
+
+}  // namespace
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            RunCounts& counts) {
+  size_counters(problem, counts);
+  const StageTimer timer(counts.differentiation_seconds);
+  PathNode node;
+  if (equilibrium_series(problem, point, problem.order + 1, node.path, counts)) return std::nullopt;
+  return differentiate_along(problem, point, std::move(node), counts);
+}
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            const VectorSeries& parameters, RunCounts& counts) {
+  size_counters(problem, counts);
+  const StageTimer timer(counts.differentiation_seconds);
+  PathNode node;
+  if (series_along(problem, point, parameters, problem.order + 1, node.path, counts)) return std::nullopt;
+  return differentiate_along(problem, point, std::move(node), counts);
+}
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
+                                            RunCounts& counts) {
+  const auto& parameters = problem.model.description().parameters;
+  if (parameters[static_cast<std::size_t>(parameter)].definition) {
+    throw std::invalid_argument("differentiate_point: '" +
+                                parameters.names()[static_cast<std::size_t>(parameter)] +
+                                "' is defined by other parameters; differentiate along one of those");
+  }
+  if (parameter == problem.traced) return differentiate_point(problem, point, counts);
+  return differentiate_point(problem, point, straight_series(problem, point, parameter), counts);
 }
 
 }  // namespace eigentrail

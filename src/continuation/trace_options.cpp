@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -175,6 +176,7 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   TraceOptions options;
   OptionReader reader(scene, table);
   TraceOptions::fields(options, reader);
+  options.events = read_event_options(scene, options.parameter, used);
   for (const char* key : {"from", "to"}) {
     if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
   }

@@ -165,6 +165,11 @@ void Tracer::record_meeting(const PathNode& node, std::size_t index, const Meeti
   }
   event.retrackings = retrackings;
   event.node = result_.nodes;
+  keep_shape(node, index, meeting.members, meeting.offset, event);
+  const auto moves = [&](const Track& along_path, const PathNode&, const Track& along_q) {
+    return shift_of_meeting(along_path, along_q, meeting.kind, meeting.members);
+  };
+  keep_sensitivities(arrived_, node, index, meeting.members, moves, event);
   add_static_event(node, std::move(event));
 }
 

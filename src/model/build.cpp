@@ -8,7 +8,7 @@
 namespace eigentrail {
 
 void check_top_level(const Scene& scene) {
-  std::vector<std::string> known = {"title", "parameters", "trace", "matrix_family"};
+  std::vector<std::string> known = {"title", "parameters", "trace", "events", "matrix_family"};
   if (!is_matrix_family(scene)) {
     for (const EffectHelp& effect : effect_reference()) known.push_back(effect.name);
   }

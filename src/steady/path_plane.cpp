@@ -180,17 +180,28 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
 
 }  // namespace
 
+std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
+                                     const std::vector<int>& parameters, const Linearization& linearization,
+                                     const Matrix& tangent_basis, EvaluationCounts& counts) {
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
+                                     Eigen::ComputeFullU);
+  const Vector kernel = tangent_basis * svd.matrixU().col(tangent_basis.cols() - 1);
+  std::vector<KernelLoad> loads;
+  for (const int parameter : parameters) {
+    Vector follow, load;
+    const bool known =
+        !parameter_load(model, point, parameter, linearization, follow, load, counts) && load.allFinite();
+    loads.push_back(known ? KernelLoad{kernel.dot(load), load.norm()} : KernelLoad{NAN, NAN});
+  }
+  return loads;
+}
+
 double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
                                  const Linearization& linearization, const Matrix& tangent_basis,
                                  EvaluationCounts& counts) {
-  Vector follow, load;
-  if (parameter_load(model, point, traced, linearization, follow, load, counts)) return 1.0;
-  const Vector tangential = tangent_basis.transpose() * load;
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
-                                     Eigen::ComputeFullU);
-  const Vector kernel = svd.matrixU().col(tangential.size() - 1);
-  const double length = load.norm();
-  return length > 0.0 ? std::abs(kernel.dot(tangential)) / length : 0.0;
+  const KernelLoad load = kernel_loads(model, point, {traced}, linearization, tangent_basis, counts).front();
+  if (std::isnan(load.total)) return 1.0;
+  return load.total > 0.0 ? std::abs(load.along_kernel) / load.total : 0.0;
 }
 
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,

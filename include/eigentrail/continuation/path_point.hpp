@@ -173,6 +173,12 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
                                             RunCounts& counts);
 
+/// The same along any curve in parameter space: `parameters` (n_parameters x (<= order + 2)) is the series of
+/// all parameters, column 0 their values at the point. Parameters that are defined by others follow from
+/// them, whatever their rows hold.
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            const VectorSeries& parameters, RunCounts& counts);
+
 /// Series of one block at a point that is already differentiated.
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
                           RunCounts& counts);

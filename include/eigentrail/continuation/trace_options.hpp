@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/model/build.hpp"
 
 namespace eigentrail {
@@ -34,6 +35,8 @@ struct TraceOptions {
   /// Other parameters at other values than the scene declares, in their units. Not an option of a scene: one
   /// model serves many traces at different values, in several threads.
   std::map<std::string, double> values = {};
+
+  EventOptions events = {};  ///< of the scene's [events]
 
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>
@@ -71,7 +74,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
 
 /// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers
 /// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
-/// Throws InputError listing what is wrong. `used` collects the parameters that the options name.
+/// Throws InputError listing what is wrong, in the scene's [events] too. `used` collects the parameters that
+/// the options name.
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used);
 
 /// A scene that is ready to be traced.

@@ -1,0 +1,39 @@
+#include "core/series_composition.hpp"
+
+namespace eigentrail {
+
+Vector reversion(const Vector& sigma) {
+  const Eigen::Index count = sigma.size();
+  Vector h = Vector::Zero(count);
+  h[1] = 1.0 / sigma[1];
+  for (Eigen::Index k = 2; k < count; ++k) {
+    // sigma(h(u)) = u: coefficient k with h_k = 0 is what h_k has to remove.
+    Vector power = Vector::Zero(count);
+    power[0] = 1.0;
+    double sum = 0.0;
+    for (Eigen::Index j = 1; j <= k; ++j) {
+      Vector next = Vector::Zero(count);
+      for (Eigen::Index a = 0; a < count; ++a) {
+        for (Eigen::Index b = 0; a + b < count; ++b) next[a + b] += power[a] * h[b];
+      }
+      power = next;
+      sum += sigma[j] * power[k];
+    }
+    h[k] = -sum / sigma[1];
+  }
+  return h;
+}
+
+Matrix power_table(const Vector& h) {
+  const Eigen::Index count = h.size();
+  Matrix table = Matrix::Zero(count, count);
+  table(0, 0) = 1.0;
+  for (Eigen::Index j = 1; j < count; ++j) {
+    for (Eigen::Index a = 0; a < count; ++a) {
+      for (Eigen::Index b = 0; a + b < count; ++b) table(j, a + b) += table(j - 1, a) * h[b];
+    }
+  }
+  return table;
+}
+
+}  // namespace eigentrail

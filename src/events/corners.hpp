@@ -1,0 +1,13 @@
+// Where boundaries meet.
+#pragma once
+
+#include "events/curve_follower.hpp"
+
+namespace eigentrail {
+
+/// Intersections of all curves with each other and with themselves, both modes tracked anew there; and the
+/// points where curves of pairs end on curves of divergence. Places in the parameters' units.
+std::vector<Corner> find_corners(const Window& window, const std::vector<FollowedCurve>& curves,
+                                 double tolerance, RunCounts& counts);
+
+}  // namespace eigentrail

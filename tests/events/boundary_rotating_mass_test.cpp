@@ -1,0 +1,77 @@
+// The blade of data/scenes/rotating_mass.toml against an independent scan.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "eigentrail/reduction/reduced_pencil.hpp"
+#include "eigentrail/steady/equilibrium.hpp"
+#include "events/boundaries.hpp"
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// Largest real part of all eigenvalues: own equilibrium, null space, and QZ on the unscaled companion form.
+double spectral_abscissa(const Model& model, double omega, double a_n) {
+  const Parameters& list = model.description().parameters;
+  Vector parameters = list.declared_values();
+  parameters[*list.index("omega")] = omega;
+  parameters[*list.index("a_n")] = a_n;
+  EvaluationCounts counts = model.new_counts();
+  const Equilibrium at =
+      solve_equilibrium(model, parameters, model.initial_guess(parameters), {}, {}, counts);
+  if (at.status != SteadyStatus::converged) throw std::runtime_error(at.report.message);
+  const Linearization& lin = at.linearization;
+  const Matrix T = at.kkt.constraints().null_basis();
+  double largest = -INFINITY;
+  for (const Complex s : quadratic_eigenvalues(T.transpose() * lin.M[0] * T, T.transpose() * lin.C[0] * T,
+                                               T.transpose() * lin.K[0] * T))
+    largest = std::max(largest, s.real());
+  return largest;
+}
+
+TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
+  std::ifstream file(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  BoundaryRequest request;
+  request.second = "a_n";
+  request.from = 200.0;
+  request.to = 3000.0;
+  request.first_from = 5.0;
+  request.first_to = 40.0;
+  request.tolerance = 1e-10;
+  const BoundarySetup setup = prepare_boundary(parse_scene(text, "rotating_mass.toml"), request);
+  const BoundaryResult result = find_boundaries(*setup.model, setup.options);
+  const auto flutter = curves_of_kind(result, BoundaryKind::flutter);
+  ASSERT_EQ(flutter.size(), 1U);
+  int compared = 0;
+  double nearest = INFINITY;
+  const std::size_t steps = flutter[0].steps.size();
+  for (int i = 0; i < 50; ++i) {
+    const double along = (i + 0.5) / 50.0 * static_cast<double>(steps);
+    const auto step = static_cast<std::size_t>(along);
+    const Eigen::Vector4d at = evaluate_step(flutter[0].steps[step], along - static_cast<double>(step));
+    double low = at[0] * (1.0 - 1e-4);
+    double high = at[0] * (1.0 + 1e-4);
+    ASSERT_GT(spectral_abscissa(*setup.model, low, at[1]), 0.0) << "at a_n = " << at[1];
+    ASSERT_LT(spectral_abscissa(*setup.model, high, at[1]), 0.0) << "at a_n = " << at[1];
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (spectral_abscissa(*setup.model, middle, at[1]) > 0.0 ? low : high) = middle;
+    }
+    EXPECT_NEAR(at[0] / low, 1.0, 1e-8) << "at a_n = " << at[1];
+    ++compared;
+  }
+  EXPECT_EQ(compared, 50);
+  // The reference of the paper's scene.
+  largest_miss(flutter[0], 20000, [&](const auto& at) {
+    nearest = std::min(nearest, std::hypot(at[0] / 12.4393882230095183 - 1.0, at[1] / 1000.0 - 1.0));
+    return 0.0;
+  });
+  EXPECT_LT(nearest, 1e-3);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
