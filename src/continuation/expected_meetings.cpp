@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "continuation/meetings.hpp"
+#include "continuation/shared_basis.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -132,6 +133,16 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   }
 }
 
+/// How far the dense output of a block of two may misplace a root of its gap.
+double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
+                     double position) {
+  if (left.tracks[track].size() != 2) return INFINITY;
+  const DenseBlock block = block_on_step(left, right, track);
+  const HermiteInterpolant gap(length, block.left.row(1), block.right.row(1));
+  const double slope = std::abs(gap.slope(position / length)[0] / length);
+  return gap.error_without_last()[0] / slope;
+}
+
 }  // namespace
 
 std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length) {
@@ -155,7 +166,10 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
             add_position(std::min(t.real(), 1.0) * length, found);
         }
         add_near_left_end(track, strands[a].members, strands[b].members, length, found);
-        for (const double position : found) meetings.push_back({strands[b], strands[a], position});
+        for (const double position : found) {
+          meetings.push_back({strands[b], strands[a], position});
+          meetings.back().doubt = doubt_of_root(left, right, i, length, position);
+        }
       }
     }
   }
@@ -223,6 +237,12 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
     // Beside a short step far ones are told poorly: the next, longer steps look back.
     const double behind = std::max(off_the_ends, 0.2 * off_axis / std::abs(length));
+    const auto mirrors = [&](const ExpectedMeeting& other) {
+      return other.a.track == a.track && other.b.track == b.track && other.a.members == a.members &&
+             other.b.members == b.members &&
+             std::abs(other.position - std::conj(position)) <= 1e-6 * off_axis;
+    };
+    if (std::any_of(meetings.begin(), meetings.end(), mirrors)) return;
     if (t > -behind && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
       meetings.push_back({a, b, position, at_left, at_right});
   };

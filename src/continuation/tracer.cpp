@@ -145,14 +145,13 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
 }
 
 Tracer::Trouble Tracer::attempt(double h, std::optional<PathNode>& next) {
-  PathPoint point = compute_point(problem_, predict(node_, h), node_.basis.T[0], result_.counts);
+  const PathPoint point = compute_point(problem_, predict(node_, h), node_.basis.T[0], result_.counts);
   if (point.status == PointStatus::no_equilibrium)
     return {Trouble::Kind::no_equilibrium, -1, INFINITY, point.message};
   if (point.status == PointStatus::mode_lost)
     return {Trouble::Kind::mode_lost, point.lost_track, INFINITY, point.message};
   next = differentiate_point(problem_, point, result_.counts);
   if (!next) return {Trouble::Kind::mode_lost, -1, INFINITY, "a series is not finite"};
-  arrived_ = std::move(point);
   label_arrival(h, *next);
   return {};
 }

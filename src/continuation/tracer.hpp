@@ -94,6 +94,8 @@ class Tracer {
   /// Shortens the step so that it ends on the first meeting inside it.
   bool land_on_meeting(double& h, std::optional<PathNode>& next);
   void record_meetings_at_start();
+  std::optional<Meeting> meeting_at(double h, const ExpectedMeeting& expected, const PathNode& node) const;
+  bool land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next);
   enum class Approach { reached, nothing, failed };
   Approach approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
                             StrandSampler& strands, double& distance, int& retrackings);
@@ -104,11 +106,11 @@ class Tracer {
   // tracer_veerings.cpp: exceptional points beside the real axis.
   void find_veerings(double h, const PathNode& next);
   bool is_known_veering(Complex position, const std::vector<int>& modes) const;
-  std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                       double& at);
-  void record_veering(const PathNode& base, double at, double h, const ExpectedMeeting& expected,
+  std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected);
+  std::optional<PathNode> joined_at(const PathNode& apart, double distance);
+  void record_veering(const PathNode& base, double h, const ExpectedMeeting& expected,
                       const std::vector<int>& modes);
-  bool has_jumped(const Track& from, const Track& to, double distance) const;
+  bool has_jumped(const PathNode& from, const Track& to, double distance) const;
   double veering_width() const;
 
   // tracer_criteria.cpp: zeros and extrema of functions of single eigenvalues, flutter among them.
@@ -152,6 +154,8 @@ class Tracer {
   Vector excitation(const PathNode& node) const;
   void find_zeros(double h, const PathNode& next);
   void watch(double h, const PathNode& next, const Member& member, StepCriteria& step, double last, double t);
+  bool compute_closer(const Prediction& prediction, Closer& closer);
+  bool probe_alone(Complex expected, std::size_t track, double distance, Closer& closer);
   std::optional<Closer> look_closer(double h, const PathNode& next, const Member& member, const Aim& aim,
                                     double distance);
   void locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t);
@@ -166,6 +170,7 @@ class Tracer {
                   Event& event) const;
   /// ds/dq of the mean of `members`, and dp*/dq of where `moves` says how the event follows; one more
   /// back-substitution per parameter.
+  PathPoint solved_point(const PathNode& node);
   using Movement =
       std::function<double(const Track& along_path, const PathNode& node_q, const Track& along_q)>;
   void keep_sensitivities(const PathPoint& point, const PathNode& node, std::size_t track,
@@ -241,7 +246,6 @@ class Tracer {
   TraceResult result_;
   double direction_ = 1.0;  ///< sign of steps in the path's coordinate
   PathNode node_;           ///< the last accepted point
-  PathPoint arrived_;       ///< the point that was computed last as a step's end
   std::optional<PathPlane> plane_;
   /// Where the steady equations are too near to singular to be solved; in the coordinate of `plane_`.
   std::optional<Bridge> bridge_;

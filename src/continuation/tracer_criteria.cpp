@@ -9,6 +9,7 @@
 #include "core/matrix_series.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -201,6 +202,36 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
   }
 }
 
+/// The point and its series.
+bool Tracer::compute_closer(const Prediction& prediction, Closer& closer) {
+  closer.point = compute_point(problem_, prediction, node_.basis.T[0], result_.counts);
+  if (closer.point.status != PointStatus::computed) return false;
+  std::optional<PathNode> node = differentiate_point(problem_, closer.point, result_.counts);
+  if (!node) return false;
+  closer.node = std::move(*node);
+  return true;
+}
+
+/// One eigenvalue of a block without the others, where it is far enough from them to be found alone.
+bool Tracer::probe_alone(Complex expected, std::size_t track, double distance, Closer& closer) {
+  constexpr double apart = 1e-3;  // of its size
+  constexpr double nearer = 0.1;  // than the next one
+  if (node_.tracks[track].size() == 1) return false;
+  Prediction prediction = predict(with_tracks(node_, {track}), distance);
+  const ComplexVector roots = pair_eigenvalues(prediction.pairs.front());
+  Eigen::Index nearest = 0;
+  (roots.array() - expected).abs().minCoeff(&nearest);
+  const Complex root = roots[nearest];
+  double gap = INFINITY;
+  for (Eigen::Index j = 0; j < roots.size(); ++j) {
+    if (j != nearest) gap = std::min(gap, std::abs(roots[j] - root));
+  }
+  if (!(gap > apart * std::abs(root))) return false;
+  prediction.pairs.front() = part_of(prediction.pairs.front(), roots, {static_cast<int>(nearest)});
+  return compute_closer(prediction, closer) &&
+         std::abs(closer.node.tracks.front().roots[0] - root) <= nearer * gap;
+}
+
 /// The eigenvalue of a member of a block as a series at a point near a step, and the point.
 std::optional<Tracer::Closer> Tracer::look_closer(double h, const PathNode& next, const Member& member,
                                                   const Aim& aim, double distance) {
@@ -210,12 +241,9 @@ std::optional<Tracer::Closer> Tracer::look_closer(double h, const PathNode& next
   departing_roots(node_.tracks[member.track], h, begin);
   const Complex expected =
       roots(std::clamp(distance / h, begin, 1.0))[static_cast<Eigen::Index>(member.index)];
-  closer.point = compute_point(problem_, predict(with_tracks(node_, {member.track}), distance),
-                               node_.basis.T[0], result_.counts);
-  if (closer.point.status != PointStatus::computed) return std::nullopt;
-  std::optional<PathNode> node = differentiate_point(problem_, closer.point, result_.counts);
-  if (!node) return std::nullopt;
-  closer.node = std::move(*node);
+  if (!probe_alone(expected, member.track, distance, closer) &&
+      !compute_closer(predict(with_tracks(node_, {member.track}), distance), closer))
+    return std::nullopt;
   const Track& there = closer.node.tracks.front();
   const Chart chart = there.pair.chart;
   Eigen::Index nearest = 0;
@@ -297,7 +325,9 @@ void Tracer::finish(double h, const PathNode& next, const Closer& closer, const 
   for (Eigen::Index k = g.size() - 1; k >= 0; --k) value = value * offset + g[k];
   const double curvature = derivative(derivative(g))[0];
   if (aim.sought == Sought::extremum) {
-    const bool matters = std::abs(curvature) * h * h / 8.0 > options_.tolerance;
+    // Where a pair touches the real axis the damping ratio cannot be exceeded.
+    const bool oscillates = std::abs(closer.root.imag()) > 1e-6 * std::abs(closer.root);
+    const bool matters = oscillates && std::abs(curvature) * h * h / 8.0 > options_.tolerance;
     if (matters) record_zero(closer, g, offset, member, aim, retrackings);
     return;
   }

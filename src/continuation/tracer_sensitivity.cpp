@@ -53,6 +53,16 @@ void Tracer::keep_shape(const PathNode& node, std::size_t track, const std::vect
   event.shape = normalize_shape(shape, node.linearization.M[0], {});
 }
 
+/// A point of the path as it was before it was differentiated; without modes.
+PathPoint Tracer::solved_point(const PathNode& node) {
+  PathPoint point;
+  point.p = node.p;
+  point.equilibrium = keep_equilibrium(problem_.model, node.path.parameters.col(0), node.path.x.col(0),
+                                       node.path.lambda.col(0), result_.counts.evaluations);
+  point.basis = {{node.basis.T[0]}, node.basis.is_identity};
+  return point;
+}
+
 void Tracer::keep_sensitivities(const PathPoint& point, const PathNode& node, std::size_t track,
                                 const std::vector<int>& members, const Movement& moves, Event& event) {
   const auto& parameters = problem_.model.description().parameters;

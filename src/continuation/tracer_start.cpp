@@ -101,7 +101,6 @@ bool Tracer::start_tracks(PathPoint& point, const std::vector<StartingMode>& mod
     return stop(TraceStatus::multiple_mode, message.str());
   }
   node = differentiate_point(problem_, point, result_.counts);
-  arrived_ = point;
   if (!node) return stop(TraceStatus::multiple_mode, "a series at the start is not finite");
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Track& track = node->tracks[i];

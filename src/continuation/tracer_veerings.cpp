@@ -6,6 +6,7 @@
 #include "continuation/tracer.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -133,40 +134,53 @@ double Tracer::veering_width() const {
   return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
 }
 
-/// A point whose only track is the two strands as one block, and how far it lies from the last point.
-std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                             double& at) {
+/// A point below an expected meeting, whose only track is the two strands as one block.
+std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next,
+                                             const ExpectedMeeting& expected) {
   const Strand& a = expected.a;
   const Strand& b = expected.b;
   const bool right = expected.position.real() / h > 0.5;
   const PathNode& nearer = right ? next : node_;
-  at = right ? h : 0.0;
+  const double distance = expected.position.real() - (right ? h : 0.0);
   if (a.track != b.track) {
-    PathNode base = with_tracks(nearer, {});
+    PathNode apart = with_tracks(nearer, {});
     for (const Strand* strand : {&a, &b}) {
       std::optional<Track> track =
           separate(problem_, nearer, nearer.tracks[strand->track], strand->members, result_.counts);
       if (!track) return std::nullopt;
-      base.tracks.push_back(std::move(*track));
+      apart.tracks.push_back(std::move(*track));
     }
-    const Eigen::Index size = base.tracks[0].size() + base.tracks[1].size();
-    if (!join(problem_, base, 0, {{false, 1, 0.0}}, result_.counts)) return std::nullopt;
-    return base.tracks.front().size() == size ? std::optional<PathNode>(std::move(base)) : std::nullopt;
+    return joined_at(apart, distance);
   }
-  PathNode base = with_tracks(nearer, {a.track});
+  const PathNode base = with_tracks(nearer, {a.track});
+  std::optional<PathNode> point = probe(base, distance);
+  if (!point || has_jumped(base, point->tracks.front(), distance)) return std::nullopt;
   const std::vector<int> members = united(a.members, b.members);
-  if (static_cast<Eigen::Index>(members.size()) == base.tracks.front().size()) return base;
-  // In a larger block the two are told from the others where they are close to each other.
-  std::optional<PathNode> point = probe(base, expected.position.real() - at);
-  if (!point) return std::nullopt;
-  at = expected.position.real();
   Track& block = point->tracks.front();
+  if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
+  // In a larger block the two are told from the others where they are close to each other.
   StrandSampler strands(node_, next, a.track, h);
-  block.roots = in_order_of(strands(std::clamp(at / h, 0.0, 1.0)), block.roots);
+  block.roots = in_order_of(strands(std::clamp(expected.position.real() / h, 0.0, 1.0)), block.roots);
   std::optional<Track> pair = separate(problem_, *point, block, members, result_.counts);
   if (!pair) return std::nullopt;
   point->tracks = {std::move(*pair)};
   return point;
+}
+
+/// The two tracks of a point as one block at a distance from it.
+std::optional<PathNode> Tracer::joined_at(const PathNode& apart, double distance) {
+  Prediction prediction = predict(apart, distance);
+  const InvariantPair& a = prediction.pairs[0];
+  const InvariantPair& b = prediction.pairs[1];
+  InvariantPair joined = join_pairs({&a, &b}, a.is_real || b.is_real);
+  // A real one beside a pair brings the conjugate along: these do not veer.
+  if (joined.size() != a.size() + b.size()) return std::nullopt;
+  prediction.pairs = {std::move(joined)};
+  const PathPoint point = compute_point(problem_, prediction, apart.basis.T[0], result_.counts);
+  if (point.status != PointStatus::computed) return std::nullopt;
+  std::optional<PathNode> node = differentiate_point(problem_, point, result_.counts);
+  if (!node || has_jumped(apart, node->tracks.front(), distance)) return std::nullopt;
+  return node;
 }
 
 void Tracer::find_veerings(double h, const PathNode& next) {
@@ -178,8 +192,7 @@ void Tracer::find_veerings(double h, const PathNode& next) {
     }
     modes = sorted_modes(modes);
     if (modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
-    double at = 0.0;
-    if (const auto base = as_one_block(h, next, expected, at)) record_veering(*base, at, h, expected, modes);
+    if (const auto below = as_one_block(h, next, expected)) record_veering(*below, h, expected, modes);
   }
 }
 
@@ -197,23 +210,28 @@ bool Tracer::is_known_veering(Complex position, const std::vector<int>& modes) c
          std::any_of(no_veerings_.begin(), no_veerings_.end(), is_it);
 }
 
-/// A block that has jumped to other modes is not the one that began: its mean does not fit the series.
-bool Tracer::has_jumped(const Track& from, const Track& to, double distance) const {
-  const ComplexVector mean = mean_series(from.series.Lambda);
-  const Complex expected = evaluate_series(ComplexMatrix(mean.transpose()), distance)[0];
-  const Eigen::Index last = mean.size() - 1;
+/// A block that has jumped to other modes is not the one that began: its trace does not fit the series.
+bool Tracer::has_jumped(const PathNode& from, const Track& to, double distance) const {
+  const auto trace_of = [](const Track& track) -> ComplexVector {
+    return static_cast<double>(track.size()) * mean_series(track.series.Lambda);
+  };
+  ComplexVector trace = trace_of(from.tracks.front());
+  for (std::size_t i = 1; i < from.tracks.size(); ++i) trace += trace_of(from.tracks[i]);
+  const Complex expected = evaluate_series(ComplexMatrix(trace.transpose()), distance)[0];
+  const Eigen::Index last = trace.size() - 1;
   const double step = std::abs(distance);
+  if (step == 0.0) return false;
   // One of the last terms alone may happen to be small.
   const double uncertain = std::pow(step, static_cast<double>(last)) *
-                           std::max(std::abs(mean[last]), std::abs(mean[last - 1]) / step);
-  const double drift = std::abs(mean_series(to.series.Lambda)[0] - expected);
+                           std::max(std::abs(trace[last]), std::abs(trace[last - 1]) / step);
+  const double drift = std::abs(trace_of(to)[0] - expected);
   return drift > 10.0 * uncertain + 1e-6 * std::max(std::abs(expected), problem_.s_ref);
 }
 
-/// The exceptional point of two modes beside the real axis. `base` holds them as one block, a distance `at`
-/// behind the last point. A point below it and the series at both ends of the step tell a near one; a farther
-/// one is told by points around it.
-void Tracer::record_veering(const PathNode& base, double at, double h, const ExpectedMeeting& expected,
+/// The exceptional point of two modes beside the real axis. `base` holds them as one block, below the place
+/// where it is expected. This point and the series at both ends of the step tell a near one; a farther one is
+/// told by points around it.
+void Tracer::record_veering(const PathNode& base, double h, const ExpectedMeeting& expected,
                             const std::vector<int>& modes) {
   constexpr int rounds = 6;
   const double speed = std::abs(coefficient(base.path.parameters, problem_.traced, 1));
@@ -228,11 +246,12 @@ void Tracer::record_veering(const PathNode& base, double at, double h, const Exp
   PointwiseInterpolant gap;
   Complex root = expected.position;
   double position = 0.0;
+  const double at = expected.position.real();
   const auto look = [&](double where, PointwiseInterpolant& function) {
     position = where;
-    below = probe(base, where - at);
+    below = where == at ? base : probe(base, where - at);
     ++event.retrackings;
-    if (!below || has_jumped(base.tracks.front(), below->tracks.front(), where - at)) return false;
+    if (!below || has_jumped(base, below->tracks.front(), where - at)) return false;
     function.add(where, gap_there(*below));
     return true;
   };
@@ -250,12 +269,16 @@ void Tracer::record_veering(const PathNode& base, double at, double h, const Exp
     const Complex refined = secant(gap, root, width);
     const double move = std::abs(refined - root);
     if (!(std::abs(refined.imag()) < widest && move < 3.0 * widest)) return;
+    const double error = error_of_root(gap, refined, resolution);
+    // Another way to one that is recorded, or one that is too wide.
+    if (is_known_veering(refined, modes)) return;
+    if (std::abs(refined.imag()) - error > 0.5 * widest) return;
     const bool nears = move <= 0.5 * last_move;
     if (!nears && round > 1 && move > 100.0 * resolution) return;
     // Settled, or no longer getting nearer at the level of rounding.
     const bool narrow = std::abs(refined.imag()) <= 100.0 * resolution;
-    is_settled = move <= resolution || (!narrow && error_of_root(gap, refined, resolution) <= resolution) ||
-                 (!nears && move <= 100.0 * resolution);
+    is_settled =
+        move <= resolution || (!narrow && error <= resolution) || (!nears && move <= 100.0 * resolution);
     last_move = move;
     root = refined;
   }
