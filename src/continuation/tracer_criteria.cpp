@@ -96,6 +96,12 @@ class Tracer::StepCriteria {
   double value(const Criterion& criterion, std::size_t member, double t) {
     return criterion_value(criterion, root(member, t), track_.pair.chart, excitation_(t)[0].real());
   }
+  /// What rounding leaves of a value: of eigenvalues that coincide at the left end it is half their digits.
+  double noise() const {
+    if (track_.size() == 1) return 0.0;
+    const double level = 10.0 * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
+    return least_gap(track_.roots) <= level ? level : 0.0;
+  }
   /// Where the value, of the sign of `before` at t = from, changes sign.
   double sign_change(const Criterion& criterion, std::size_t member, double from, double to, double before) {
     constexpr int halvings = 30;
@@ -175,7 +181,7 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
     const double value = step.value(criterion, member.index, t);
     const double scale = criterion.asks_for_extrema() ? 1.0 : size;
     // Undamped modes stay on the axis but for rounding.
-    if (!criterion.asks_for_extrema() && std::abs(value) <= vanishing * scale) {
+    if (!criterion.asks_for_extrema() && std::abs(value) <= std::max(vanishing * scale, step.noise())) {
       watch.skip();
       continue;
     }

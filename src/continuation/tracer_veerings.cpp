@@ -273,12 +273,12 @@ void Tracer::record_veering(const PathNode& base, double h, const ExpectedMeetin
     // Another way to one that is recorded, or one that is too wide.
     if (is_known_veering(refined, modes)) return;
     if (std::abs(refined.imag()) - error > 0.5 * widest) return;
-    const bool nears = move <= 0.5 * last_move;
-    if (!nears && round > 1 && move > 100.0 * resolution) return;
     // Settled, or no longer getting nearer at the level of rounding.
     const bool narrow = std::abs(refined.imag()) <= 100.0 * resolution;
+    const bool nears = move <= 0.5 * last_move;
     is_settled =
         move <= resolution || (!narrow && error <= resolution) || (!nears && move <= 100.0 * resolution);
+    if (!is_settled && !nears && round > 1) return;
     last_move = move;
     root = refined;
   }

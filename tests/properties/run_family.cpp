@@ -38,7 +38,8 @@ void count_kinds(const HardCase& hard_case, const RecordedTrace& trace, FamilyRe
   }
   std::set<int> used(report.events.event_of.begin(), report.events.event_of.end());
   for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
-    if (used.count(static_cast<int>(i)) == 0)
+    const bool counts = trace.result.events[i].kind != EventKind::extremum;
+    if (counts && used.count(static_cast<int>(i)) == 0)
       ++report.kinds[event_name(trace.result.events[i].kind)].invented;
   }
 }
