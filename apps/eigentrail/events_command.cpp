@@ -15,6 +15,7 @@ struct EventsArguments {
   std::string file;
   bool csv = false;
   bool json = false;
+  bool sensitivity = false;
 };
 
 void print_csv(const LociFile& loci) {
@@ -35,6 +36,15 @@ void print_json(const LociFile& loci) {
                                {"modes", event.modes}};
     if (std::isfinite(event.half_width)) row["half_width"] = event.half_width;
     if (std::isfinite(event.puiseux.real())) row["puiseux"] = {event.puiseux.real(), event.puiseux.imag()};
+    if (event.direction != 0) row["direction"] = event.direction;
+    if (std::isfinite(event.value)) row["value"] = event.value;
+    for (std::size_t i = 0; i < loci.scene_parameters.size(); ++i) {
+      const auto q = static_cast<Eigen::Index>(i);
+      const Complex slope = event.sensitivity[q];
+      if (std::isfinite(slope.real()))
+        row["sensitivity"][loci.scene_parameters[i]] = {slope.real(), slope.imag()};
+      if (std::isfinite(event.shift[q])) row["shift"][loci.scene_parameters[i]] = event.shift[q];
+    }
     rows.push_back(std::move(row));
   }
   std::printf("%s\n", rows.dump(2).c_str());
@@ -48,13 +58,27 @@ void print_for_people(const LociFile& loci) {
   }
   std::vector<std::vector<std::string>> rows{{"kind", loci.parameter, "s", "modes", "remark"}};
   for (const LociEvent& event : loci.events) {
-    std::string remark;
-    if (std::isfinite(event.half_width)) remark = "half-width " + rounded(event.half_width, 6);
-    if (std::isfinite(event.puiseux.real())) {
-      remark = "Puiseux coefficient " + complex_text(event.puiseux.real(), event.puiseux.imag(), 6);
-    }
     rows.push_back({event.kind, rounded(event.parameter, 14),
-                    complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark});
+                    complex_text(event.s.real(), event.s.imag(), 10), event.modes,
+                    event_remark(event.kind, event.half_width, event.puiseux, event.direction, event.value)});
+  }
+  print_table(rows);
+}
+
+/// How every event depends on every parameter.
+void print_sensitivities(const LociFile& loci) {
+  const auto text = [](double value) { return std::isfinite(value) ? rounded(value, 8) : "-"; };
+  std::vector<std::vector<std::string>> rows{
+      {"kind", loci.parameter, "modes", "q", "ds/dq", "d" + loci.parameter + "/dq"}};
+  for (const LociEvent& event : loci.events) {
+    for (std::size_t i = 0; i < loci.scene_parameters.size(); ++i) {
+      const auto q = static_cast<Eigen::Index>(i);
+      const Complex slope = event.sensitivity[q];
+      if (!std::isfinite(slope.real()) && !std::isfinite(event.shift[q])) continue;
+      rows.push_back({event.kind, rounded(event.parameter, 14), event.modes, loci.scene_parameters[i],
+                      std::isfinite(slope.real()) ? complex_text(slope.real(), slope.imag(), 8) : "-",
+                      text(event.shift[q])});
+    }
   }
   print_table(rows);
 }
@@ -65,6 +89,8 @@ int run_events(const EventsArguments& arguments) {
     print_csv(loci);
   } else if (arguments.json) {
     print_json(loci);
+  } else if (arguments.sensitivity) {
+    print_sensitivities(loci);
   } else {
     print_for_people(loci);
   }
@@ -76,11 +102,16 @@ int run_events(const EventsArguments& arguments) {
 void add_events(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<EventsArguments>();
   CLI::App* command = program.add_subcommand(
-      "events", "special points of a trace: flutter, divergence, collisions, crossings, veerings, folds");
+      "events",
+      "special points of a trace: flutter, divergence, resonances, collisions, crossings, veerings, folds");
   command->add_option("FILE", arguments->file, "loci file")->required();
   auto* csv = command->add_flag("--csv", arguments->csv, "print kind,parameter,real,imag,modes");
-  command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
-  command->footer("Example:\n  eigentrail events blade.h5 --csv");
+  auto* json = command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
+  command->add_flag("--sensitivity", arguments->sensitivity, "print how they depend on every parameter")
+      ->excludes(csv)
+      ->excludes(json);
+  command->footer(
+      "Examples:\n  eigentrail events blade.h5 --csv\n  eigentrail events blade.h5 --sensitivity");
   command->callback([arguments, &exit_code] { exit_code = run_events(*arguments); });
 }
 

@@ -14,6 +14,10 @@ std::string rounded(double value, int digits = 6);
 /// "-0.01994 + 17.88j"
 std::string complex_text(double real, double imag, int digits = 6);
 
+/// What a special point is beside its kind and place, in a few words; arguments as in Event.
+std::string event_remark(const std::string& kind, double half_width, Complex puiseux, int direction,
+                         double value);
+
 /// Cells that describe a special point to people.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 

@@ -141,6 +141,18 @@ void read_steps(const Hdf5File& file, LociFile& loci) {
   }
 }
 
+template <class Item>
+std::vector<Item> read_event_rows(const Hdf5File& file, const std::string& name, const LociFile& loci,
+                                  std::size_t rows, std::size_t columns) {
+  require(file.shape(name) == Shape{rows, columns}, loci, name);
+  if (rows * columns == 0) return {};
+  if constexpr (std::is_same_v<Item, double>) {
+    return file.read_real(name);
+  } else {
+    return file.read_complex(name);
+  }
+}
+
 void read_events(const Hdf5File& file, LociFile& loci) {
   const std::vector<std::string> lines = file.read_texts("events");
   const std::vector<double> parameters = file.read_real("event_parameter");
@@ -151,12 +163,28 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   require(parameters.size() == count && half_widths.size() == count && eigenvalues.size() == count &&
               puiseux.size() == count,
           loci, "events");
+  loci.scene_parameters = file.read_texts("scene_parameter");
+  const std::vector<std::int64_t> directions = file.read_integers("event_direction");
+  const std::vector<double> values = file.read_real("event_value");
+  const std::size_t coordinates = file.shape("coordinate")[0];
+  const std::vector<Complex> shapes = read_event_rows<Complex>(file, "event_shape", loci, count, coordinates);
+  const std::size_t n = loci.scene_parameters.size();
+  const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
+  const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
+  require(directions.size() == count && values.size() == count, loci, "events");
+  const auto row = [](const auto& all, std::size_t i, std::size_t size) {
+    using Item = typename std::decay_t<decltype(all)>::value_type;
+    return Eigen::Matrix<Item, Eigen::Dynamic, 1>::Map(all.data() + i * size,
+                                                       static_cast<Eigen::Index>(size));
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t kind = lines[i].find(',');
     const std::size_t modes = lines[i].rfind(',');
     require(kind != std::string::npos && modes > kind, loci, "events");
     loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
-                           lines[i].substr(modes + 1), half_widths[i], puiseux[i]});
+                           lines[i].substr(modes + 1), half_widths[i], puiseux[i],
+                           static_cast<int>(directions[i]), values[i], row(shapes, i, coordinates),
+                           row(sensitivities, i, n), row(shifts, i, n)});
   }
 }
 

@@ -10,7 +10,16 @@ void write_events(Hdf5File& file, const std::vector<Event>& events) {
   std::vector<double> parameters, half_widths;
   std::vector<Complex> eigenvalues, puiseux;
   std::vector<std::int64_t> numbers, nodes;
+  std::vector<std::int64_t> directions;
+  std::vector<double> values, shifts;
+  std::vector<Complex> shapes, sensitivities;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto append = [](auto& all, const auto& row, std::size_t size) {
+    using Item = typename std::decay_t<decltype(all)>::value_type;
+    for (std::size_t i = 0; i < size; ++i)
+      all.push_back(static_cast<Eigen::Index>(i) < row.size() ? row[static_cast<Eigen::Index>(i)]
+                                                              : Item(nan));
+  };
   for (const Event& event : events) {
     numbers.push_back(static_cast<std::int64_t>(numbers.size()));
     lines.push_back(event_line(event));
@@ -19,6 +28,11 @@ void write_events(Hdf5File& file, const std::vector<Event>& events) {
     eigenvalues.push_back(event.s);
     puiseux.push_back(event.puiseux == 0.0 ? Complex(nan, nan) : event.puiseux);
     nodes.push_back(event.node);
+    directions.push_back(event.direction);
+    values.push_back(event.value);
+    append(shapes, event.shape, file.shape("coordinate")[0]);
+    append(sensitivities, event.sensitivity, file.shape("scene_parameter")[0]);
+    append(shifts, event.shift, file.shape("scene_parameter")[0]);
   }
   file.write_rows("event", 0, numbers);
   file.write_rows("events", 0, lines);
@@ -27,6 +41,11 @@ void write_events(Hdf5File& file, const std::vector<Event>& events) {
   file.write_rows("event_half_width", 0, half_widths);
   file.write_rows("event_puiseux", 0, puiseux);
   file.write_rows("event_node", 0, nodes);
+  file.write_rows("event_direction", 0, directions);
+  file.write_rows("event_value", 0, values);
+  file.write_rows("event_shape", 0, shapes);
+  file.write_rows("event_sensitivity", 0, sensitivities);
+  file.write_rows("event_shift", 0, shifts);
 }
 
 void write_summary(Hdf5File& file, const TraceResult& result) {

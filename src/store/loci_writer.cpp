@@ -24,7 +24,7 @@ namespace {
 constexpr auto flush_interval = std::chrono::seconds(1);
 constexpr std::size_t flush_nodes = 256;
 
-const std::array<std::string, 31> reserved = {"node",
+const std::array<std::string, 38> reserved = {"node",
                                               "step",
                                               "mode",
                                               "function",
@@ -54,7 +54,14 @@ const std::array<std::string, 31> reserved = {"node",
                                               "event_eigenvalue",
                                               "event_half_width",
                                               "event_puiseux",
-                                              "event_node"};
+                                              "event_node",
+                                              "event_direction",
+                                              "event_value",
+                                              "event_shape",
+                                              "event_sensitivity",
+                                              "event_shift",
+                                              "scene_parameter",
+                                              "scene_parameter_unit"};
 
 std::vector<std::int64_t> count_from(std::uint64_t first, std::size_t n) {
   std::vector<std::int64_t> list(n);
@@ -151,6 +158,12 @@ struct LociWriter::Implementation {
     if (has_constraints)
       create_dimension("constraint", ElementType::text, description.constraint_names, "constraint");
     create_dimension("event", ElementType::integer, count_from(0, 0), "special point of the trace", true);
+    create_dimension("scene_parameter", ElementType::text, description.parameters.names(),
+                     "parameter of the scene");
+    std::vector<std::string> units;
+    for (std::size_t i = 0; i < description.parameters.size(); ++i)
+      units.push_back(label_unit(description.parameters[i].unit));
+    write_dataset(file, {"scene_parameter_unit", "1", "unit of the parameter"}, {"scene_parameter"}, units);
   }
 
   void create_datasets(const Model& model, const TraceOptions& options) {
@@ -213,6 +226,18 @@ struct LociWriter::Implementation {
         "collision of m eigenvalues: s = s* + puiseux (" + parameter + " - " + parameter + "*)^(1/m)");
     create_growing("event_node", ElementType::integer, {"event"}, "1",
                    "first path point at or behind the event");
+    create_growing("event_direction", ElementType::integer, {"event"}, "1",
+                   "1: less stable with growing " + parameter +
+                       ", resonance: the frequency outgrows the excitation, extremum: least damping; -1: the "
+                       "reverse; 0: none");
+    create_growing("event_value", ElementType::real, {"event"}, "1",
+                   "damping ratio of a damping_ratio or an extremum, harmonic of a resonance");
+    create_growing("event_shape", ElementType::complex, {"event", "coordinate"}, "1",
+                   "mode shape in physical coordinates, unit M-norm");
+    create_growing("event_sensitivity", ElementType::complex, {"event", "scene_parameter"},
+                   "1/s per scene_parameter_unit", "ds/dq for every parameter q of the scene");
+    create_growing("event_shift", ElementType::real, {"event", "scene_parameter"},
+                   unit + " per scene_parameter_unit", "d" + parameter + "/dq: how the event moves");
   }
 
   /// Makes room for more modes or functions; what is in the file stays, with NaN in the new places.

@@ -19,13 +19,19 @@ struct LociEvent {
   std::string modes;        ///< numbers from 1, separated by ';'
   double half_width = 0.0;  ///< veering; NaN otherwise
   Complex puiseux;          ///< collision of two; NaN otherwise
+  int direction = 0;        ///< as in Event, and the following
+  double value = 0.0;
+  ComplexVector shape;        ///< per coordinate
+  ComplexVector sensitivity;  ///< per parameter of the scene, NaN where not defined
+  Vector shift;
 };
 
 /// Contents of a loci file that `eval`, `events` and `info` need; read once, plain data.
 struct LociFile : RecordedPath {
   std::string path;
-  std::string parameter;       ///< name of the traced parameter
-  std::string parameter_unit;  ///< "1" when it has none
+  std::string parameter;                      ///< name of the traced parameter
+  std::vector<std::string> scene_parameters;  ///< names of all
+  std::string parameter_unit;                 ///< "1" when it has none
   std::vector<std::string> modes;
   std::vector<std::string> coordinates, constraints;
   std::vector<LociEvent> events;
