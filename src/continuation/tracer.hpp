@@ -98,7 +98,7 @@ class Tracer {
   bool land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next);
   enum class Approach { reached, nothing, failed };
   Approach approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
-                            StrandSampler& strands, double& distance, int& retrackings);
+                            StrandSampler& strands, bool trusting, double& distance, int& retrackings);
   void record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
                  std::vector<bool>& coincide);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
