@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/normalization.hpp"
 
 namespace eigentrail {
 namespace {
@@ -34,6 +35,7 @@ void read_mode(const Situation& situation, CurvePoint& point) {
     point.s = solver.eigenvalues()[upper];
     z = pair.Z * solver.eigenvectors().col(upper);
   }
+  z = normalize_shape(z, situation.pencil.M[0], {});
   const TangentBasis& basis = situation.point.basis;
   point.shape = basis.is_identity ? z : ComplexVector(basis.T[0].cast<Complex>() * z);
 }

@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from program import BLADE, FAMILY, ProgramTest, edited
+from program import BLADE, FAMILY, ProgramTest, each_case, edited
 
 PLACE = "§"
 
@@ -275,17 +275,6 @@ USAGE = [
          ("a text", "scene.toml", ["cannot be read as a loci file"]),
          ("half a loci file", "half.h5", ["cannot be read as a loci file"]),
          ("an HDF5 file without loci", "other.h5", ["no loci file of eigentrail"])]]
-
-
-def each_case(cases):
-    """Gives a class one test per case, so that each is reported by its name."""
-    def add(test_class):
-        for name, *details in cases:
-            method = "test_" + re.sub(r"\W+", "_", name)
-            assert not hasattr(test_class, method), method
-            setattr(test_class, method, lambda self, details=details: self.check(*details))
-        return test_class
-    return add
 
 
 @each_case(UNKNOWN_NAMES + WRONG_TYPES + MISSING_KEYS + EXPRESSIONS + VALUES + MODELS + MATRIX_FILES)

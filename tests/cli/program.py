@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -85,11 +86,54 @@ M = [[[1, 0], [0, 1]]]
 K = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]
 """
 
+# A pendulum pushed sideways by p times its weight, sin(angle) = p: hanging up to p = 1, standing on the way back.
+PUSHED_PENDULUM = """
+[parameters]
+g = 9.81
+p = 0.0
+[trace]
+parameter = "p"
+from = 0
+to = 1.2
+tolerance = 1e-2
+[gravity]
+acceleration = [0, 0, "-g"]
+[[point]]
+name = "bob"
+mass = 1.0
+position = [0, 0, -1]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.0
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p*g"
+angle = "-pi/2"
+axis = [0, 1, 0]
+"""
+
 
 def edited(scene, old, new):
     """The scene with its one occurrence of `old` replaced."""
     assert scene.count(old) == 1, f"{old!r} occurs {scene.count(old)} times"
     return scene.replace(old, new)
+
+
+def each_case(cases):
+    """Gives a class one test per case, so that each is reported by its name."""
+    def add(test_class):
+        for name, *details in cases:
+            method = "test_" + re.sub(r"\W+", "_", name)
+            assert not hasattr(test_class, method), method
+            setattr(test_class, method, lambda self, details=details: self.check(*details))
+        return test_class
+    return add
 
 
 class ProgramTest(unittest.TestCase):

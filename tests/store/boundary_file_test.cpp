@@ -127,11 +127,5 @@ TEST_F(BoundaryFileTest, ParametersNamedLikeADatasetAreRefused) {
   }
 }
 
-TEST_F(BoundaryFileTest, PlacesWhereNoFileCanBeCreatedAreToldBeforeTheWork) {
-  check_can_create(path);
-  EXPECT_TRUE(contents().empty());
-  EXPECT_THROW(check_can_create(folder + "/missing/x.h5"), InputError);
-}
-
 }  // namespace
 }  // namespace eigentrail::test

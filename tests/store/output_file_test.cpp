@@ -1,0 +1,83 @@
+// Files that commands write: which may be replaced, and that they appear complete or not at all.
+#include "eigentrail/store/output_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/core/errors.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+class OutputFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::path(testing::TempDir()) / ("eigentrail_output_" + std::string(test->name()));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    path = folder / "out.h5";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::size_t files() const {
+    const std::filesystem::directory_iterator all(folder);
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
+  static void write_text(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+  std::string text() const {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  std::filesystem::path folder;
+  std::string path;
+};
+
+TEST_F(OutputFileTest, MayBeReplacedByItsOwnFormatOnly) {
+  EXPECT_FALSE(may_be_replaced(path, "mine"));
+  Hdf5File::create(path).set_attribute("format", std::string("mine"));
+  EXPECT_TRUE(may_be_replaced(path, "mine"));
+  EXPECT_FALSE(may_be_replaced(path, "yours"));
+}
+
+TEST_F(OutputFileTest, TryingToCreateLeavesNothingBehindAndTouchesNothing) {
+  check_can_create(path);
+  EXPECT_EQ(files(), 0u);
+  write_text(path, "old");
+  check_can_create(path);
+  EXPECT_EQ(files(), 1u);
+  EXPECT_EQ(text(), "old");
+  EXPECT_THROW(check_can_create(folder / "none" / "out.h5"), InputError);
+  EXPECT_THROW(check_can_create(folder / std::string(300, 'x')), InputError);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, WritingReplacesWhenItIsComplete) {
+  write_text(path, "old");
+  write_complete(path, [this](const std::string& partial) {
+    write_text(partial, "new");
+    EXPECT_EQ(text(), "old");
+  });
+  EXPECT_EQ(text(), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, FailedWritingKeepsTheOldFile) {
+  write_text(path, "old");
+  const auto fail = [](const std::string& partial) {
+    write_text(partial, "half");
+    throw Hdf5Error("no space left");
+  };
+  EXPECT_THROW(write_complete(path, fail), Hdf5Error);
+  EXPECT_THROW(write_complete(path, [](const std::string&) {}), std::filesystem::filesystem_error);
+  EXPECT_EQ(text(), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
