@@ -217,15 +217,19 @@ std::vector<std::string> told(const std::map<std::string, std::vector<std::strin
 }
 
 void BoundarySearch::finish() {
+  FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
+  result_.corners = std::move(found.corners);
+  for (const Place& place : found.apart)
+    note({"crossings of curves that belong to different equilibria, which are no corners",
+          window_.text(place)});
   result_.notes = told(findings_);
-  result_.corners = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
   for (const FollowedCurve& followed : curves_) {
     BoundaryCurve curve;
     curve.kind = followed.function.kind;
     for (const CurvePoint& point : followed.points) {
       if ((point.flags & seed_flag) != 0) curve.mode = "mode " + std::to_string(point.number);
       curve.points.push_back({window_.declared(point.place), window_.declared_direction(point.tangent),
-                              point.s, point.others, point.shape, point.flags});
+                              point.s, point.others, point.shape, point.path.x.col(0), point.flags});
     }
     for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));
     curve.begin = followed.begin;

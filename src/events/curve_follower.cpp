@@ -18,6 +18,8 @@ constexpr double bent_too_much = 30.0;  ///< a step whose ends look away from it
 constexpr int samples_per_step = 16;
 /// Of |s|: at the shortest step from an exceptional point two eigenvalues are closer than this.
 constexpr double coalescing = 1e-3;
+/// Steps shrink with the distance from a fold; below this they only fight the rounding that grows there.
+constexpr double shortest_beside_fold = 1e-6;
 constexpr double near_fold = 1e-3;  ///< reciprocal condition of the equilibrium's stiffness
 
 /// Whether a step's dense curve passes a place with this eigenvalue.
@@ -108,6 +110,10 @@ class Arm {
     return false;
   }
   const CurvePoint& last() const { return points.back(); }
+  bool folds() const { return last().solves_equilibrium && last().equilibrium_condition < near_fold; }
+  bool stop_at_fold() {
+    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + window_.text(last().place));
+  }
   std::optional<ChordStep> step_to(const CurvePoint& next) const {
     return sign_ > 0.0 ? make_chord_step(last(), next) : make_chord_step(next, last());
   }
@@ -129,8 +135,7 @@ bool Arm::reject(StepControl& control, double h, double error, const std::string
   if (!control.exhausted()) return true;
   if (snap_to_edge()) return stop(CurveEnd::edge);
   const std::string where = window_.text(last().place);
-  if (last().solves_equilibrium && last().equilibrium_condition < near_fold)
-    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + where);
+  if (folds()) return stop_at_fold();
   if (status == PointStatus::no_equilibrium)
     return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
   if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
@@ -160,6 +165,7 @@ bool Arm::advance(StepControl& control) {
   control.accept(h, error);
   points.push_back(std::move(*next));
   steps.push_back(*step);
+  if (folds() && h < shortest_beside_fold) return stop_at_fold();
   on_point_();
   if (static_cast<int>(points.size()) < options_.max_points) return true;
   return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");

@@ -13,7 +13,7 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 33> reserved = {"point",
+const std::array<std::string, 34> reserved = {"point",
                                               "step",
                                               "curve",
                                               "corner",
@@ -28,6 +28,7 @@ const std::array<std::string, 33> reserved = {"point",
                                               "tangent",
                                               "other_unstable",
                                               "mode_shape",
+                                              "equilibrium",
                                               "flags",
                                               "point_curve",
                                               "step_point",
@@ -153,7 +154,7 @@ void BoundaryFile::write_dimensions() {
 }
 
 void BoundaryFile::write_points() {
-  std::vector<double> P, Q, tangent;
+  std::vector<double> P, Q, tangent, equilibrium;
   std::vector<Complex> eigenvalue, shape;
   std::vector<std::int64_t> curve_number, others, flags;
   for (std::size_t i = 0; i < result_.curves.size(); ++i) {
@@ -163,6 +164,7 @@ void BoundaryFile::write_points() {
       tangent.insert(tangent.end(), point.tangent.begin(), point.tangent.end());
       eigenvalue.push_back(point.s);
       shape.insert(shape.end(), point.shape.begin(), point.shape.end());
+      equilibrium.insert(equilibrium.end(), point.equilibrium.begin(), point.equilibrium.end());
       curve_number.push_back(static_cast<std::int64_t>(i));
       others.push_back(point.others);
       flags.push_back(point.flags);
@@ -181,6 +183,8 @@ void BoundaryFile::write_points() {
   dataset({"mode_shape", "1",
            "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
           {"point", "coordinate"}, shape);
+  dataset({"equilibrium", setup_.model->description().coordinate_units[0], "steady equilibrium x0"},
+          {"point", "coordinate"}, equilibrium);
   dataset({"flags", "1", "what is special about the point"}, {"point"}, flags,
           {{"flag_meanings", "seed:1 edge:2 takens_bogdanov:4"}});
 }

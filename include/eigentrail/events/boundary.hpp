@@ -50,6 +50,7 @@ struct BoundaryPoint {
   Complex s;       ///< Im s >= 0
   int others = 0;  ///< modes beside this one that are unstable (less damped); a complex pair counts once
   ComplexVector shape;  ///< n, physical coordinates, unit M-norm, its largest component real and positive
+  Vector equilibrium;   ///< n, coordinates
   int flags = 0;        ///< of PointFlag
 };
 
