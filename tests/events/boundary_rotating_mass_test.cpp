@@ -1,9 +1,8 @@
 // The blade of data/scenes/rotating_mass.toml against an independent scan.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
@@ -32,9 +31,31 @@ double spectral_abscissa(const Model& model, double omega, double a_n) {
   return largest;
 }
 
+BoundarySetup prepare_blade(const BoundaryRequest& request) {
+  return prepare_boundary(read_scene(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml"),
+                          request);
+}
+
+/// Below 10 rad/s the blade has several equilibria; the curves of one cross those of another in the plane.
+TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
+  BoundaryRequest request;
+  request.second = "drag";
+  request.from = 0.5;
+  request.to = 320.0;
+  request.first_from = 5.0;
+  request.first_to = 16.0;
+  const BoundarySetup setup = prepare_blade(request);
+  const BoundaryResult result = find_boundaries(*setup.model, setup.options);
+  EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
+  EXPECT_GE(result.curves.size(), 2U);
+  EXPECT_TRUE(result.corners.empty());
+  const auto told = [](const std::string& note) {
+    return note.starts_with("crossings of curves that belong");
+  };
+  EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), told));
+}
+
 TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
-  std::ifstream file(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   BoundaryRequest request;
   request.second = "a_n";
   request.from = 200.0;
@@ -42,7 +63,7 @@ TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
   request.first_from = 5.0;
   request.first_to = 40.0;
   request.tolerance = 1e-10;
-  const BoundarySetup setup = prepare_boundary(parse_scene(text, "rotating_mass.toml"), request);
+  const BoundarySetup setup = prepare_blade(request);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
   const auto flutter = curves_of_kind(result, BoundaryKind::flutter);
   ASSERT_EQ(flutter.size(), 1U);
