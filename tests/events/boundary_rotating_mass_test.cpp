@@ -31,20 +31,22 @@ double spectral_abscissa(const Model& model, double omega, double a_n) {
   return largest;
 }
 
-BoundarySetup prepare_blade(const BoundaryRequest& request) {
+/// omega and another parameter over the given ranges.
+BoundarySetup prepare_blade(const std::string& second, Place low, Place high, double tolerance) {
+  BoundaryRequest request;
+  request.second = second;
+  request.first_from = low[0];
+  request.first_to = high[0];
+  request.from = low[1];
+  request.to = high[1];
+  request.tolerance = tolerance;
   return prepare_boundary(read_scene(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml"),
                           request);
 }
 
 /// Below 10 rad/s the blade has several equilibria; the curves of one cross those of another in the plane.
 TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
-  BoundaryRequest request;
-  request.second = "drag";
-  request.from = 0.5;
-  request.to = 320.0;
-  request.first_from = 5.0;
-  request.first_to = 16.0;
-  const BoundarySetup setup = prepare_blade(request);
+  const BoundarySetup setup = prepare_blade("drag", {5.0, 0.5}, {16.0, 320.0}, 1e-8);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
   EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
   EXPECT_GE(result.curves.size(), 2U);
@@ -56,14 +58,7 @@ TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
 }
 
 TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
-  BoundaryRequest request;
-  request.second = "a_n";
-  request.from = 200.0;
-  request.to = 3000.0;
-  request.first_from = 5.0;
-  request.first_to = 40.0;
-  request.tolerance = 1e-10;
-  const BoundarySetup setup = prepare_blade(request);
+  const BoundarySetup setup = prepare_blade("a_n", {5.0, 200.0}, {40.0, 3000.0}, 1e-10);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
   const auto flutter = curves_of_kind(result, BoundaryKind::flutter);
   ASSERT_EQ(flutter.size(), 1U);
