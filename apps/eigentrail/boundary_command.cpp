@@ -107,7 +107,7 @@ int run_boundary(const BoundaryArguments& arguments) {
   if (result.status == BoundaryStatus::no_equilibrium)
     throw InputError(
         setup.scene.path +
-        ": no equilibrium on any line of the window; choose another range, or another starting position; " +
+        ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
   write_boundaries(arguments.output, setup, result);
   if (!arguments.quiet) {

@@ -59,7 +59,6 @@ class BoundarySearch {
   std::map<std::string, std::vector<std::string>> findings_;  ///< where each holds
   int points_ = 0;
   double share_ = 0.0;  ///< of the work done
-  double step_share_ = 0.0;
 };
 
 /// The edges first, then the inner lines.

@@ -122,7 +122,7 @@ LineScan Scanner::run() {
   const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
   const int other = 1 - line_.along;
   scan_.findings.push_back(
-      {scan_.started ? "lines not searched from end to end" : "lines without an equilibrium",
+      {scan_.started ? "lines not searched from end to end" : "lines that could not be begun",
        window_.name(other) + " = " + window_.value_text(other, line_.held) + ": " + reason});
   return std::move(scan_);
 }

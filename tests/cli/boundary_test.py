@@ -176,7 +176,7 @@ class Curves(BoundaryTest):
         text = self.run_well("boundary", "scene.toml", "--second", "drag", "--from", -1, "--to", 1, "--first-to", 1.3,
                              "-o", "x.h5")
         self.assertIn("folds of the equilibrium, which are not followed: 7, first p = 1, drag = -1", text)
-        self.assertIn("lines without an equilibrium: 2, first p = 1.3: no equilibrium found", text)
+        self.assertIn("lines that could not be begun: 2, first p = 1.3: no equilibrium found", text)
         with h5py.File(self.folder / "x.h5") as file:
             self.assertIn("folds of the equilibrium", file.attrs["notes"])
             self.assertTrue(any(end.startswith(b"equilibrium_ends: the equilibrium folds near p = ")
@@ -278,7 +278,7 @@ class Refusals(BoundaryTest):
                     second="curve", scene=BLADE.replace("drag ", "curve ").replace('"drag"', '"curve"'))
 
     def test_a_window_without_equilibrium(self):
-        self.refuse(["scene.toml: no equilibrium on any line of the window; choose another range"], second="drag",
+        self.refuse(["scene.toml: no line of the window could be begun; choose another range"], second="drag",
                     scene=NO_EQUILIBRIUM, options=["-q"])
 
     def test_existing_files_are_not_written_over(self):
@@ -304,7 +304,7 @@ class Refusals(BoundaryTest):
         self.square(ISLAND)
         (self.folder / "boundary.h5").rename(self.folder / "x.h5")
         self.refuse(["the window is empty"], high=1, options=["--force"])
-        self.refuse(["no equilibrium on any line"], scene=NO_EQUILIBRIUM,
+        self.refuse(["no line of the window could be begun", "no equilibrium found"], scene=NO_EQUILIBRIUM,
                     options=["--force", "-q"])
 
 
