@@ -8,6 +8,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
+#include "ranges.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -56,6 +57,15 @@ void print_uncertified(const LociFile& loci) {
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
 }
 
+/// Of which modes the stable ranges speak, when not of all.
+std::string followed_modes(const LociFile& loci) {
+  const std::string wanted = attribute(loci, "option_modes");
+  const std::string available = attribute(loci, "count_modes_available");
+  const bool some =
+      wanted != "all" && wanted != "?" && available != "?" && std::stol(wanted) < std::stol(available);
+  return some ? wanted + " of " + available + " modes followed" : "";
+}
+
 void print_for_people(const LociFile& loci) {
   if (const std::string title = attribute(loci, "title"); !title.empty())
     std::printf("%s\n", printable(title).c_str());
@@ -88,6 +98,7 @@ void print_for_people(const LociFile& loci) {
   }
   print_table(rows);
   print_uncertified(loci);
+  if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
   if (!loci.events.empty())
     std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());
   if (const std::string notes = attribute(loci, "notes"); notes != "?" && !notes.empty())
@@ -119,6 +130,7 @@ void print_json(const LociFile& loci) {
   }
   info["certified_share"] = certified;
   info["events"] = loci.events.size();
+  if (loci.ranges) info["stable_ranges"] = ranges_json(*loci.ranges);
   info["attributes"] = loci.attributes;
   std::printf("%s\n", info.dump(2).c_str());
 }

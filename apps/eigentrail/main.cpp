@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_eval(program, exit_code);
   add_events(program, exit_code);
   add_boundary(program, exit_code);
+  add_map(program, exit_code);
   add_info(program, exit_code);
   add_explain(program, exit_code);
   add_verify(program, exit_code);

@@ -11,6 +11,7 @@
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
+#include "ranges.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -111,8 +112,14 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
   std::printf("  evaluations  %s\n", line.c_str());
 }
 
+/// Of which modes the stable ranges speak, when not of all.
+std::string followed_modes(const TraceResult& result) {
+  if (result.n_modes == result.n_available) return "";
+  return std::to_string(result.n_modes) + " of " + std::to_string(result.n_available) + " modes followed";
+}
+
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
-                   const TraceResult& result, const Ends& ends) {
+                   const TraceResult& result, const Ends& ends, const std::vector<StableRange>& ranges) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   std::printf("  %s  %s -> %s%s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
@@ -136,6 +143,7 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   }
   print_table(rows);
   print_findings(options, result);
+  print_ranges(ranges, options.parameter, followed_modes(result));
   print_work(result);
   print_effects(model, result.counts.evaluations);
 }
@@ -152,6 +160,7 @@ int run_trace(const TraceArguments& arguments) {
   std::optional<LociWriter> writer;
   std::optional<TraceStart> started;
   ProgressBar progress(arguments.quiet);
+  PathRecorder recorder;
   Ends ends;
   int points = 0;
   TraceObserver observer;
@@ -167,17 +176,20 @@ int run_trace(const TraceArguments& arguments) {
       ends.first = values();
     }
     writer->append(point);
+    recorder.append(point);
     ends.last = values();
     progress.update((point.node.p - options.from) / (options.to - options.from), ++points);
     return true;
   };
   const TraceResult result = trace(model, options, observer);
   if (!has_started(result.status)) throw InputError(scene.path + ": " + result.message);
-  writer->finish(result);
+  const std::vector<StableRange> ranges =
+      stable_ranges(recorder.path(), result.events, {options.tolerance, result.s_ref});
+  writer->finish(result, ranges);
   progress.finish();
 
   if (!arguments.quiet) {
-    print_summary(scene, model, options, result, ends);
+    print_summary(scene, model, options, result, ends, ranges);
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   if (result.status == TraceStatus::completed) return done;

@@ -11,6 +11,9 @@
 
 namespace eigentrail {
 
+constexpr double good_bridge = 2e-13;  ///< relative error at which a bridge is as good as solved points
+constexpr double fair_bridge = 1e-10;  ///< the worst that is used where no better one is found
+
 class Bridge {
  public:
   /// `left` and `right`: the path at two values of its coordinate, which is the traced parameter itself or

@@ -94,6 +94,20 @@ double HermiteInterpolant::term(Eigen::Index function, Eigen::Index k) const {
   return size * std::pow(0.25, static_cast<double>(k));  // the largest |t (t - 1)|^k
 }
 
+double HermiteInterpolant::last_share(Eigen::Index function, Complex t) const {
+  const bool left = t.real() <= 0.5;
+  const Terms& terms = left ? from_left_ : from_right_;
+  const Complex u = left ? t : 1.0 - t;
+  double power = 1.0;
+  double last = 0.0;
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < terms.value.cols(); ++k, power *= std::abs(u * (u - 1.0))) {
+    last = power * std::abs(terms.value(function, k) + terms.slope(function, k) * u);
+    largest = std::max(largest, last);
+  }
+  return largest > 0.0 ? last / largest : 0.0;
+}
+
 Vector HermiteInterpolant::error_without_last() const {
   const Eigen::Index q = from_left_.value.cols() - 1;
   Vector error(from_left_.value.rows());

@@ -20,6 +20,12 @@ std::string event_name(EventKind kind) {
       return "fold";
     case EventKind::pitchfork:
       return "pitchfork";
+    case EventKind::damping_ratio:
+      return "damping_ratio";
+    case EventKind::resonance:
+      return "resonance";
+    case EventKind::extremum:
+      return "extremum";
   }
   return "unknown";
 }

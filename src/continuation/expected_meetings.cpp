@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "continuation/meetings.hpp"
+#include "continuation/shared_basis.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -108,6 +109,14 @@ bool have_just_met(const Track& track, const std::vector<int>& a, const std::vec
   return met(a.front()) && met(b.front());
 }
 
+/// Adds a position unless one is there already, up to a share of it: two roots beside the axis are one place.
+void add_position(double position, std::vector<double>& found, double share = 1e-3) {
+  const auto is_there = [&](double other) {
+    return std::abs(other - position) <= share * std::abs(position);
+  };
+  if (std::none_of(found.begin(), found.end(), is_there)) found.push_back(position);
+}
+
 /// The series at the left end tells roots close to it that an interpolant over the whole step blurs.
 void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                        double length, std::vector<double>& found) {
@@ -120,11 +129,18 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   for (const Complex root : polynomial_roots(gap)) {
     const Complex t = root / length;
     if (t.real() < apart || t.real() > close || std::abs(t.imag()) > on_axis * t.real()) continue;
-    const auto is_known = [&](double position) {
-      return std::abs(position - root.real()) <= known * std::abs(root.real());
-    };
-    if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(root.real());
+    add_position(root.real(), found, known);
   }
+}
+
+/// How far the dense output of a block of two may misplace a root of its gap.
+double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
+                     double position) {
+  if (left.tracks[track].size() != 2) return INFINITY;
+  const DenseBlock block = block_on_step(left, right, track);
+  const HermiteInterpolant gap(length, block.left.row(1), block.right.row(1));
+  const double slope = std::abs(gap.slope(position / length)[0] / length);
+  return gap.error_without_last()[0] / slope;
 }
 
 }  // namespace
@@ -147,10 +163,13 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first && std::abs(t.imag()) <= looked_into)
-            found.push_back(std::min(t.real(), 1.0) * length);
+            add_position(std::min(t.real(), 1.0) * length, found);
         }
         add_near_left_end(track, strands[a].members, strands[b].members, length, found);
-        for (const double position : found) meetings.push_back({strands[b], strands[a], position});
+        for (const double position : found) {
+          meetings.push_back({strands[b], strands[a], position});
+          meetings.back().doubt = doubt_of_root(left, right, i, length, position);
+        }
       }
     }
   }
@@ -178,6 +197,9 @@ ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
   return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
 }
 
+/// Roots of an interpolant where its last term is a larger share than this are its own, not the function's.
+constexpr double told_by_series = 0.05;
+
 /// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
@@ -195,6 +217,7 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   const int degree = 2 * static_cast<int>(left.size()) - 1;
   std::vector<Complex> roots =
       chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
+  std::erase_if(roots, [&](Complex t) { return gap.last_share(0, t) > told_by_series; });
   for (Complex& root : roots) root *= length;
   return roots;
 }
@@ -206,13 +229,22 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
   constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
   constexpr double on_axis = 1e-3;
   std::vector<ExpectedMeeting> meetings;
-  const auto expect = [&](const Strand& a, const Strand& b, Complex position) {
+  const auto expect = [&](const Strand& a, const Strand& b, Complex position,
+                          const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
     const double t = position.real() / length;
     const double off_axis = std::abs(position.imag());
     // Nearer ones within a block have a point of their own.
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
-    if (t > -off_the_ends && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
-      meetings.push_back({a, b, position});
+    // Beside a short step far ones are told poorly: the next, longer steps look back.
+    const double behind = std::max(off_the_ends, 0.2 * off_axis / std::abs(length));
+    const auto mirrors = [&](const ExpectedMeeting& other) {
+      return other.a.track == a.track && other.b.track == b.track && other.a.members == a.members &&
+             other.b.members == b.members &&
+             std::abs(other.position - std::conj(position)) <= 1e-6 * off_axis;
+    };
+    if (std::any_of(meetings.begin(), meetings.end(), mirrors)) return;
+    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
+      meetings.push_back({a, b, position, at_left, at_right});
   };
   std::vector<Strand> strands;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
@@ -243,7 +275,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       const ComplexVector at_left = gap_at(left, strands[b], strands[a]);
       const ComplexVector at_right = gap_at(right, strands[b], strands[a]);
       for (const Complex root : gap_roots(at_left, at_right, length, width))
-        expect(strands[b], strands[a], root);
+        expect(strands[b], strands[a], root, at_left, at_right);
     }
   }
   return meetings;

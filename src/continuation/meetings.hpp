@@ -6,6 +6,7 @@
 //     root a + ib beside the axis       veering of half-width |b|
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "continuation/strands.hpp"
@@ -17,6 +18,8 @@ namespace eigentrail {
 struct ExpectedMeeting {
   Strand a, b;
   Complex position;
+  ComplexVector gap_at_left = {}, gap_at_right = {};  ///< series, where they were told
+  double doubt = INFINITY;  ///< how far the position may be off; infinite: not known
 };
 
 /// Meetings on or close to the real axis of two eigenvalues that are followed in one block, in the order in

@@ -66,8 +66,15 @@ EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
                                    counts.evaluations);
 }
 
-/// Basis and pencil at an equilibrium.
-void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point) {
+/// Basis and pencil at the point's equilibrium, if there is one.
+void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
+                  RunCounts& counts) {
+  if (point.equilibrium.status != SteadyStatus::converged) {
+    point.status = PointStatus::no_equilibrium;
+    point.message = point.equilibrium.report.message;
+    return;
+  }
+  const StageTimer timer(counts.reduction_seconds);
   point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
   if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
   point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
@@ -112,13 +119,7 @@ PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess
   point.plane = plane;
   point.equilibrium = equilibrium_at(problem, p, guess, plane, counts);
   point.p = p;
-  if (point.equilibrium.status != SteadyStatus::converged) {
-    point.status = PointStatus::no_equilibrium;
-    point.message = point.equilibrium.report.message;
-    return point;
-  }
-  const StageTimer timer(counts.reduction_seconds);
-  reduce_point(problem, previous_basis, point);
+  reduce_point(problem, previous_basis, point, counts);
   return point;
 }
 
@@ -130,13 +131,7 @@ PathPoint reduce_on(const PathProblem& problem, const Path& known, const Matrix&
   point.p = known.parameters(problem.traced, 0);
   point.equilibrium = keep_equilibrium(problem.model, known.parameters.col(0), known.x.col(0),
                                        known.lambda.col(0), counts.evaluations);
-  if (point.equilibrium.status != SteadyStatus::converged) {
-    point.status = PointStatus::no_equilibrium;
-    point.message = point.equilibrium.report.message;
-    return point;
-  }
-  const StageTimer timer(counts.reduction_seconds);
-  reduce_point(problem, previous_basis, point);
+  reduce_point(problem, previous_basis, point, counts);
   return point;
 }
 

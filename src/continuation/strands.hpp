@@ -23,9 +23,6 @@ class StrandSampler {
 
   const ComplexVector& operator()(double t);
 
-  double first() const { return known_.begin()->first; }
-  const DenseBlock& block() const { return block_; }
-
  private:
   DenseBlock block_;
   double length_;

@@ -171,12 +171,12 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
 }
 
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used) {
-  read_event_options(scene);
   const Table merged = merged_table(scene, overrides);
   TableReader table(scene, merged, "[trace]", used);
   TraceOptions options;
   OptionReader reader(scene, table);
   TraceOptions::fields(options, reader);
+  options.events = read_event_options(scene, options.parameter, used);
   for (const char* key : {"from", "to"}) {
     if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
   }

@@ -25,6 +25,7 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
     problem_.parameters[model.description().parameters.index(name).value()] = value;
   problem_.order = options.order;
   problem_.basis = basis;
+  criteria_ = criteria_of(options.events);
   result_.counts.evaluations = model.new_counts();
   direction_ = options.to > options.from ? 1.0 : -1.0;
   uncertified_below_ = uncertified_step * range();

@@ -1,11 +1,13 @@
 // The state of a trace and its stages. The public function trace() builds one and returns its result.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "continuation/bridge.hpp"
+#include "continuation/criterion.hpp"
 #include "continuation/meetings.hpp"
 #include "continuation/regrouping.hpp"
 #include "continuation/reparametrize.hpp"
@@ -92,9 +94,11 @@ class Tracer {
   /// Shortens the step so that it ends on the first meeting inside it.
   bool land_on_meeting(double& h, std::optional<PathNode>& next);
   void record_meetings_at_start();
+  std::optional<Meeting> meeting_at(double h, const ExpectedMeeting& expected, const PathNode& node) const;
+  bool land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next);
   enum class Approach { reached, nothing, failed };
-  Approach approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
-                            double& distance, int& retrackings);
+  Approach approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
+                            StrandSampler& strands, double& distance, int& retrackings);
   void record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
                  std::vector<bool>& coincide);
   void record_meeting(const PathNode& node, std::size_t track, const Meeting& meeting, int retrackings);
@@ -102,18 +106,79 @@ class Tracer {
   // tracer_veerings.cpp: exceptional points beside the real axis.
   void find_veerings(double h, const PathNode& next);
   bool is_known_veering(Complex position, const std::vector<int>& modes) const;
-  std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                       Complex& root);
-  void record_veering(const PathNode& base, std::size_t count, Complex root, const std::vector<int>& modes);
-  bool has_jumped(const Track& from, const Track& to, double distance) const;
+  std::optional<PathNode> as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected);
+  std::optional<PathNode> joined_at(const PathNode& apart, double distance);
+  void record_veering(const PathNode& base, double h, const ExpectedMeeting& expected,
+                      const std::vector<int>& modes);
+  bool has_jumped(const PathNode& from, const Track& to, double distance) const;
   double veering_width() const;
 
-  // tracer_axis.cpp: flutter and divergence.
-  void find_axis_crossings(double h, const PathNode& next);
-  void locate_axis_crossing(double h, const PathNode& next, std::size_t track, std::size_t member, double t,
-                            bool pair);
-  void record_axis_crossing(const PathNode& point, double offset, Complex s, std::size_t track,
-                            std::size_t member, bool pair, int retrackings);
+  // tracer_criteria.cpp: zeros and extrema of functions of single eigenvalues, flutter among them.
+  /// The last values of a criterion for a mode.
+  class Watch {
+   public:
+    enum class Seen { nothing, zero, extremum };
+    /// What lies between the last value and this one, or (an extremum) about at the last one.
+    Seen next(double value);
+    /// A value that is not told from zero.
+    void skip() { skipped_ = known_; }
+    bool is_known() const { return known_; }
+    double value() const { return value_; }
+    bool is_pair() const { return is_pair_; }
+    void is_pair(bool value) { is_pair_ = value; }
+    double bend() const { return bend_; }  ///< second difference at the extremum
+    double top() const { return top_; }    ///< value at the extremum, about
+
+   private:
+    bool known_ = false, skipped_ = false, is_pair_ = false;
+    double value_ = 0.0, change_ = 0.0, bend_ = 0.0, top_ = 0.0;
+  };
+  class StepCriteria;
+  struct Member {
+    std::size_t track, index;
+  };
+  enum class Sought { zero, extremum, dip };
+  struct Aim {
+    Criterion criterion;
+    bool pair = false;
+    Sought sought = Sought::zero;
+  };
+  /// A mode at a point beside an event.
+  struct Closer {
+    PathPoint point;
+    PathNode node;         ///< of the mode's track only
+    Complex root;          ///< of its chart, upper member of a pair
+    ComplexVector series;  ///< of that; empty where the root is not simple
+    double gap = 0.0;      ///< to the next one in the block
+  };
+  Vector excitation(const PathNode& node) const;
+  void find_zeros(double h, const PathNode& next);
+  void watch(double h, const PathNode& next, const Member& member, StepCriteria& step, double last, double t);
+  bool compute_closer(const Prediction& prediction, Closer& closer);
+  bool probe_alone(Complex expected, std::size_t track, double distance, Closer& closer);
+  std::optional<Closer> look_closer(double h, const PathNode& next, const Member& member, const Aim& aim,
+                                    double distance);
+  void locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t);
+  void finish(double h, const PathNode& next, const Closer& closer, const Vector& g, double offset,
+              double distance, const Member& member, const Aim& aim, int retrackings);
+
+  // tracer_sensitivity.cpp: what an event keeps of its eigenvector and of the other parameters.
+  void record_zero(const Closer& closer, const Vector& g, double offset, const Member& member, const Aim& aim,
+                   int retrackings);
+  /// Eigenvector of the first of `members` of a track at an offset from the point.
+  void keep_shape(const PathNode& node, std::size_t track, const std::vector<int>& members, double offset,
+                  Event& event) const;
+  /// ds/dq of the mean of `members`, and dp*/dq of where `moves` says how the event follows; one more
+  /// back-substitution per parameter.
+  PathPoint solved_point(const PathNode& node);
+  using Movement =
+      std::function<double(const Track& along_path, const PathNode& node_q, const Track& along_q)>;
+  void keep_sensitivities(const PathPoint& point, const PathNode& node, std::size_t track,
+                          const std::vector<int>& members, const Movement& moves, Event& event);
+  int direction_of(const Closer& closer, const Vector& g, double offset, const Aim& aim) const;
+  static double shift_of_meeting(const Track& along_path, const Track& along_q, EventKind kind,
+                                 const std::vector<int>& members);
+  void keep_fold_sensitivities(const PathNode& node, Event& event);
 
   // tracer_folds.cpp: where the equilibrium path bends back or meets another one.
   bool turn_to_plane(double h);
@@ -139,6 +204,7 @@ class Tracer {
   double coordinate(const Vector& x, double p) const;
   bool on_branch_point(double coordinate) const;
   std::optional<double> expect_branch_point(double h, const PathNode* next) const;
+  std::optional<Anchor> anchor_at(const PathPoint& point);
   std::optional<Anchor> anchor(double distance);
   Bridge::Sizes bridge_sizes();
   bool build_bridge(double guess, double h);
@@ -194,7 +260,9 @@ class Tracer {
   bool follows_all_ = false;
   std::map<int, int> partners_;  ///< modes that shared a real block: who comes back when a pair parts again
   double part_reach_ = 3.0;      ///< steps: blocks part when their meetings are farther than this
-  std::map<int, Complex> last_value_;  ///< of every mode, where its real part was last told from zero
+  std::vector<Criterion> criteria_;
+  std::map<std::pair<int, std::size_t>, Watch> watches_;  ///< per mode and criterion
+  std::vector<Event> no_veerings_;  ///< looked at, and none: too wide, or nothing to be told
   double next_checkpoint_ = 0.0;
   int merges_at_node_ = 0;
   double largest_position_ = 0.0;  ///< |x| on the path so far

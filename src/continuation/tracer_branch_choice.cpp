@@ -16,8 +16,6 @@ namespace eigentrail {
 namespace {
 
 constexpr double first_reach = 0.05;  ///< half the length of a bridge at first, in units of the path's scales
-constexpr double good_bridge = 2e-13;  ///< as for the bridge over the trace's own path
-constexpr double fair_bridge = 1e-10;
 constexpr double shortest_reach = 1e-4;
 constexpr double same_point = 1e-8;  ///< the other path passes the branch point up to this, relatively
 constexpr double glimpse = 1e-3;     ///< of a bridge: how far beside the point its modes are told apart
@@ -61,13 +59,7 @@ std::optional<Tracer::Anchor> Tracer::anchor_on(const PathPlane& plane, const Pa
       plane.x.squaredNorm() * std::pow(path_scales().x, 2) + std::pow(plane.p * range(), 2);
   const Vector x = node.path.x.col(0) + distance / squared * std::pow(path_scales().x, 2) * plane.x;
   const double p = node.p + distance / squared * range() * range() * plane.p;
-  const PathPoint point = reduce_at(problem_, p, {x, Vector(), true}, node.basis.T[0], result_.counts, plane);
-  if (point.status != PointStatus::computed || point.pencil.size() != node.pencil.size()) return std::nullopt;
-  Anchor anchor;
-  if (equilibrium_series(problem_, point, max_order, anchor.path, result_.counts)) return std::nullopt;
-  if (!anchor.path.x.allFinite() || !anchor.path.lambda.allFinite()) return std::nullopt;
-  anchor.coordinate = plane(point.equilibrium.x, point.p);
-  return anchor;
+  return anchor_at(reduce_at(problem_, p, {x, Vector(), true}, node.basis.T[0], result_.counts, plane));
 }
 
 /// A bridge along the other path that passes the branch point.

@@ -9,6 +9,7 @@
 #include "continuation/event_tools.hpp"
 #include "continuation/tracer.hpp"
 #include "core/matrix_series.hpp"
+#include "core/positive_or_one.hpp"
 
 namespace eigentrail {
 namespace {
@@ -17,11 +18,9 @@ constexpr double within_step = 1e-3;  ///< of a step: how far inside it the test
 constexpr double look_ahead = 0.3;    ///< of a step: a branch point this near to its end is bridged, too
 constexpr double regular = 1e-11;     ///< a stiffness of smaller reciprocal condition has no sign
 constexpr double first_bridge =
-    0.25;  ///< of a step: half the length of a bridge, which is halved until it fits
-constexpr double good_bridge = 2e-13;  ///< relative error at which a bridge is as good as solved points
-constexpr double fair_bridge = 1e-10;  ///< the worst that is used where no better one is found
-constexpr int most_bridges = 8;        ///< that are tried at one place
-constexpr double same_point = 1e-12;   ///< coordinates this close, relatively, are one
+    0.25;                        ///< of a step: half the length of a bridge, which is halved until it fits
+constexpr int most_bridges = 8;  ///< that are tried at one place
+constexpr double same_point = 1e-12;  ///< coordinates this close, relatively, are one
 
 /// Sign and logarithm of a determinant: of large matrices the number itself may overflow.
 struct Determinant {
@@ -92,31 +91,35 @@ std::optional<double> Tracer::expect_branch_point(double h, const PathNode* next
   return std::nullopt;
 }
 
-/// The path at a distance from the last point, with as many coefficients as there are; nothing about modes.
-std::optional<Tracer::Anchor> Tracer::anchor(double distance) {
-  const Prediction prediction = predict(node_, distance);
-  const PathPoint point = reduce_at(problem_, prediction.p, prediction.equilibrium, node_.basis.T[0],
-                                    result_.counts, prediction.plane);
-  if (point.status != PointStatus::computed || point.pencil.size() != node_.basis.T[0].cols())
+/// The path at a solved point, with as many coefficients as there are; nothing about modes.
+std::optional<Tracer::Anchor> Tracer::anchor_at(const PathPoint& point) {
+  if (point.status != PointStatus::computed || point.pencil.size() != node_.pencil.size())
     return std::nullopt;
   Anchor anchor;
   if (equilibrium_series(problem_, point, max_order, anchor.path, result_.counts)) return std::nullopt;
   if (!anchor.path.x.allFinite() || !anchor.path.lambda.allFinite()) return std::nullopt;
-  anchor.coordinate = coordinate(point.equilibrium.x, point.p);
+  anchor.coordinate = point.plane ? (*point.plane)(point.equilibrium.x, point.p) : point.p;
+  anchor.heading = coefficient(anchor.path.parameters, problem_.traced, 1);
   const Determinant stiffness(point.pencil.K[0], Determinant::norm(point.equilibrium.linearization.K[0]));
   anchor.sign = stiffness.sign;
   anchor.logarithm = stiffness.logarithm;
-  anchor.heading = coefficient(anchor.path.parameters, problem_.traced, 1);
   return anchor;
+}
+
+/// The path at a distance from the last point.
+std::optional<Tracer::Anchor> Tracer::anchor(double distance) {
+  const Prediction prediction = predict(node_, distance);
+  const PathPoint point = reduce_at(problem_, prediction.p, prediction.equilibrium, node_.basis.T[0],
+                                    result_.counts, prediction.plane);
+  return anchor_at(point);
 }
 
 /// Multipliers count by their forces.
 Bridge::Sizes Tracer::bridge_sizes() {
-  const auto positive = [](double size) { return size > 0.0 && std::isfinite(size) ? size : 1.0; };
   const double length = path_scales().x;
-  const double force = positive(node_.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
+  const double force = positive_or_one(node_.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
   const Matrix& A = node_.linearization.A[0];
-  return {length, A.rows() > 0 ? force / positive(A.rowwise().norm().maxCoeff()) : 1.0, range()};
+  return {length, A.rows() > 0 ? force / positive_or_one(A.rowwise().norm().maxCoeff()) : 1.0, range()};
 }
 
 /// Builds a bridge over the branch point that is expected at a distance from the last point.

@@ -9,7 +9,7 @@ namespace eigentrail {
 void Tracer::find_events(double h, const PathNode& next) {
   const StageTimer timer(result_.counts.events_seconds);
   const EventWork work(result_.counts);
-  find_axis_crossings(h, next);
+  find_zeros(h, next);
   find_veerings(h, next);
   record_branch_point(next);
   find_folds(h, next);

@@ -163,12 +163,16 @@ void Tracer::find_folds(double h, const PathNode& next) {
   event.node = result_.nodes;
   // The eigenvalue that vanishes with the tangent stiffness.
   double least = INFINITY;
+  std::size_t vanishing = 0;
   for (const Track& track : next.tracks) {
     const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
     if (size >= least) continue;
     least = size;
     event.modes = sorted_modes(track.arriving);
+    vanishing = static_cast<std::size_t>(&track - next.tracks.data());
   }
+  if (!next.tracks.empty()) keep_shape(next, vanishing, {0}, 0.0, event);
+  if (event.kind == EventKind::fold) keep_fold_sensitivities(next, event);
   add_event(std::move(event));
 }
 

@@ -107,8 +107,9 @@ void Tracer::settle_real_block(Track& track) {
     }
     mode = partner_of(parent);
     // It comes from where its parent was: what it crosses at once is not missed.
-    if (const auto known = last_value_.find(parent); known != last_value_.end())
-      last_value_[mode] = known->second;
+    for (std::size_t c = 0; c < criteria_.size(); ++c) {
+      if (!criteria_[c].asks_for_pairs()) watches_[{mode, c}] = watches_[{parent, c}];
+    }
   }
 }
 

@@ -40,9 +40,9 @@ void Tracer::record_meetings_at_start() {
   }
 }
 
-/// Follows a meeting to where it lies, by its offset as seen from ever nearer points.
-Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, double h, StrandSampler& strands,
-                                          double& distance, int& retrackings) {
+/// Follows a meeting to where it lies, by its offset as seen from ever nearer points of a step to `next`.
+Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
+                                          StrandSampler& strands, double& distance, int& retrackings) {
   const double resolution = plane_ ? settled : settled * std::max(range(), std::abs(node_.p));
   const std::size_t index = expected.a.track;
   const PathNode base = with_tracks(node_, {index});
@@ -50,7 +50,7 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
   bool went_back = false;
   distance = expected.position.real();
   for (; retrackings < most_retrackings; ++retrackings) {
-    std::optional<PathNode> point = probe(base, distance);
+    std::optional<PathNode> point = distance == h ? with_tracks(next, {index}) : probe(base, distance);
     if (!point) return Approach::failed;
     Track& there = point->tracks.front();
     there.roots = in_order_of(strands(distance / h), there.roots);
@@ -84,6 +84,30 @@ Tracer::Approach Tracer::approach_meeting(const ExpectedMeeting& expected, doubl
   return Approach::failed;
 }
 
+/// The meeting as seen from a point, if it lies there.
+std::optional<Meeting> Tracer::meeting_at(double h, const ExpectedMeeting& expected,
+                                          const PathNode& node) const {
+  const Track& track = node.tracks[expected.a.track];
+  const Meeting meeting = nearest_meeting(track, expected.a.members, expected.b.members, h);
+  if (!meeting.found || std::abs(meeting.offset) > at_point * coordinate_range() ||
+      meeting.half_width > narrow * std::abs(h))
+    return std::nullopt;
+  return meeting;
+}
+
+/// Where the dense output tells the place well enough, the point is there at once.
+bool Tracer::land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next) {
+  constexpr double sure = 0.1;
+  const double position = expected.position.real();
+  if (expected.doubt > sure * at_point * coordinate_range() || node_.tracks[expected.a.track].departure ||
+      position == h || std::abs(position) <= at_point * coordinate_range())
+    return false;
+  std::optional<PathNode> point;
+  if (attempt(position, point) || !meeting_at(h, expected, *point)) return false;
+  next = std::move(point);
+  return true;
+}
+
 /// Shortens the step so that it ends on the first meeting inside it.
 bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
   const StageTimer timer(result_.counts.events_seconds);
@@ -91,20 +115,22 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
   const std::vector<ExpectedMeeting> expected = expected_in_blocks(node_, *next, h);
   std::vector<bool> coincide(next->tracks.size(), false);
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    StrandSampler strands(node_, *next, expected[i].a.track, h);
-    double distance = 0.0;
+    double distance = expected[i].position.real();
     int retrackings = 0;
-    const Approach approach = approach_meeting(expected[i], h, strands, distance, retrackings);
-    if (approach == Approach::nothing) continue;
-    // A block's modes are told apart at one end of a step at least: between two meetings there is a point.
-    const bool between = approach == Approach::reached && node_.tracks[expected[i].a.track].departure;
-    if (between) distance *= 0.5;
-    const bool landed = approach == Approach::reached && (distance == h || !attempt(distance, next));
-    if (!landed && std::abs(h) > uncertified_below_) return false;
-    if (!landed) continue;
-    if (between) {
-      h = distance;
-      break;
+    if (!land_as_told(h, expected[i], next)) {
+      StrandSampler strands(node_, *next, expected[i].a.track, h);
+      const Approach approach = approach_meeting(expected[i], h, *next, strands, distance, retrackings);
+      if (approach == Approach::nothing) continue;
+      // A block's modes are told apart at one end of a step at least: between two meetings there is a point.
+      const bool between = approach == Approach::reached && node_.tracks[expected[i].a.track].departure;
+      if (between) distance *= 0.5;
+      const bool landed = approach == Approach::reached && (distance == h || !attempt(distance, next));
+      if (!landed && std::abs(h) > uncertified_below_) return false;
+      if (!landed) continue;
+      if (between) {
+        h = distance;
+        break;
+      }
     }
     record_at(h, expected[i], retrackings, *next, coincide);
     constexpr double worth_a_look = 1e-3;
@@ -122,14 +148,12 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
 /// Records a meeting if it lies on the point where a step of length h is cut.
 void Tracer::record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,
                        std::vector<bool>& coincide) {
+  const std::optional<Meeting> meeting = meeting_at(h, expected, next);
+  if (!meeting) return;
   Track& track = next.tracks[expected.a.track];
-  const Meeting meeting = nearest_meeting(track, expected.a.members, expected.b.members, h);
-  if (!meeting.found || std::abs(meeting.offset) > at_point * coordinate_range() ||
-      meeting.half_width > narrow * std::abs(h))
-    return;
-  record_meeting(next, expected.a.track, meeting, retrackings);
-  track.met = united(track.met, meeting.members);
-  if (meeting.kind != EventKind::veering) coincide[expected.a.track] = true;
+  record_meeting(next, expected.a.track, *meeting, retrackings);
+  track.met = united(track.met, meeting->members);
+  if (meeting->kind != EventKind::veering) coincide[expected.a.track] = true;
 }
 
 void Tracer::record_meeting(const PathNode& node, std::size_t index, const Meeting& meeting,
@@ -165,6 +189,11 @@ void Tracer::record_meeting(const PathNode& node, std::size_t index, const Meeti
   }
   event.retrackings = retrackings;
   event.node = result_.nodes;
+  keep_shape(node, index, meeting.members, meeting.offset, event);
+  const auto moves = [&](const Track& along_path, const PathNode&, const Track& along_q) {
+    return shift_of_meeting(along_path, along_q, meeting.kind, meeting.members);
+  };
+  keep_sensitivities(solved_point(node), node, index, meeting.members, moves, event);
   add_static_event(node, std::move(event));
 }
 

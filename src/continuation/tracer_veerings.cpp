@@ -6,6 +6,7 @@
 #include "continuation/tracer.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -22,13 +23,35 @@ class PointwiseInterpolant {
       x_.push_back(x);
       table_.push_back(series);
     }
+    refresh();
   }
+  bool empty() const { return x_.empty(); }
+
+  Complex operator()(Complex x) const {
+    Complex value = 0.0;
+    for (std::size_t i = coefficients_.size(); i-- > 0;) value = value * (x - x_[i]) + coefficients_[i];
+    return value;
+  }
+  /// What the last derivative that was added contributes at x, or the one before: about the error there.
+  double last_contribution(Complex x) const {
+    double product = 1.0;
+    double last = 0.0;
+    double before = 0.0;
+    for (std::size_t i = 0; i < coefficients_.size(); ++i) {
+      before = last;
+      last = product * std::abs(coefficients_[i]);
+      product *= std::abs(x - x_[i]);
+    }
+    return std::max(last, before);
+  }
+
+ private:
   /// Divided differences, confluent where points repeat.
-  void finish() {
+  void refresh() {
     const std::size_t n = x_.size();
     std::vector<Complex> column(n);
     for (std::size_t i = 0; i < n; ++i) column[i] = table_[i][0];
-    coefficients_.push_back(column[0]);
+    coefficients_ = {column[0]};
     for (std::size_t order = 1; order < n; ++order) {
       for (std::size_t i = 0; i + order < n; ++i) {
         column[i] = x_[i + order] == x_[i] ? table_[i][static_cast<Eigen::Index>(order)]
@@ -37,13 +60,7 @@ class PointwiseInterpolant {
       coefficients_.push_back(column[0]);
     }
   }
-  Complex operator()(Complex x) const {
-    Complex value = 0.0;
-    for (std::size_t i = coefficients_.size(); i-- > 0;) value = value * (x - x_[i]) + coefficients_[i];
-    return value;
-  }
 
- private:
   std::vector<double> x_;
   std::vector<ComplexVector> table_;
   std::vector<Complex> coefficients_;
@@ -90,6 +107,26 @@ Complex secant(const PointwiseInterpolant& f, Complex root, double width) {
   return root;
 }
 
+/// Error of a root of the interpolant, as its last terms tell; infinite where the slope is not told.
+double error_of_root(const PointwiseInterpolant& f, Complex root, double step) {
+  const double slope = std::abs(f(root + step) - f(root - step)) / (2.0 * step);
+  return slope > 0.0 ? f.last_contribution(root) / slope : INFINITY;
+}
+
+/// The gap as seen from both ends of a step of length h; an end next to where it is expected is left out,
+/// since points will follow there.
+PointwiseInterpolant gap_from_ends(const ExpectedMeeting& expected, double h) {
+  constexpr double next_to = 0.02;  // of the step
+  PointwiseInterpolant gap;
+  const auto add = [&](double position, const ComplexVector& series) {
+    const bool far = std::abs(position - expected.position.real()) > next_to * std::abs(h);
+    if (series.size() > 0 && far) gap.add(position, series);
+  };
+  add(0.0, expected.gap_at_left);
+  add(h, expected.gap_at_right);
+  return gap;
+}
+
 }  // namespace
 
 double Tracer::veering_width() const {
@@ -97,41 +134,53 @@ double Tracer::veering_width() const {
   return std::min(widest_veering * range() / std::max(speed, 1e-3), 2.0 * range());
 }
 
-/// A point whose only track is the two strands as one block. `root` is where they are expected to meet, in
-/// the end relative to that point.
-std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next, const ExpectedMeeting& expected,
-                                             Complex& root) {
+/// A point below an expected meeting, whose only track is the two strands as one block.
+std::optional<PathNode> Tracer::as_one_block(double h, const PathNode& next,
+                                             const ExpectedMeeting& expected) {
   const Strand& a = expected.a;
   const Strand& b = expected.b;
   const bool right = expected.position.real() / h > 0.5;
   const PathNode& nearer = right ? next : node_;
-  root = expected.position - (right ? h : 0.0);
+  const double distance = expected.position.real() - (right ? h : 0.0);
   if (a.track != b.track) {
-    PathNode base = with_tracks(nearer, {});
+    PathNode apart = with_tracks(nearer, {});
     for (const Strand* strand : {&a, &b}) {
       std::optional<Track> track =
           separate(problem_, nearer, nearer.tracks[strand->track], strand->members, result_.counts);
       if (!track) return std::nullopt;
-      base.tracks.push_back(std::move(*track));
+      apart.tracks.push_back(std::move(*track));
     }
-    const Eigen::Index size = base.tracks[0].size() + base.tracks[1].size();
-    if (!join(problem_, base, 0, {{false, 1, 0.0}}, result_.counts)) return std::nullopt;
-    return base.tracks.front().size() == size ? std::optional<PathNode>(std::move(base)) : std::nullopt;
+    return joined_at(apart, distance);
   }
-  PathNode base = with_tracks(nearer, {a.track});
+  const PathNode base = with_tracks(nearer, {a.track});
+  std::optional<PathNode> point = probe(base, distance);
+  if (!point || has_jumped(base, point->tracks.front(), distance)) return std::nullopt;
   const std::vector<int> members = united(a.members, b.members);
-  if (static_cast<Eigen::Index>(members.size()) == base.tracks.front().size()) return base;
-  // In a larger block the two are told from the others where they are close to each other.
-  std::optional<PathNode> point = probe(base, root.real());
-  if (!point) return std::nullopt;
-  root -= root.real();
   Track& block = point->tracks.front();
+  if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
+  // In a larger block the two are told from the others where they are close to each other.
   StrandSampler strands(node_, next, a.track, h);
   block.roots = in_order_of(strands(std::clamp(expected.position.real() / h, 0.0, 1.0)), block.roots);
   std::optional<Track> pair = separate(problem_, *point, block, members, result_.counts);
   if (!pair) return std::nullopt;
   point->tracks = {std::move(*pair)};
   return point;
+}
+
+/// The two tracks of a point as one block at a distance from it.
+std::optional<PathNode> Tracer::joined_at(const PathNode& apart, double distance) {
+  Prediction prediction = predict(apart, distance);
+  const InvariantPair& a = prediction.pairs[0];
+  const InvariantPair& b = prediction.pairs[1];
+  InvariantPair joined = join_pairs({&a, &b}, a.is_real || b.is_real);
+  // A real one beside a pair brings the conjugate along: these do not veer.
+  if (joined.size() != a.size() + b.size()) return std::nullopt;
+  prediction.pairs = {std::move(joined)};
+  const PathPoint point = compute_point(problem_, prediction, apart.basis.T[0], result_.counts);
+  if (point.status != PointStatus::computed) return std::nullopt;
+  std::optional<PathNode> node = differentiate_point(problem_, point, result_.counts);
+  if (!node || has_jumped(apart, node->tracks.front(), distance)) return std::nullopt;
+  return node;
 }
 
 void Tracer::find_veerings(double h, const PathNode& next) {
@@ -143,9 +192,7 @@ void Tracer::find_veerings(double h, const PathNode& next) {
     }
     modes = sorted_modes(modes);
     if (modes.size() < 2 || is_known_veering(expected.position, modes)) continue;
-    Complex root;
-    if (const auto base = as_one_block(h, next, expected, root))
-      record_veering(*base, expected.a.members.size(), root, modes);
+    if (const auto below = as_one_block(h, next, expected)) record_veering(*below, h, expected, modes);
   }
 }
 
@@ -154,76 +201,106 @@ bool Tracer::is_known_veering(Complex position, const std::vector<int>& modes) c
   const double speed = coefficient(node_.path.parameters, problem_.traced, 1);
   const double p = node_.p + position.real() * speed;
   const double half_width = std::abs(position.imag() * speed);
-  return std::any_of(result_.events.begin(), result_.events.end(), [&](const Event& event) {
+  const auto is_it = [&](const Event& event) {
     const double slack = alike * event.half_width + 1e-6 * range();
     return event.modes == modes && std::abs(event.p - p) <= slack &&
            std::abs(event.half_width - half_width) <= slack;
-  });
+  };
+  return std::any_of(result_.events.begin(), result_.events.end(), is_it) ||
+         std::any_of(no_veerings_.begin(), no_veerings_.end(), is_it);
 }
 
-/// A block that has jumped to other modes is not the one that began: its mean does not fit the series.
-bool Tracer::has_jumped(const Track& from, const Track& to, double distance) const {
-  const ComplexVector mean = mean_series(from.series.Lambda);
-  const Complex expected = evaluate_series(ComplexMatrix(mean.transpose()), distance)[0];
-  const Eigen::Index last = mean.size() - 1;
+/// A block that has jumped to other modes is not the one that began: its trace does not fit the series.
+bool Tracer::has_jumped(const PathNode& from, const Track& to, double distance) const {
+  const auto trace_of = [](const Track& track) -> ComplexVector {
+    return static_cast<double>(track.size()) * mean_series(track.series.Lambda);
+  };
+  ComplexVector trace = trace_of(from.tracks.front());
+  for (std::size_t i = 1; i < from.tracks.size(); ++i) trace += trace_of(from.tracks[i]);
+  const Complex expected = evaluate_series(ComplexMatrix(trace.transpose()), distance)[0];
+  const Eigen::Index last = trace.size() - 1;
   const double step = std::abs(distance);
+  if (step == 0.0) return false;
   // One of the last terms alone may happen to be small.
   const double uncertain = std::pow(step, static_cast<double>(last)) *
-                           std::max(std::abs(mean[last]), std::abs(mean[last - 1]) / step);
-  const double drift = std::abs(mean_series(to.series.Lambda)[0] - expected);
+                           std::max(std::abs(trace[last]), std::abs(trace[last - 1]) / step);
+  const double drift = std::abs(trace_of(to)[0] - expected);
   return drift > 10.0 * uncertain + 1e-6 * std::max(std::abs(expected), problem_.s_ref);
 }
 
-/// The exceptional point of two modes beside the real axis. `base` holds them as one block, `count` of its
-/// eigenvalues being the one; `root` is where the point is expected, relative to it. The series at one point
-/// tells a near root well and a farther one poorly: points around it make it an interpolation.
-void Tracer::record_veering(const PathNode& base, std::size_t count, Complex root,
+/// The exceptional point of two modes beside the real axis. `base` holds them as one block, below the place
+/// where it is expected. This point and the series at both ends of the step tell a near one; a farther one is
+/// told by points around it.
+void Tracer::record_veering(const PathNode& base, double h, const ExpectedMeeting& expected,
                             const std::vector<int>& modes) {
-  constexpr int rounds = 5;
+  constexpr int rounds = 6;
   const double speed = std::abs(coefficient(base.path.parameters, problem_.traced, 1));
   const double widest = 2.0 * widest_veering * range() / speed;
   const double resolution = 1e-10 * range() / speed;
   const auto gap_there = [&](const PathNode& node) {
-    return gap_series(node.tracks.front().series.Lambda, static_cast<Eigen::Index>(count));
+    return gap_series(node.tracks.front().series.Lambda,
+                      static_cast<Eigen::Index>(expected.a.members.size()));
   };
   Event event;
-  std::optional<PathNode> middle;
+  std::optional<PathNode> below;
   PointwiseInterpolant gap;
+  Complex root = expected.position;
   double position = 0.0;
+  const double at = expected.position.real();
+  const auto look = [&](double where, PointwiseInterpolant& function) {
+    position = where;
+    below = where == at ? base : probe(base, where - at);
+    ++event.retrackings;
+    if (!below || has_jumped(base, below->tracks.front(), where - at)) return false;
+    function.add(where, gap_there(*below));
+    return true;
+  };
   bool is_settled = false;
   double last_move = INFINITY;
   for (int round = 0; round < rounds && !is_settled; ++round) {
     const double width = std::max(std::abs(root.imag()), 1e-6 * widest);
-    gap = {};
-    for (const double offset : {-1.0, 1.0, 0.0}) {
-      position = root.real() + offset * width;
-      middle = probe(base, position);
-      ++event.retrackings;
-      if (!middle) return;
-      gap.add(position, gap_there(*middle));
-    }
-    gap.finish();
-    if (has_jumped(base.tracks.front(), middle->tracks.front(), position)) return;
+    PointwiseInterpolant around;
+    const auto look_beside = [&](double offset) {
+      return look(root.real() + offset, around) || look(root.real() + 0.5 * offset, around);
+    };
+    const bool seen = round > 0 && look_beside(-width) && look_beside(width);
+    gap = seen ? around : gap_from_ends(expected, h);
+    if (!look(root.real(), gap)) return;
     const Complex refined = secant(gap, root, width);
-    if (!(std::abs(refined.imag()) < widest && std::abs(refined - root) < 3.0 * widest)) return;
-    // Settled, or no longer getting nearer at the level of rounding.
     const double move = std::abs(refined - root);
-    is_settled = move <= resolution || (move > 0.5 * last_move && move <= 100.0 * resolution);
+    if (!(std::abs(refined.imag()) < widest && move < 3.0 * widest)) return;
+    const double error = error_of_root(gap, refined, resolution);
+    // Another way to one that is recorded, or one that is too wide.
+    if (is_known_veering(refined, modes)) return;
+    if (std::abs(refined.imag()) - error > 0.5 * widest) return;
+    const bool nears = move <= 0.5 * last_move;
+    if (!nears && round > 1 && move > 100.0 * resolution) return;
+    // Settled, or no longer getting nearer at the level of rounding.
+    const bool narrow = std::abs(refined.imag()) <= 100.0 * resolution;
+    is_settled =
+        move <= resolution || (!narrow && error <= resolution) || (!nears && move <= 100.0 * resolution);
     last_move = move;
     root = refined;
   }
-  // Another exceptional point as near as this one spoils the series: then nothing can be told.
-  if (!is_settled || is_double_root(gap, root) || !confirms_root(gap_there(*middle), root - position)) return;
-  const double speed_there = coefficient(middle->path.parameters, problem_.traced, 1);
+  if (!is_settled) return;
+  const double offset = root.real() - position;
+  const double speed_there = coefficient(below->path.parameters, problem_.traced, 1);
   event.kind = EventKind::veering;
   event.half_width = std::abs(root.imag() * speed_there);
-  if (event.half_width > widest_veering * range() || event.half_width < resolution) return;
-  event.p = middle->p + (root.real() - position) * speed_there;
-  const Track& there = middle->tracks.front();
-  event.s = chart_value(mean_series(there.series.Lambda)[0], there.pair.chart);
+  event.p = below->p + offset * speed_there;
+  const Track& there = below->tracks.front();
+  event.s =
+      chart_value(evaluate_series(ComplexMatrix(mean_series(there.series.Lambda).transpose()), offset)[0],
+                  there.pair.chart);
   event.modes = modes;
   event.node = result_.nodes;
-  add_event(std::move(event));
+  // Another exceptional point as near as this one spoils the series: then nothing can be told.
+  const bool is_told = !is_double_root(gap, root) && confirms_root(gap_there(*below), root - position);
+  const bool is_wide = event.half_width > widest_veering * range();
+  if (is_told && !is_wide && event.half_width >= resolution)
+    add_event(std::move(event));
+  else
+    no_veerings_.push_back(std::move(event));
 }
 
 }  // namespace eigentrail

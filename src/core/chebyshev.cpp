@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lapack.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -18,44 +20,22 @@ Eigen::Index significant(const ComplexVector& coefficients) {
   return top;
 }
 
-/// Newton's method on sum_k c_k T_k(u) as long as it makes the value smaller: a matrix with a small leading
-/// coefficient in its denominators tells roots poorly.
-Complex polish(const ComplexVector& c, Complex u) {
-  constexpr int corrections = 4;
-  const auto evaluate = [&c](Complex at, Complex& slope) {
-    Complex before = 1.0;  // T_0, T_1 and their derivatives
-    Complex current = at;
-    Complex slope_before = 0.0;
-    Complex slope_current = 1.0;
-    Complex value = c[0] + (c.size() > 1 ? c[1] * at : Complex(0.0));
-    slope = c.size() > 1 ? c[1] : Complex(0.0);
-    for (Eigen::Index k = 2; k < c.size(); ++k) {
-      const Complex next = 2.0 * at * current - before;
-      const Complex slope_next = 2.0 * current + 2.0 * at * slope_current - slope_before;
-      before = current;
-      current = next;
-      slope_before = slope_current;
-      slope_current = slope_next;
-      value += c[k] * current;
-      slope += c[k] * slope_current;
-    }
-    return value;
-  };
-  Complex slope;
-  Complex value = evaluate(u, slope);
-  for (int i = 0; i < corrections && slope != 0.0; ++i) {
-    const Complex next = u - value / slope;
-    Complex next_slope;
-    const Complex next_value = evaluate(next, next_slope);
-    if (!(std::abs(next_value) < std::abs(value))) break;
-    u = next;
-    value = next_value;
-    slope = next_slope;
+/// Eigenvalues u of A - u B, by the QZ algorithm: a small leading coefficient, which stands in B, does
+/// not spoil them as it would after a division.
+std::vector<Complex> finite_eigenvalues(ComplexMatrix A, ComplexMatrix B) {
+  const auto n = static_cast<lapack_int>(A.rows());
+  ComplexVector alpha(n);
+  ComplexVector beta(n);
+  const lapack_int info = LAPACKE_zggev(LAPACK_COL_MAJOR, 'N', 'N', n, A.data(), n, B.data(), n, alpha.data(),
+                                        beta.data(), nullptr, 1, nullptr, 1);
+  std::vector<Complex> values;
+  for (lapack_int i = 0; info == 0 && i < n; ++i) {
+    if (beta[i] != 0.0) values.push_back(alpha[i] / beta[i]);
   }
-  return u;
+  return values;
 }
 
-std::vector<Complex> eigenvalues(const ComplexMatrix& matrix) {
+std::vector<Complex> finite_eigenvalues(const ComplexMatrix& matrix) {
   const ComplexVector values = Eigen::ComplexEigenSolver<ComplexMatrix>(matrix, false).eigenvalues();
   return {values.begin(), values.end()};
 }
@@ -80,18 +60,21 @@ std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients) {
   if (!coefficients.allFinite()) return {};
   const Eigen::Index top = significant(coefficients);
   if (top == 0) return {};
+  // u T_0 = T_1, u T_k = (T_{k-1} + T_{k+1}) / 2; c_n T_n in the last row, replaced through the polynomial.
   ComplexMatrix colleague = ComplexMatrix::Zero(top, top);
   for (Eigen::Index k = 0; k < top; ++k) {
     if (k > 0) colleague(k, k - 1) = 0.5;
     if (k + 1 < top) colleague(k, k + 1) = k == 0 ? 1.0 : 0.5;
   }
-  // u T_{n-1} = (T_n + T_{n-2}) / 2, with T_n replaced through the polynomial itself.
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  const Complex leading = coefficients[top] / largest;
   const double factor = top == 1 ? 1.0 : 0.5;
-  for (Eigen::Index k = 0; k < top; ++k)
-    colleague(top - 1, k) -= factor * coefficients[k] / coefficients[top];
-  std::vector<Complex> roots = eigenvalues(colleague);
-  const ComplexVector kept = coefficients.head(top + 1);
-  for (Complex& root : roots) root = 0.5 * (1.0 + polish(kept, root));
+  colleague.row(top - 1) *= leading;
+  colleague.row(top - 1) -= factor / largest * coefficients.head(top).transpose();
+  ComplexMatrix scale = ComplexMatrix::Identity(top, top);
+  scale(top - 1, top - 1) = leading;
+  std::vector<Complex> roots = finite_eigenvalues(std::move(colleague), std::move(scale));
+  for (Complex& root : roots) root = 0.5 * (1.0 + root);
   return roots;
 }
 
@@ -102,7 +85,8 @@ std::vector<Complex> polynomial_roots(const ComplexVector& coefficients) {
   ComplexMatrix companion = ComplexMatrix::Zero(top, top);
   companion.bottomLeftCorner(top - 1, top - 1).setIdentity();
   companion.col(top - 1) = -coefficients.head(top) / coefficients[top];
-  return eigenvalues(companion);
+  const ComplexVector roots = Eigen::ComplexEigenSolver<ComplexMatrix>(companion, false).eigenvalues();
+  return {roots.begin(), roots.end()};
 }
 
 bool has_no_root_within(const ComplexVector& coefficients, double radius) {

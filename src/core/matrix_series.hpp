@@ -22,7 +22,7 @@ std::vector<Coefficient> multiply_series(const std::vector<Coefficient>& A, cons
                                          std::size_t count) {
   std::vector<Coefficient> product(count, Coefficient::Zero(A[0].rows(), B[0].cols()));
   for (std::size_t i = 0; i < A.size(); ++i) {
-    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) product[i + j] += A[i] * B[j];
+    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) product[i + j].noalias() += A[i] * B[j];
   }
   return product;
 }

@@ -107,8 +107,12 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   options.second = request.second;
   options.second_from = request.from;
   options.second_to = request.to;
-  options.damping_ratio =
-      request.damping_ratio ? request.damping_ratio : read_event_options(setup.scene).damping_ratio;
+  const std::vector<double>& ratios = options.trace.events.damping_ratios;
+  if (!request.damping_ratio && ratios.size() > 1)
+    throw InputError("--damping-ratio: the scene's [events] has " + std::to_string(ratios.size()) +
+                     " damping ratios; choose one of them here, or 0 for the imaginary axis");
+  options.damping_ratio = request.damping_ratio;
+  if (!options.damping_ratio && !ratios.empty()) options.damping_ratio = ratios.front();
   // Modes of damping ratio zero are those on the imaginary axis.
   if (options.damping_ratio == 0.0) options.damping_ratio.reset();
   options.lines = request.lines.value_or(options.lines);

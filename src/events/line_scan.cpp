@@ -137,6 +137,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.to = window_.declared(line_.at(to))[line_.along];
   options.tolerance = scan_tolerance;
   options.certify = false;
+  options.events = {.extrema = false};  // the scan looks for its own
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
   left_.reset();

@@ -6,10 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-// lapacke.h would define C's complex macros; these are its types in C++.
-#define lapack_complex_float std::complex<float>
-#define lapack_complex_double std::complex<double>
-#include <lapacke.h>
+#include "core/lapack.hpp"
 
 namespace eigentrail {
 namespace {

@@ -263,6 +263,15 @@ bool TableReader::flag(const std::string& key) {
   return *flag;
 }
 
+std::vector<Expression> TableReader::list(const std::string& key) {
+  const Value& value = require(key, "a number or a list of numbers");
+  const auto* array = std::get_if<Array>(&value.data);
+  if (array == nullptr) return {to_expression(value, key)};
+  std::vector<Expression> result;
+  for (const Value& item : *array) result.push_back(to_expression(item, key));
+  return result;
+}
+
 std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const std::string& key) {
   const std::string expected = "a list of matrices, each a list of rows, lowest power first";
   const auto items = [&](const Value& value) -> const Array& {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/positive_or_one.hpp"
 #include "eigentrail/steady/relaxation.hpp"
 #include "steady/kinsol_solver.hpp"
 
@@ -30,16 +31,16 @@ struct Scales {
 
 Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin,
                    const SteadyResidual& residual) {
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value) ? value : 1.0; };
   Scales scales;
-  scales.length = positive(x.lpNorm<Eigen::Infinity>());
+  scales.length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   const Matrix& A = lin.A[0];
   const Vector reaction = A.transpose() * lambda;
-  scales.force = positive(
+  scales.force = positive_or_one(
       std::max({lin.K[0].lpNorm<Eigen::Infinity>() * scales.length, reaction.lpNorm<Eigen::Infinity>(),
                 residual.force.col(0).lpNorm<Eigen::Infinity>()}));
-  scales.constraint = (A.rowwise().norm() * scales.length).unaryExpr(positive);
-  scales.multiplier = positive(A.rows() == 0 ? 1.0 : scales.force / positive(A.rowwise().norm().maxCoeff()));
+  scales.constraint = (A.rowwise().norm() * scales.length).unaryExpr(&positive_or_one);
+  scales.multiplier =
+      positive_or_one(A.rows() == 0 ? 1.0 : scales.force / positive_or_one(A.rowwise().norm().maxCoeff()));
   return scales;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/positive_or_one.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -67,10 +69,6 @@ class BorderedKkt {
   Eigen::FullPivLU<Matrix> lu_;
 };
 
-double positive(double value) {
-  return value > 0.0 && std::isfinite(value) ? value : 1.0;
-}
-
 /// Least-squares multipliers (Eq. 15).
 EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
                                      EvaluationCounts& counts) {
@@ -94,7 +92,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   result.lambda = lambda;
   result.report.message = "the correction across the path did not converge";
   const double target = plane(x, p);
-  const double length = positive(x.lpNorm<Eigen::Infinity>());
+  const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   double last = INFINITY;
   SteadyResidual residual;
   Vector force, constraint, dx, dl;
@@ -122,7 +120,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     p += dp;
     ++result.report.iterations;
     // The multipliers and p are judged by the forces that they change.
-    const double scale = positive(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
+    const double scale = positive_or_one(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
     const Vector reaction = result.linearization.A[0].transpose() * dl + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
@@ -164,37 +162,57 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
   return {};
 }
 
+namespace {
+
+/// When the parameter changes by one: the least motion that keeps the constraints, and the force that then
+/// acts.
+EvaluationFault parameter_load(const Model& model, const Path& point, int traced,
+                               const Linearization& linearization, Vector& follow, Vector& load,
+                               EvaluationCounts& counts) {
+  Vector force, constraint;
+  if (auto fault = parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0),
+                                   traced, force, constraint, counts))
+    return fault;
+  follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
+  load = force + linearization.K[0] * follow;
+  return {};
+}
+
+}  // namespace
+
+std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
+                                     const std::vector<int>& parameters, const Linearization& linearization,
+                                     const Matrix& tangent_basis, EvaluationCounts& counts) {
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
+                                     Eigen::ComputeFullU);
+  const Vector kernel = tangent_basis * svd.matrixU().col(tangent_basis.cols() - 1);
+  std::vector<KernelLoad> loads;
+  for (const int parameter : parameters) {
+    Vector follow, load;
+    const bool known =
+        !parameter_load(model, point, parameter, linearization, follow, load, counts) && load.allFinite();
+    loads.push_back(known ? KernelLoad{kernel.dot(load), load.norm()} : KernelLoad{NAN, NAN});
+  }
+  return loads;
+}
+
 double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
                                  const Linearization& linearization, const Matrix& tangent_basis,
                                  EvaluationCounts& counts) {
-  Vector force, constraint;
-  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
-                      constraint, counts))
-    return 1.0;
-  const Matrix& K = linearization.K[0];
-  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  const Vector change = force + K * follow;
-  const Vector tangential = tangent_basis.transpose() * change;
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis, Eigen::ComputeFullU);
-  const Vector kernel = svd.matrixU().col(tangential.size() - 1);
-  const double length = change.norm();
-  return length > 0.0 ? std::abs(kernel.dot(tangential)) / length : 0.0;
+  const KernelLoad load = kernel_loads(model, point, {traced}, linearization, tangent_basis, counts).front();
+  if (std::isnan(load.total)) return 1.0;
+  return load.total > 0.0 ? std::abs(load.along_kernel) / load.total : 0.0;
 }
 
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
                                   const Linearization& linearization, const Matrix& tangent_basis,
                                   EvaluationCounts& counts) {
-  Vector force, constraint;
-  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
-                      constraint, counts))
-    return {};
-  const Matrix& K = linearization.K[0];
-  const Vector follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * K * tangent_basis,
+  Vector follow, load;
+  if (parameter_load(model, point, traced, linearization, follow, load, counts)) return {};
+  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
                                      Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index regular = tangent_basis.cols() - 1;
-  const Vector loads =
-      svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * (force + K * follow);
+  const Vector loads = svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * load;
   const Vector y = svd.matrixV().leftCols(regular) * loads.cwiseQuotient(svd.singularValues().head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);
   directions.col(0) << tangent_basis * svd.matrixV().col(regular), 0.0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/positive_or_one.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -47,8 +49,8 @@ class Relaxation {
         return false;
       if (residual.constraint.rows() == 0) return true;
       const Vector rows = linearization.A[0].rowwise().norm();
-      const Vector miss = residual.constraint.col(0).cwiseAbs().cwiseQuotient(
-          (rows * length).unaryExpr([](double size) { return size > 0.0 ? size : 1.0; }));
+      const Vector miss =
+          residual.constraint.col(0).cwiseAbs().cwiseQuotient((rows * length).unaryExpr(&positive_or_one));
       const double size = miss.maxCoeff();
       if (!std::isfinite(size)) return false;
       if (size <= on_manifold) return true;
@@ -112,9 +114,8 @@ Vector downhill_step(const Place& place, double scale, double& delta) {
 
 bool relax(const Model& model, const Vector& parameters, const RelaxationOptions& options, Vector& x,
            Vector& lambda, EvaluationCounts& counts) {
-  const auto positive = [](double size) { return size > 0.0 && std::isfinite(size) ? size : 1.0; };
   Relaxation relaxation(model, parameters, counts);
-  const double length = positive(x.lpNorm<Eigen::Infinity>());
+  const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   if (!relaxation.project(x, length)) return false;
   std::optional<Place> here = relaxation.at(x);
   double delta = first_delta;
@@ -125,7 +126,7 @@ bool relax(const Model& model, const Vector& parameters, const RelaxationOptions
     // Without constraints the forces themselves vanish at rest.
     largest_force = std::max(largest_force, here->force);
     if (here->pull.norm() <= options.tolerance * largest_force) return true;
-    const double scale = positive(here->linearization.K[0].lpNorm<Eigen::Infinity>());
+    const double scale = positive_or_one(here->linearization.K[0].lpNorm<Eigen::Infinity>());
     Vector step = downhill_step(*here, scale, delta);
     const double size = step.lpNorm<Eigen::Infinity>();
     if (!(size > 0.0)) return false;

@@ -10,6 +10,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "store/range_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -172,13 +173,6 @@ Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& 
 
 }  // namespace
 
-double LociFile::lowest() const {
-  return p.empty() ? NAN : *std::min_element(p.begin(), p.end());
-}
-double LociFile::highest() const {
-  return p.empty() ? NAN : *std::max_element(p.begin(), p.end());
-}
-
 const std::string& LociFile::attribute(const std::string& name) const {
   const auto found = attributes.find(name);
   if (found == attributes.end()) throw InputError(path + ": has no attribute " + name);
@@ -188,27 +182,6 @@ const std::string& LociFile::attribute(const std::string& name) const {
 std::size_t LociFile::nearest_node(double value) const {
   const auto closer = [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
   return static_cast<std::size_t>(std::min_element(p.begin(), p.end(), closer) - p.begin());
-}
-
-std::vector<LociFile::Position> LociFile::positions(double value) const {
-  std::vector<Position> found;
-  for (std::size_t step = 0; step < steps.size(); ++step) {
-    for (const double t : step_positions(steps[step], value)) {
-      // A node belongs to the step that ends there.
-      const bool repeated =
-          t == 0.0 && !found.empty() && found.back().step + 1 == step && found.back().t == 1.0;
-      if (!repeated) found.push_back({step, t});
-    }
-  }
-  return found;
-}
-
-ComplexVector LociFile::eigenvalues_at(const Position& position) const {
-  const auto left = static_cast<Eigen::Index>(position.step);
-  if (position.t == 0.0) return eigenvalues.row(left).transpose();
-  if (position.t == 1.0) return eigenvalues.row(left + 1).transpose();
-  return step_eigenvalues(steps[position.step], eigenvalues.row(left).transpose(),
-                          eigenvalues.row(left + 1).transpose(), position.t);
 }
 
 std::vector<ComplexVector> LociFile::eigenvalues_at(double value) const {
@@ -257,6 +230,7 @@ LociFile read_loci(const std::string& path) {
     read_points(file, loci);
     read_steps(file, loci);
     read_events(file, loci);
+    loci.ranges = read_stable_ranges(file);
     loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
     loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
     loci.residual = file.read_real("residual");

@@ -14,6 +14,7 @@
 #include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
 #include "store/provenance.hpp"
+#include "store/range_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -82,7 +83,9 @@ std::vector<std::string> mode_names(std::size_t first, std::size_t end) {
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
-  if (std::find(reserved.begin(), reserved.end(), parameter) == reserved.end()) return;
+  if (std::find(reserved.begin(), reserved.end(), parameter) == reserved.end() &&
+      !is_range_dataset(parameter))
+    return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {
     if (const Value* key = trace->find("parameter")) where = key->where;
@@ -137,7 +140,8 @@ struct LociWriter::Implementation {
     create_dimension("mode", ElementType::text, mode_names(0, n_modes), "mode", true);
     create_dimension("function", ElementType::integer, count_from(0, n_functions),
                      "smooth function of a mode or of a block of modes", true);
-    create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"}, "end of a step");
+    create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"},
+                     "end of a step, or of a stable range");
     create_dimension("coordinate", ElementType::text, description.coordinate_names, "coordinate");
     create_dimension("order", ElementType::integer,
                      count_from(0, static_cast<std::size_t>(options.order) + 1),
@@ -364,9 +368,10 @@ void LociWriter::Implementation::flush() {
   buffer = {};
 }
 
-void LociWriter::finish(const TraceResult& result) {
+void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges) {
   implementation_->flush();
   write_events(implementation_->file, result.events);
+  write_stable_ranges(implementation_->file, implementation_->parameter, ranges);
   write_summary(implementation_->file, result);
   implementation_->file.flush();
 }

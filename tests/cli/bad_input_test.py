@@ -98,7 +98,7 @@ UNKNOWN_NAMES = [
       (f"cannot be called '{name}'", "rename it"))
      for name in ("step", "function", "end", "event", "step_length", "step_parameter", "dense_output", "dense_block",
                   "dense_chart", "mode_block", "certified", "events", "event_parameter", "event_eigenvalue",
-                  "event_half_width", "event_puiseux", "event_node")]
+                  "event_half_width", "event_puiseux", "event_node", "range", "stable_from", "stable_mode")]
 
 WRONG_TYPES = [
     blade("text where a number belongs", "mass   = 50.0", "§mass   = true",

@@ -13,7 +13,7 @@ import numpy as np
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
 from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, edited
 
-COMMANDS = ["trace", "eval", "events", "boundary", "info", "explain"]
+COMMANDS = ["trace", "eval", "events", "boundary", "map", "info", "explain"]
 
 
 class Program(CommandTest):
@@ -191,6 +191,25 @@ class Info(CommandTest):
         self.assertEqual(info["constraints"], ["rod 1"])
         self.assertEqual(info["certified_share"], {"mode 1": 1, "mode 2": 1})
         self.assertEqual(info["events"], 0)
+
+    def test_stable_ranges_are_in_the_summary_in_info_and_in_its_json(self):
+        self.write("scene.toml", BIRTH)
+        line = r"\n  stable ranges\n +stable +p = 0 -> 1 +from start, mode 1, margin 0\.05 +to divergence, mode \d"
+        self.assertRegex(self.run_well("trace", "scene.toml", "-o", "loci.h5"), line)
+        self.assertRegex(self.run_well("info", "loci.h5"), line)
+        [stable] = json.loads(self.run_well("info", "loci.h5", "--json"))["stable_ranges"]
+        self.assertEqual((stable["kind"], stable["from"]["cause"], stable["to"]["cause"]),
+                         ("stable", "start", "divergence"))
+        self.assertAlmostEqual(stable["to"]["parameter"], 1.0, delta=1e-9)
+
+    def test_stable_ranges_of_some_modes_say_so(self):
+        self.trace(CROSSING, "--modes", "1")
+        self.assertIn("stable ranges (1 of 2 modes followed)\n    marginal  p = 0 -> 1  ",
+                      self.run_well("info", "loci.h5"))
+
+    def test_no_stable_range_is_said(self):
+        self.trace(BIRTH, "--from", "1.1")
+        self.assertIn("stable ranges  none", self.run_well("info", "loci.h5"))
 
     def test_mode_that_does_not_exist_at_an_end_is_a_dash(self):
         self.trace(BIRTH)

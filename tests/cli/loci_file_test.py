@@ -41,15 +41,25 @@ LAYOUT = {
     "event_half_width": (("event",), "rad/s"),
     "event_puiseux": (("event",), "1/s"),
     "event_node": (("event",), "1"),
+    "stable_from": (("range",), "rad/s"),
+    "stable_to": (("range",), "rad/s"),
+    "stable_kind": (("range",), "1"),
+    "stable_cause": (("range", "end"), "1"),
+    "stable_margin": (("range", "end"), "1/s"),
+    "stable_mode": (("range", "end"), "1"),
+    "stable_least_margin": (("range",), "1/s"),
+    "stable_largest_margin": (("range",), "1/s"),
+    "stable_largest_at": (("range",), "rad/s"),
 }
-DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event"}
+DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event", "range"}
 COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux"}
-WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node"}
+WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "stable_mode"}
+TEXTS = {"events", "stable_kind", "stable_cause"}
 
 
 def type_of(name):
-    if name == "events":
-        return np.dtype(object)  # text
+    if name in TEXTS:
+        return np.dtype(object)
     return np.dtype(np.complex128 if name in COMPLEX else np.int64 if name in WHOLE else np.float64)
 
 
@@ -84,7 +94,7 @@ class InH5py(unittest.TestCase):
         labels = {name: self.file[name].asstr()[:].tolist() for name in ("mode", "coordinate", "constraint", "end")}
         self.assertEqual(labels, {"mode": ["mode 1", "mode 2"], "coordinate": ["blade.x", "blade.y", "blade.z"],
                                   "constraint": ["rod 1"], "end": ["left", "right"]})
-        for name in ("node", "step", "function", "order", "event"):
+        for name in ("node", "step", "function", "order", "event", "range"):
             np.testing.assert_array_equal(self.file[name][:], np.arange(len(self.file[name])))
 
     def test_a_step_joins_a_point_and_the_next(self):
@@ -185,6 +195,15 @@ class Numbers(unittest.TestCase):
         node, omega = self.data["event_node"][0], self.data["omega"]
         self.assertTrue(omega[node] <= self.data["event_parameter"][0] < omega[node - 1])
         self.assertTrue(self.data["eigenvalue"][node - 1, 0].real < 0.0 <= self.data["eigenvalue"][node, 0].real)
+
+    def test_stable_range_ends_at_flutter(self):
+        data = self.data
+        self.assertEqual([text.decode() for text in data["stable_kind"]], ["stable"])
+        self.assertEqual([text.decode() for text in data["stable_cause"][0]], ["start", "flutter"])
+        self.assertEqual(data["stable_from"].tolist(), [100.0])
+        self.assertEqual(data["stable_to"][0], data["event_parameter"][0])
+        self.assertEqual(data["stable_margin"][0].tolist(), [-data["eigenvalue"].real[0].max(), 0.0])
+        self.assertEqual(data["stable_mode"][0, 1], 1)
 
     def test_series_leads_to_the_next_point(self):
         """Its remainder is of fourth order: |s(p + h) - sum| shrinks with h^4, far below the linear term."""

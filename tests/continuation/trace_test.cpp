@@ -261,39 +261,11 @@ TEST(Trace, RigidBodyModeAloneCanBeFollowed) {
   EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
 }
 
-/// Pushed along its circle with p times its weight: sin(angle) = p, a fold at p = 1. There is a point on it,
-/// so that the eigenvalue, which varies like the fourth root of 1 - p, is known to the rounding of p.
+/// There is a point on it, so that the eigenvalue, which varies like the fourth root of 1 - p, is known to
+/// the rounding of p.
 TEST(Trace, HasAPointOnAFold) {
-  const RecordedTrace trace = record_trace(make_setting(R"(
-[parameters]
-g = 9.81
-p = 0.0
-[trace]
-parameter = "p"
-from = 0
-to = 1.2
-tolerance = 1e-9
-[gravity]
-acceleration = [0, 0, "-g"]
-[[point]]
-name = "bob"
-mass = 1.0
-position = [0, 0, -1]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = 1.0
-[[fixed]]
-point = "bob"
-coordinate = "y"
-[[follower_force]]
-point = "bob"
-from = [0, 0, 0]
-to = "bob"
-magnitude = "p*g"
-angle = "-pi/2"
-axis = [0, 1, 0]
-)"));
+  const RecordedTrace trace = record_trace(pushed_pendulum({}, {{"tolerance", "1e-9"}}));
+
   ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   ASSERT_EQ(trace.result.events.size(), 1U);
   EXPECT_EQ(trace.result.events[0].kind, EventKind::fold);

@@ -64,6 +64,21 @@ INSTANTIATE_TEST_SUITE_P(Places, ChebyshevRoots,
                                          RootsCase{"OneFarAway", {0.5, Complex(-3.0, 2.0)}}),
                          [](const auto& test) { return test.param.name; });
 
+TEST(ChebyshevRoots, BesideTheAxisStayThereWhenHighCoefficientsAreRounding) {
+  // What an interpolant of a parabola may look like: dividing by its leading coefficient would make its two
+  // roots real.
+  const Complex root(0.78, 3.2e-3);
+  ComplexVector coefficients = chebyshev_coefficients(
+      [&](double t) {
+        return polynomial({root, std::conj(root)}, t);
+      },
+      9);
+  for (const double noise : {1e-14, 1e-13, 2e-13, 1e-12}) {
+    coefficients.tail(7).setConstant(noise * coefficients.cwiseAbs().maxCoeff());
+    EXPECT_LT(distance(root, chebyshev_roots(coefficients)), 1e-7) << noise;
+  }
+}
+
 TEST(ChebyshevRoots, OfASmoothFunctionConvergeWithTheDegree) {
   // cos(9 t) vanishes at pi/18, pi/6, 5 pi/18.
   const auto error = [](int degree) {

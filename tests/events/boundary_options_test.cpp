@@ -83,7 +83,7 @@ TEST(BoundaryOptions, FaultsOfTheEventsTableHaveTheirPlace) {
     }
   };
   expect("damping_ratio = 1.5", "[events] damping_ratio: must lie between -1 and 1; found 1.5");
-  expect("damping_ratio = \"P\"", "[events] damping_ratio: expected a number without parameters");
+  expect("damping_ratio = \"P\"", "[events] damping_ratio: expected numbers without parameters");
   expect("dampin_ratio = 0.1", "[events] dampin_ratio: unknown key; did you mean 'damping_ratio'?");
 }
 

@@ -2,7 +2,6 @@
 // directions, with four first steps; hard_case_table prints the same as a table.
 #include <gtest/gtest.h>
 
-
 #include "eigentrail/core/text.hpp"
 #include "hard_cases/run_case.hpp"
 

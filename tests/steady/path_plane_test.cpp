@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "eigentrail/core/series.hpp"
 #include "support/scenes.hpp"
@@ -15,39 +14,9 @@ namespace {
 constexpr double tolerance = 1e-12;
 constexpr double g = 9.81, m = 2.0, length = 1.5;
 
-/// Pushed along its circle with p times its weight: sin(angle) = p, a fold at p = 1 where it stands level.
-/// x = length p, z = -length cos(angle), lambda = m g cos(angle) / (2 length). `unit` is what p is counted
-/// in.
-Setting pushed_pendulum(double unit = 1.0) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[parameters]\np = 0.5\nunit = " << unit << R"(
-[trace]
-parameter = "p"
-from = 0
-to = 0.9
-[gravity]
-acceleration = [0, 0, -9.81]
-[[point]]
-name = "bob"
-mass = 2
-position = [0.01, 0, -1.5]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = 1.5
-[[fixed]]
-point = "bob"
-coordinate = "y"
-[[follower_force]]
-point = "bob"
-from = [0, 0, 0]
-to = "bob"
-magnitude = "p / unit * 2 * 9.81"
-axis = [0, -1, 0]
-angle = "pi / 2"
-)";
-  return make_setting(text.str());
+/// lambda = m g cos(angle) / (2 length).
+Setting pendulum(double unit = 1.0) {
+  return pushed_pendulum({.mass = m, .length = length, .unit = unit, .guess = 0.01});
 }
 
 /// Two springs of unit stiffness from (-1, 0) and (1, 0) to an apex at height w, without force at w = 0.2.
@@ -106,7 +75,7 @@ class PlaneThroughPendulum : public testing::TestWithParam<double> {};
 /// A plane z = const meets the circle at one height; p follows from it. At height 0 that is the fold.
 TEST_P(PlaneThroughPendulum, IsMetAtTheClosedForm) {
   const double z = GetParam();
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
   const double x = std::sqrt(length * length - z * z);
   const Equilibrium found = on.solve(plane, Vector{{x + 0.02, 0.01, z}}, x / length - 0.03);
@@ -122,7 +91,7 @@ TEST_P(PlaneThroughPendulum, IsMetAtTheClosedForm) {
 TEST_P(PlaneThroughPendulum, SeriesEqualTheClosedForm) {
   constexpr int order = 5;
   const double z0 = GetParam();
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
   const double x0 = std::sqrt(length * length - z0 * z0);
   const Equilibrium found = on.solve(plane, Vector{{x0 + 0.02, 0.01, z0}}, x0 / length - 0.03);
@@ -145,7 +114,7 @@ TEST_P(PlaneThroughPendulum, SeriesEqualTheClosedForm) {
 /// the solution.
 TEST_P(PlaneThroughPendulum, LinearizationIsThatOfTheSolution) {
   const double z = GetParam();
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
   const double x = std::sqrt(length * length - z * z);
   const Equilibrium found = on.solve(plane, Vector{{x, 0.0, z}}, x / length);
@@ -160,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Heights, PlaneThroughPendulum,
 
 TEST(PathPlane, SolvesAtTheFoldWhereTheParameterAloneDoesNot) {
   // The rival: p a little behind the fold has no equilibrium. The plane through the same guess has one.
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const Vector guess{{1.5, 0.0, -1e-3}};
   const Equilibrium found = on.solve({Vector{{0.0, 0.0, 1.0}}, 0.0}, guess, 1.0 + 1e-6);
   ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
@@ -172,7 +141,7 @@ TEST(PathPlane, SolvesAtTheFoldWhereTheParameterAloneDoesNot) {
 }
 
 TEST(PathPlane, SeriesInTheParameterDivergeTowardsTheFoldWhereThoseOnThePlaneDoNot) {
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
   const double z = -1e-4;
   const Equilibrium found = on.solve(plane, Vector{{std::sqrt(2.25 - z * z), 0.0, z}}, 1.0);
@@ -190,7 +159,7 @@ TEST(PathPlane, SeriesInTheParameterDivergeTowardsTheFoldWhereThoseOnThePlaneDoN
 /// A plane across the path in both x and p: series of order q miss the solution ahead by h^(q+1).
 TEST(PathPlane, SeriesHaveTheirOrderOnASlantedPlane) {
   const PathPlane plane{Vector{{-0.3, 0.1, 0.8}}, 0.5};
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const Equilibrium start = on.solve(plane, Vector{{1.4, 0.0, -0.5}}, 0.9);
   ASSERT_EQ(start.status, SteadyStatus::converged) << start.report.message;
   const double p0 = on.p;
@@ -218,7 +187,7 @@ class UnitOfTheParameter : public testing::TestWithParam<double> {};
 
 TEST_P(UnitOfTheParameter, ChangesNothingButTheScale) {
   const double unit = GetParam();
-  OnPlane on(pushed_pendulum(unit));
+  OnPlane on(pendulum(unit));
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
   const Equilibrium found = on.solve(plane, Vector{{1.52, 0.0, -0.1}}, 0.97 * unit);
   ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
@@ -311,14 +280,14 @@ TEST(PathPlane, DirectionsAtAPitchforkAreThoseOfBothPaths) {
 
 TEST(PathPlane, ThatThePathNeverMeetsIsReported) {
   // The bob cannot rise above its length.
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const Equilibrium found = on.solve({Vector{{0.0, 0.0, 1.0}}, 0.0}, Vector{{0.1, 0.0, 2.0}}, 0.5);
   EXPECT_EQ(found.status, SteadyStatus::not_converged);
   EXPECT_FALSE(found.report.message.empty());
 }
 
 TEST(PathPlane, ValuesThatAreNotFiniteAreReported) {
-  OnPlane on(pushed_pendulum());
+  OnPlane on(pendulum());
   const Equilibrium found = on.solve({Vector{{0.0, 0.0, 1.0}}, 0.0}, Vector{{0.0, 0.0, 0.0}}, 0.5);
   EXPECT_EQ(found.status, SteadyStatus::not_finite) << "the force has no direction";
 }

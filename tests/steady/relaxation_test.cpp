@@ -138,34 +138,7 @@ TEST(Relaxation, SlowBladeIsFoundFromItsGuess) {
 
 /// Beyond its fold the pushed pendulum has no equilibrium: it turns for ever, and relaxation says so.
 TEST(Relaxation, WithoutAnEquilibriumDoesNotComeToRest) {
-  const Setting setting = make_setting(R"(
-[parameters]
-p = 1.2
-[trace]
-parameter = "p"
-from = 1.2
-to = 1.3
-[gravity]
-acceleration = [0, 0, -9.81]
-[[point]]
-name = "bob"
-mass = 1.0
-position = [0.1, 0, -1]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = 1.0
-[[fixed]]
-point = "bob"
-coordinate = "y"
-[[follower_force]]
-point = "bob"
-from = [0, 0, 0]
-to = "bob"
-magnitude = "p*9.81"
-angle = "-pi/2"
-axis = [0, 1, 0]
-)");
+  const Setting setting = pushed_pendulum({.from = 1.2, .to = 1.3, .guess = 0.1});
   EvaluationCounts counts = setting.model->new_counts();
   const Vector parameters = setting.scene.parameters.declared_values();
   Vector x = setting.model->initial_guess(parameters);

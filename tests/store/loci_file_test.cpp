@@ -34,14 +34,18 @@ class LociFileTest : public testing::Test {
     observer.point = [&](const TracePoint& point) {
       if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, *start);
       writer->append(point);
+      recorder.append(point);
       return true;
     };
     TraceResult result = trace(*setting.model, setting.options, observer);
-    writer->finish(result);
+    ranges = stable_ranges(recorder.path(), result.events, {setting.options.tolerance, result.s_ref});
+    writer->finish(result, ranges);
     return result;
   }
 
   std::string path;
+  PathRecorder recorder;
+  std::vector<StableRange> ranges;  ///< that were written
 };
 
 /// Equal, or both not a number.
@@ -94,6 +98,13 @@ void expect_equal_events(const std::vector<LociEvent>& found, const std::vector<
     const bool branches = event.puiseux != 0.0;
     EXPECT_TRUE(branches ? found[i].puiseux == event.puiseux : std::isnan(found[i].puiseux.real()));
   }
+}
+
+void expect_equal_ends(const RangeEnd& found, const RangeEnd& expected) {
+  EXPECT_EQ(found.p, expected.p);
+  EXPECT_EQ(found.cause, expected.cause);
+  EXPECT_EQ(found.margin, expected.margin);
+  EXPECT_EQ(found.mode, expected.mode);
 }
 
 /// s^2 + p s + 1 = 0, a pair that meets on the real axis at p = 2, beside two modes that coalesce at p = 1.
@@ -187,6 +198,29 @@ TEST_F(LociFileTest, ReadsBackBlocksAndEvents) {
     const std::vector<ComplexVector> found = loci.eigenvalues_at(p);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_TRUE(same(found[0], recorded.eigenvalues_at(p))) << "at " << p;
+  }
+}
+
+/// The damping p of one mode vanishes at p = 0; undamped ones are marginal beside.
+TEST_F(LociFileTest, ReadsBackStableRanges) {
+  const std::string oscillator =
+      "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\n"
+      "M = [ [[1]] ]\nC = [ [[0]], [[1]] ]\nK = [ [[1]] ]\n";
+  for (const std::string& scene : {oscillator, meeting_modes}) {
+    recorder = {};
+    ASSERT_EQ(write(make_setting(scene)).status, TraceStatus::completed);
+    const LociFile loci = read_loci(path);
+    ASSERT_TRUE(loci.ranges);
+    ASSERT_EQ(loci.ranges->size(), ranges.size());
+    ASSERT_EQ(ranges.size(), 1U);
+    const StableRange& found = loci.ranges->front();
+    EXPECT_EQ(found.kind, scene == oscillator ? Stability::stable : Stability::marginal);
+    EXPECT_EQ(found.kind, ranges[0].kind);
+    expect_equal_ends(found.from, ranges[0].from);
+    expect_equal_ends(found.to, ranges[0].to);
+    EXPECT_EQ(found.least_margin, ranges[0].least_margin);
+    EXPECT_EQ(found.largest_margin, ranges[0].largest_margin);
+    EXPECT_EQ(found.largest_at, ranges[0].largest_at);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "eigentrail/modes/spectrum.hpp"
@@ -35,6 +36,33 @@ Setting scene_setting(const std::string& name, const OptionTexts& overrides,
     text.replace(at, what.size(), with);
   }
   return make_setting(text, overrides);
+}
+
+Setting pushed_pendulum(const PushedPendulum& pendulum, const OptionTexts& overrides) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[parameters]\np = " << pendulum.from << "\nunit = " << pendulum.unit
+       << "\nmass = " << pendulum.mass << "\nlength = " << pendulum.length
+       << "\n[trace]\nparameter = \"p\"\nfrom = " << pendulum.from << "\nto = " << pendulum.to
+       << "\n[[point]]\nname = \"bob\"\nmass = \"mass\"\nposition = [" << pendulum.guess << R"(, 0, "-length"]
+[gravity]
+acceleration = [0, 0, -9.81]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = "length"
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p / unit * mass * 9.81"
+axis = [0, -1, 0]
+angle = "pi / 2"
+)";
+  return make_setting(text.str(), overrides);
 }
 
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts) {

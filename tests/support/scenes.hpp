@@ -24,6 +24,16 @@ Setting make_setting(const std::string& text, const OptionTexts& overrides = {})
 Setting scene_setting(const std::string& name, const OptionTexts& overrides = {},
                       const std::vector<std::pair<std::string, std::string>>& replacements = {});
 
+/// A pendulum in the plane y = 0, pushed along its circle with p times its weight: sin(angle) = p, a fold at
+/// p = 1 where it stands level. x = length p, z = -length cos(angle), s^2 = -g cos(angle) / length.
+struct PushedPendulum {
+  double mass = 1.0, length = 1.0;
+  double unit = 1.0;  ///< what p is counted in
+  double from = 0.0, to = 1.2;
+  double guess = 0.0;  ///< x of the guess, whose z is -length
+};
+Setting pushed_pendulum(const PushedPendulum& pendulum, const OptionTexts& overrides = {});
+
 /// A point of the path with all modes, computed from the scene's own guess and the full spectrum; `order` of
 /// the following differentiation.
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts);

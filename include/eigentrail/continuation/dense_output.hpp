@@ -35,6 +35,10 @@ class HermiteInterpolant {
   /// and what follows it if the terms go on falling as the last two did.
   Vector error_without_last() const;
 
+  /// The last term of one function at t as a share of its largest one there: small where t is near enough
+  /// for the interpolant to tell the function.
+  double last_share(Eigen::Index function, Complex t) const;
+
  private:
   double term(Eigen::Index function, Eigen::Index k) const;
 

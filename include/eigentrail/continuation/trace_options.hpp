@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/model/build.hpp"
 
 namespace eigentrail {
@@ -34,6 +35,8 @@ struct TraceOptions {
   /// Other parameters at other values than the scene declares, in their units. Not an option of a scene: one
   /// model serves many traces at different values, in several threads.
   std::map<std::string, double> values = {};
+
+  EventOptions events = {};  ///< of the scene's [events]
 
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>

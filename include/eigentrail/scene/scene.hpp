@@ -48,6 +48,9 @@ class TableReader {
   Expression expression(const std::string& key);
   Expression expression(const std::string& key, double otherwise);
 
+  /// An expression, or a list of some.
+  std::vector<Expression> list(const std::string& key);
+
   /// Three expressions: [x, y, z].
   std::array<Expression, 3> vector(const std::string& key);
 

@@ -34,6 +34,18 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
                                              const Equilibrium& equilibrium, const Vector& parameters,
                                              int traced, int order, Path& path, EvaluationCounts& counts);
 
+/// The force that a change of a parameter by one brings, in its unit.
+struct KernelLoad {
+  double along_kernel = 0.0;  ///< along the left null vector of the tangent stiffness T^T K T
+  double total = 0.0;         ///< its length
+};
+
+/// One for each of `parameters` (indices), where the tangent stiffness is singular; NaN where a force is not
+/// finite.
+std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
+                                     const std::vector<int>& parameters, const Linearization& linearization,
+                                     const Matrix& tangent_basis, EvaluationCounts& counts);
+
 /// How far the force that a change of the parameter brings lies in the kernel of the tangent stiffness T^T K
 /// T, between 0 and 1. Where the stiffness is singular, zero means that another path crosses (a pitchfork or
 /// a transcritical point), anything else that this one turns back (a fold). `tangent_basis` is T, of size n x

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/continuation/recorded_path.hpp"
+#include "eigentrail/events/stable_ranges.hpp"
 
 namespace eigentrail {
 
@@ -20,24 +22,19 @@ struct LociEvent {
 };
 
 /// Contents of a loci file that `eval`, `events` and `info` need; read once, plain data.
-struct LociFile {
+struct LociFile : RecordedPath {
   std::string path;
   std::string parameter;       ///< name of the traced parameter
   std::string parameter_unit;  ///< "1" when it has none
   std::vector<std::string> modes;
   std::vector<std::string> coordinates, constraints;
-  std::vector<double> p;        ///< per node; monotonic unless the path turns back at a fold
-  ComplexMatrix eigenvalues;    ///< node x mode, NaN where a mode does not exist
-  std::vector<PathStep> steps;  ///< between neighbouring nodes
   std::vector<LociEvent> events;
+  /// Stable and marginal ranges; absent in a file whose trace did not come to its end, or came before them.
+  std::optional<std::vector<StableRange>> ranges;
   std::vector<double> residual, condition;        ///< node x mode, row-major
   Matrix equilibrium;                             ///< node x coordinate
   Matrix multiplier;                              ///< node x constraint
   std::map<std::string, std::string> attributes;  ///< root attributes as text
-
-  std::size_t n_nodes() const { return p.size(); }
-  double lowest() const;   ///< of the traced range; not a number when the file holds no points
-  double highest() const;  ///< likewise
 
   /// A root attribute; throws InputError when the file lacks it.
   const std::string& attribute(const std::string& name) const;
@@ -45,18 +42,7 @@ struct LociFile {
   /// The stored point nearest to a parameter value; the file must hold points.
   std::size_t nearest_node(double parameter_value) const;
 
-  /// A place on the path: t in [0, 1] on the step between two nodes.
-  struct Position {
-    std::size_t step = 0;
-    double t = 0.0;
-  };
-  /// Where the path passes a parameter value, in the order of the trace; more than once behind a fold.
-  std::vector<Position> positions(double parameter_value) const;
-
-  /// Eigenvalues of all modes at a place; NaN where a mode does not exist. A complex pair is reported by its
-  /// member with Im s >= 0.
-  ComplexVector eigenvalues_at(const Position& position) const;
-
+  using RecordedPath::eigenvalues_at;
   /// Eigenvalues of all modes wherever the path passes a parameter value, at least once. Throws InputError
   /// outside the range.
   std::vector<ComplexVector> eigenvalues_at(double parameter_value) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/events/stable_ranges.hpp"
 
 namespace eigentrail {
 
@@ -28,8 +29,8 @@ class LociWriter {
   /// second of further points.
   void append(const TracePoint& point);
 
-  /// Writes what is buffered, the events, and the outcome and counts of the run.
-  void finish(const TraceResult& result);
+  /// Writes what is buffered, the events, the stable ranges, and the outcome and counts of the run.
+  void finish(const TraceResult& result, const std::vector<StableRange>& ranges);
 
  private:
   struct Implementation;

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "check_output.hpp"
+#include "commands.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/store/map_writer.hpp"
+#include "eigentrail/store/output_file.hpp"
+#include "map_picture.hpp"
+#include "output.hpp"
+#include "progress_bar.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct MapArguments {
+  std::string scene;
+  std::string output;
+  std::string grid = "50";
+  bool force = false;
+  bool quiet = false;
+  MapOptions options;
+  std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
+};
+
+/// "N", or "NxM" for N values of the second parameter by M of the first.
+void read_grid(const std::string& text, MapOptions& options) {
+  const auto number = [&text](std::size_t begin, std::size_t end) {
+    int value = 0;
+    const auto parsed = std::from_chars(text.data() + begin, text.data() + end, value);
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + end)
+      throw InputError(
+          "--grid: expected N, or NxM for N values of the second parameter by M of the first; found '" +
+          text + "'");
+    return value;
+  };
+  const std::size_t cross = text.find('x');
+  options.n_second = number(0, std::min(cross, text.size()));
+  options.n_first = cross == std::string::npos ? options.n_second : number(cross + 1, text.size());
+}
+
+/// What the user should know about lines, with the first of each kind.
+std::vector<std::string> notes_about(const StabilityMap& map, const MapSetup& setup) {
+  std::vector<std::string> notes;
+  const auto note = [&](const std::string& what, auto&& applies, bool with_reason) {
+    const auto first = std::find_if(map.lines.begin(), map.lines.end(), applies);
+    const auto count = std::count_if(map.lines.begin(), map.lines.end(), applies);
+    if (count == 0) return;
+    notes.push_back(std::to_string(count) + " of " + std::to_string(map.lines.size()) + " lines " + what +
+                    ", first at " + setup.options.second + " = " + rounded(first->second) +
+                    (with_reason ? ": " + first->message : ""));
+  };
+  note(
+      "could not be begun; their cells are unknown",
+      [](const MapLine& line) { return !has_started(line.status); }, true);
+  note(
+      "ended early; cells beyond are unknown",
+      [](const MapLine& line) { return has_started(line.status) && line.status != TraceStatus::completed; },
+      true);
+  note(
+      "miss a mode somewhere; their cells there are unknown",
+      [](const MapLine& line) { return line.doubtful_cells > 0; }, false);
+  note(
+      "turn back at a fold; their cells show the first passage",
+      [](const MapLine& line) { return line.turned_back; }, false);
+  note(
+      "followed some of their modes only and speak of these",
+      [](const MapLine& line) { return line.n_modes < line.n_available; }, false);
+  return notes;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return rounded(100.0 * static_cast<double>(part) / static_cast<double>(whole), 3) + " %";
+}
+
+void print_shares(const StabilityMap& map, const MapTotals& totals) {
+  double least = INFINITY, largest = -INFINITY;
+  for (const MapLine& line : map.lines) {
+    for (const double margin : line.margin) {
+      if (std::isnan(margin)) continue;
+      least = std::min(least, margin);
+      largest = std::max(largest, margin);
+    }
+  }
+  std::printf("  stable %s, ", percent(totals.stable, totals.cells).c_str());
+  if (totals.marginal > 0) std::printf("marginal %s, ", percent(totals.marginal, totals.cells).c_str());
+  std::printf("unstable %s, unknown %s (%zu of %zu cells)\n", percent(totals.unstable, totals.cells).c_str(),
+              percent(totals.unknown, totals.cells).c_str(), totals.unknown, totals.cells);
+  if (least <= largest)
+    std::printf("  margin from %s to %s 1/s\n", rounded(least).c_str(), rounded(largest).c_str());
+}
+
+/// A complex LU of size n + 1 takes 8/3 n^3 operations, QZ without vectors on the companion form 30 (2n)^3
+/// (Golub and Van Loan, section 7.7).
+constexpr int lu_per_qz = 90;
+
+void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
+  Eigen::Index size = 0;
+  for (const MapLine& line : map.lines) size = std::max(size, line.n_independent);
+  const double cells = static_cast<double>(totals.cells);
+  std::printf(
+      "  work  %zu traces for %zu cells, %llu complex LU of size %lld: %s per cell (a QZ in every cell: "
+      "about %d)\n",
+      map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
+      static_cast<long long>(size) + 1,
+      rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str(), lu_per_qz);
+  std::printf("  time  %s s: %s ms per cell\n", rounded(seconds, 3).c_str(),
+              rounded(1e3 * seconds / cells, 3).c_str());
+}
+
+void print_summary(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes,
+                   double seconds) {
+  const TraceSetup& trace = setup.trace;
+  const MapOptions& options = setup.options;
+  const auto window = [&](const std::string& name, double from, double to) {
+    const std::string& unit = trace.scene.parameters.at(name).unit;
+    return name + " " + exact_text(from) + " -> " + exact_text(to) + (unit.empty() ? "" : " " + unit);
+  };
+  if (!trace.scene.title.empty()) std::printf("%s\n", printable(trace.scene.title).c_str());
+  std::printf("  %d x %d cells: %s, %s, tolerance %s\n", options.n_second, options.n_first,
+              window(options.second, options.from, options.to).c_str(),
+              window(trace.options.parameter, trace.options.from, trace.options.to).c_str(),
+              exact_text(trace.options.tolerance).c_str());
+  for (const std::string& line : map_picture(map, trace.options.parameter, options.second))
+    std::printf("%s\n", line.c_str());
+  std::printf("  . no mode grows, 1 2 ... growing modes, ? unknown\n");
+  const MapTotals totals = total(map);
+  print_shares(map, totals);
+  for (const std::string& note : notes) std::printf("  note  %s\n", printable(note).c_str());
+  print_work(map, totals, seconds);
+}
+
+/// Why no cell of a map is known.
+std::string failure(const StabilityMap& map) {
+  const std::string& message = map.lines.front().message;
+  return "no cell of the window is known, nothing is written; its first line: " +
+         (message.empty() ? "the trace missed a mode" : message);
+}
+
+int run_map(MapArguments& arguments) {
+  read_grid(arguments.grid, arguments.options);
+  const MapSetup setup =
+      prepare_map(read_scene(arguments.scene),
+                  {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
+  check_map_names(setup);
+  check_output(arguments.output, arguments.force, {map_format, "stability map"});
+  check_can_create(arguments.output);
+  ProgressBar progress(arguments.quiet);
+  const auto start = std::chrono::steady_clock::now();
+  const StabilityMap map = stability_map(setup, [&](int lines) {
+    progress.update(static_cast<double>(lines) / setup.options.n_second, lines, "lines");
+  });
+  progress.finish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const MapTotals totals = total(map);
+  if (totals.unknown == totals.cells) {
+    std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
+                 printable(failure(map)).c_str());
+    return numbers_failed;
+  }
+  const std::vector<std::string> notes = notes_about(map, setup);
+  write_map(arguments.output, setup, map, notes);
+  if (!arguments.quiet) {
+    print_summary(setup, map, notes, seconds);
+    std::printf("wrote %s\n", arguments.output.c_str());
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_map(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<MapArguments>();
+  CLI::App* command =
+      program.add_subcommand("map", "stability over a window of two parameters: growing modes and margin");
+  MapOptions& options = arguments->options;
+  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  command->add_option("--second", options.second, "name of the second parameter")->required();
+  command->add_option("--from", options.from, "first value of the second parameter, in its unit")->required();
+  command->add_option("--to", options.to, "last value of the second parameter")->required();
+  command->add_option("--grid", arguments->grid,
+                      "N values of both, or NxM: N of the second by M of the first (50)");
+  command->add_option("-o,--output", arguments->output, "map file to write (HDF5)")->required();
+  for (const auto& [flag, key, help] :
+       {std::array{"--parameter", "parameter", "name of the first parameter: the one that is traced"},
+        std::array{"--first-from", "from", "where the window of the first parameter begins"},
+        std::array{"--first-to", "to", "where it ends"},
+        std::array{"--tolerance", "tolerance", "bound of the relative error of every eigenvalue"}}) {
+    command->add_option_function<std::string>(
+        flag,
+        [arguments, key = std::string(key)](const std::string& text) {
+          arguments->trace_options[key] = text;
+        },
+        std::string(help) + " (overrides the scene)");
+  }
+  command->add_flag_callback(
+      "--no-certify", [arguments] { arguments->trace_options["certify"] = "false"; },
+      "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
+  command->add_option("--jobs", options.jobs, "threads; 0: one per core");
+  command->add_flag("--force", arguments->force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
+  command->footer(
+      "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
+      "40x80 -o "
+      "drag.h5");
+  command->callback([arguments, &exit_code] { exit_code = run_map(*arguments); });
+}
+
+}  // namespace eigentrail::app

@@ -1,0 +1,58 @@
+#include "ranges.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+std::string end_text(const RangeEnd& end, Stability kind) {
+  std::string text = end.cause;
+  if (end.mode >= 0) text += ", mode " + std::to_string(end.mode + 1);
+  const bool at_margin = kind == Stability::stable && end.margin != 0.0;
+  return at_margin ? text + ", margin " + rounded(end.margin, 4) : text;
+}
+
+nlohmann::ordered_json end_json(const RangeEnd& end) {
+  nlohmann::ordered_json json{{"parameter", end.p}, {"cause", end.cause}, {"margin", end.margin}};
+  json["mode"] = end.mode < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(end.mode + 1);
+  return json;
+}
+
+}  // namespace
+
+void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter,
+                  const std::string& whose) {
+  const std::string heading = "  stable ranges" + (whose.empty() ? "" : " (" + whose + ")");
+  std::printf("%s%s\n", heading.c_str(), ranges.empty() ? "  none" : "");
+  std::vector<std::vector<std::string>> rows;
+  for (const StableRange& range : ranges) {
+    std::string margins;
+    if (range.kind == Stability::stable) {
+      margins = "margin " + rounded(range.least_margin, 4) + " to " + rounded(range.largest_margin, 4) +
+                " 1/s, largest at " + rounded(range.largest_at, 6);
+    }
+    rows.push_back({"  " + stability_name(range.kind),
+                    parameter + " = " + rounded(range.from.p, 12) + " -> " + rounded(range.to.p, 12),
+                    "from " + end_text(range.from, range.kind), "to " + end_text(range.to, range.kind),
+                    margins});
+  }
+  print_table(rows);
+}
+
+nlohmann::ordered_json ranges_json(const std::vector<StableRange>& ranges) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const StableRange& range : ranges) {
+    list.push_back({{"kind", stability_name(range.kind)},
+                    {"from", end_json(range.from)},
+                    {"to", end_json(range.to)},
+                    {"least_margin", range.least_margin},
+                    {"largest_margin", range.largest_margin},
+                    {"largest_at", range.largest_at}});
+  }
+  return list;
+}
+
+}  // namespace eigentrail::app

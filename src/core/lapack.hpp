@@ -1,0 +1,8 @@
+// LAPACK's C interface, without the macros of C's complex numbers.
+#pragma once
+
+#include <complex>
+
+#define lapack_complex_float std::complex<float>
+#define lapack_complex_double std::complex<double>
+#include <lapacke.h>

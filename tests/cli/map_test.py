@@ -1,0 +1,288 @@
+"""`eigentrail map`: the file that others open, what is said, and bad input."""
+
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from command_test_case import CommandTest
+from program import BLADE, EXIT_NUMBERS_FAILED, ProgramTest, each_case, edited
+
+# s^2 + (p^2 + q^2 - 1) s + 0.8 - p - q = 0: a circle of flutter and a line of divergence.
+CIRCLE = """\
+title = "Circle"
+
+[parameters]
+p = { value = 0.0, unit = "m" }
+q = { value = 0.0, unit = "rpm" }
+
+[trace]
+parameter = "p"
+from = -1.5
+to = 1.5
+
+[matrix_family]
+M = [[[1]]]
+C = [[["p*p + (30*q/pi)^2 - 1"]]]
+K = [[["0.8 - p - 30*q/pi"]]]
+"""
+
+# A pendulum pushed sideways by p times its weight; it has no equilibrium with p > 1.
+PUSHED = """\
+[parameters]
+g = 9.81
+p = 0.0
+r = 0.1
+
+[trace]
+parameter = "r"
+from = 0.1
+to = 1
+
+[gravity]
+acceleration = [0, 0, "-g"]
+
+[[point]]
+name = "bob"
+mass = 1.0
+position = [0, 0, -1]
+
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.0
+
+[[fixed]]
+point = "bob"
+coordinate = "y"
+
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p*g"
+angle = "-pi/2"
+axis = [0, 1, 0]
+
+[[drag]]
+point = "bob"
+coefficient = "r"
+"""
+
+LAYOUT = {
+    "q": (("q",), "rpm"),
+    "p": (("p",), "m"),
+    "unstable": (("q", "p"), "1"),
+    "margin": (("q", "p"), "1/s"),
+    "damping_ratio": (("q", "p"), "1"),
+    "line_status": (("q",), "1"),
+    "line_reached": (("q",), "m"),
+    "line_work": (("q",), "1"),
+    "axis_point": (("axis_point",), "1"),
+    "axis_line": (("axis_point",), "1"),
+    "axis_parameter": (("axis_point",), "m"),
+    "axis_kind": (("axis_point",), "1"),
+    "axis_frequency": (("axis_point",), "rad/s"),
+}
+WHOLE = {"unstable", "line_work", "axis_point", "axis_line"}
+TEXTS = {"line_status", "axis_kind"}
+
+
+def circle_unstable(q, p):
+    """Modes with Re s > 0 of CIRCLE, pairs counted once."""
+    c, k = p**2 + q**2 - 1, 0.8 - p - q
+    root = np.sqrt(c**2 / 4 - k + 0j)
+    upper, lower = -c / 2 + root, -c / 2 - root
+    return (upper.real > 0).astype(int) + ((lower.real > 0) & (root.imag == 0))
+
+
+class Map(CommandTest):
+    def map(self, scene, *options, output="map.h5", grid="9x31"):
+        """Maps a scene given as text; returns what is said."""
+        self.write("scene.toml", scene)
+        return self.run_well("map", "scene.toml", "--grid", grid, "-o", output, *options)
+
+    def circle(self, *options, output="map.h5"):
+        return self.map(CIRCLE, "--second", "q", "--from", "-1.5", "--to", "1.5", *options, output=output)
+
+    def open(self, name):
+        file = h5py.File(self.folder / name)
+        self.addCleanup(file.close)
+        return file
+
+    def test_datasets_have_dimensions_units_and_names(self):
+        self.circle()
+        file = self.open("map.h5")
+        self.assertEqual(set(file), set(LAYOUT))
+        for name, (dimensions, units) in LAYOUT.items():
+            with self.subTest(name):
+                dataset = file[name]
+                self.assertEqual(dataset.shape, tuple(len(file[d]) for d in dimensions))
+                if name not in dimensions:
+                    self.assertEqual([[scale.name for scale in dim.values()] for dim in dataset.dims],
+                                     [["/" + d] for d in dimensions])
+                self.assertEqual(dataset.attrs["units"], units)
+                self.assertTrue(dataset.attrs["long_name"])
+                self.assertEqual(dataset.dtype, np.dtype(object if name in TEXTS else
+                                                         np.int64 if name in WHOLE else np.float64))
+
+    def test_root_says_how_the_file_was_made(self):
+        self.circle("--tolerance", "1e-7")
+        attributes = self.open("map.h5").attrs
+        self.assertEqual((attributes["format"], attributes["schema_version"]), ("eigentrail-map", 1))
+        self.assertEqual((attributes["title"], attributes["scene"]), ("Circle", CIRCLE))
+        self.assertEqual((attributes["parameter"], attributes["second_parameter"]), ("p", "q"))
+        self.assertEqual((attributes["tolerance"], attributes["option_tolerance"]), (1e-7, "1e-07"))
+        self.assertEqual((attributes["count_lines"], attributes["count_cells"], attributes["notes"]), (9, 279, ""))
+        self.assertEqual(sum(attributes[f"count_{kind}_cells"] for kind in
+                             ("stable", "marginal", "unstable", "unknown")), 279)
+        self.assertEqual(attributes["count_factorizations"], np.sum(self.open("map.h5")["line_work"]))
+
+    def test_xarray_opens_it_and_the_cells_are_those_of_the_closed_form(self):
+        self.circle()
+        with xarray.open_dataset(self.folder / "map.h5", engine="h5netcdf") as data:
+            self.assertEqual(data.unstable.dims, ("q", "p"))
+            np.testing.assert_allclose(data.q, np.linspace(-1.5, 1.5, 9), atol=1e-15)
+            np.testing.assert_allclose(data.p, np.linspace(-1.5, 1.5, 31), atol=1e-15)
+            q, p = np.meshgrid(data.q, data.p, indexing="ij")
+            # Cells on the boundary itself are decided by rounding here.
+            clear = (np.abs(p**2 + q**2 - 1) > 1e-9) & (np.abs(0.8 - p - q) > 1e-9)
+            np.testing.assert_array_equal(data.unstable.values[clear], circle_unstable(q, p)[clear])
+            np.testing.assert_array_equal((data.margin.values < 0), data.unstable.values > 0)
+
+    def test_axis_points_lie_on_the_boundary(self):
+        self.circle()
+        file = self.open("map.h5")
+        p, q = file["axis_parameter"][:], file["q"][:][file["axis_line"][:]]
+        flutter = file["axis_kind"].asstr()[:] == "flutter"
+        self.assertTrue(flutter.any() and not flutter.all())
+        np.testing.assert_allclose((p**2 + q**2)[flutter], 1, atol=1e-8)
+        np.testing.assert_allclose((p + q)[~flutter], 0.8, atol=1e-8)
+
+    def test_every_number_of_threads_writes_the_same_bytes(self):
+        for jobs in (1, 2, 3, 8):
+            self.circle("--jobs", jobs, "--quiet", output=f"map_{jobs}.h5")
+        reference = (self.folder / "map_1.h5").read_bytes()
+        for jobs in (2, 3, 8):
+            self.assertEqual((self.folder / f"map_{jobs}.h5").read_bytes(), reference)
+
+    def test_summary_has_a_picture_shares_and_cost(self):
+        text = self.circle()
+        self.assertIn("9 x 31 cells: q -1.5 -> 1.5 rpm, p -1.5 -> 1.5 m", text)
+        rows = [line.split("|")[1] for line in text.splitlines() if "|" in line]
+        unstable = self.open("map.h5")["unstable"][:]
+        self.assertEqual(rows, ["".join("." if n == 0 else str(n) for n in line) for line in unstable[::-1]])
+        self.assertRegex(text, r"stable \S+ %, unstable \S+ %, unknown 0 % \(0 of 279 cells\)")
+        self.assertRegex(text, r"9 traces for 279 cells, \d+ complex LU of size 2: \S+ per cell")
+        self.assertTrue(text.endswith("wrote map.h5\n"))
+
+    def test_one_number_makes_a_square_grid_and_the_window_goes_either_way(self):
+        self.map(CIRCLE, "--second", "q", "--from", "1", "--to", "-1", "--first-from", "1", "--first-to", "-1",
+                 grid="5")
+        file = self.open("map.h5")
+        for name in ("p", "q"):
+            self.assertEqual(file[name][:].tolist(), [1, 0.5, 0, -0.5, -1])
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.circle("--quiet"), "")
+
+    def test_force_replaces_a_map(self):
+        self.circle()
+        self.circle("--force", "--first-to", "1")
+        self.assertEqual(self.open("map.h5")["p"][-1], 1)
+
+    def test_lines_without_equilibrium_are_unknown_and_said(self):
+        text = self.map(PUSHED, "--second", "p", "--from", "0", "--to", "1.5", grid="4x5")
+        self.assertIn("unknown 50 % (10 of 20 cells)", text)
+        self.assertRegex(text, r"note  2 of 4 lines could not be begun; .*, first at p = 1: no equilibrium found")
+        file = self.open("map.h5")
+        self.assertEqual(file["unstable"][:].tolist(), [[0] * 5] * 2 + [[-1] * 5] * 2)
+        self.assertEqual(np.isnan(file["margin"][:]).tolist(), [[False] * 5] * 2 + [[True] * 5] * 2)
+        self.assertEqual([text == "completed" for text in file["line_status"].asstr()], [True, True, False, False])
+        self.assertIn("could not be begun", file.attrs["notes"])
+
+    def test_window_without_any_equilibrium_keeps_the_old_file(self):
+        self.circle()
+        self.write("scene.toml", PUSHED)
+        before = self.contents()
+        run = self.run_program("map", "scene.toml", "--second", "p", "--from", "1.1", "--to", "1.5", "--grid", "3",
+                               "-o", "map.h5", "--force")
+        self.assertEqual((run.returncode, run.stdout), (EXIT_NUMBERS_FAILED, ""))
+        self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no cell of the window is known, nothing is written; "
+                                     r"[^\n]*no equilibrium found[^\n]*\n\Z")
+        self.assertEqual(self.contents(), before)
+
+
+WINDOW = {"--second": "drag", "--from": "1", "--to": "2", "--grid": "3", "--output": "new.h5"}
+
+# Options that replace those of WINDOW; flags have the value None.
+BAD_MAPS = [
+    ("second parameter is the first", {"--second": "omega"}, ["--second: 'omega' is the first parameter already"]),
+    ("unknown parameter", {"--second": "darg"}, ["--second: no parameter is called 'darg'", "'drag'"]),
+    ("derived parameter", {"--second": "reach"}, ["--second: 'reach' is defined by an expression"]),
+    ("unknown first parameter", {"--parameter": "omga"}, ["[trace] parameter", "did you mean 'omega'?"]),
+    ("empty window", {"--to": "1"}, ["--to: equals --from (1): the window is empty"]),
+    ("empty range of the first", {"--first-to": "100"}, ["[trace] to: equals from (100)"]),
+    ("infinite window", {"--to": "inf"}, ["--from, --to: expected finite numbers"]),
+    ("word as end", {"--to": "far"}, ["--to", "far"]),
+    ("one line", {"--grid": "1"}, ["--grid: expected at least 2 values of each parameter, found 1x1"]),
+    ("one cell a line", {"--grid": "5x1"}, ["--grid: expected at least 2", "5x1"]),
+    ("negative grid", {"--grid": "-3"}, ["--grid: expected at least 2", "-3x-3"]),
+    ("huge grid", {"--grid": "100000x100000"}, ["--grid: expected at most 10000000 cells, found 100000x100000"]),
+    ("grid beyond all numbers", {"--grid": "9" * 20}, ["--grid: expected N, or NxM", "found '999"]),
+    ("word as grid", {"--grid": "fine"}, ["--grid: expected N, or NxM", "found 'fine'"]),
+    ("half a grid", {"--grid": "5x"}, ["--grid: expected N, or NxM", "found '5x'"]),
+    ("grid of three numbers", {"--grid": "5x5x5"}, ["--grid: expected N, or NxM"]),
+    ("too many threads", {"--jobs": "100000"}, ["--jobs: expected 0 to 1024, found 100000"]),
+    ("less than no thread", {"--jobs": "-1"}, ["--jobs: expected 0 to 1024, found -1"]),
+    ("mass that becomes negative", {"--second": "mass", "--from": "-1"},
+     ["[[point]] 1 mass: must not be negative; found -1"]),
+    ("loci file as output", {"--output": "blade.h5", "--force": None}, ["blade.h5: is no readable stability map", "--force"]),
+    ("existing map without force", {"--output": "map.h5"}, ["map.h5: exists already", "--force"]),
+    ("scene as output", {"--output": "scene.toml", "--force": None}, ["scene.toml: is no readable stability map"]),
+    ("folder as output", {"--output": "folder"}, ["folder: is a folder"]),
+    ("output in a missing folder", {"--output": "none/new.h5"}, ["none/new.h5: the folder none does not exist"]),
+    ("output with a name too long", {"--output": "x" * 300}, ["x" * 300]),
+    ("output without a name", {"--output": ""}, ["--output"]),
+]
+
+
+@each_case(BAD_MAPS)
+class BadMap(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        scene = edited(BLADE, 'position = ["1 + length", 0, 0]', 'position = ["reach", 0, 0]')
+        self.write("scene.toml", edited(scene, "[trace]", 'reach  = "1 + length"\n\n[trace]'))
+        (self.folder / "folder").mkdir()
+        self.run_well("trace", "scene.toml", "-o", "blade.h5", "--quiet")
+        self.run_well(*self.arguments({"--output": "map.h5", "--grid": "2"}), "--quiet")
+
+    @staticmethod
+    def arguments(options):
+        return ["map", "scene.toml", *(name if value is None else f"{name}={value}"
+                                       for name, value in {**WINDOW, **options}.items())]
+
+    def refuse(self, arguments, fragments):
+        before = self.contents()
+        self.assert_refused(self.run_program(*arguments), fragments)
+        self.assertEqual(self.contents(), before)
+
+    def check(self, options, fragments):
+        self.refuse(self.arguments(options), fragments)
+
+    def test_no_second_parameter(self):
+        self.refuse(["map", "scene.toml", "--from", "1", "--to", "2", "-o", "new.h5"], ["--second"])
+
+    def test_parameter_named_like_a_dataset(self):
+        self.write("scene.toml", BLADE.replace("drag ", "margin ").replace('"drag"', '"margin"'))
+        self.refuse(self.arguments({"--second": "margin"}),
+                    ["scene.toml:7:", "[parameters] margin: a parameter of the map cannot be called 'margin'"])
+
+    def test_maps_are_no_loci_files(self):
+        self.refuse(["eval", "map.h5", "--at", "1"], ["map.h5: holds 'eigentrail-map', not loci"])
+        self.refuse(["trace", "scene.toml", "-o", "map.h5", "--force"], ["map.h5: is no readable loci file"])
+
+
+if __name__ == "__main__":
+    unittest.main()
