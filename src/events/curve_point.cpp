@@ -96,6 +96,27 @@ std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunct
   return point;
 }
 
+CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& function,
+                                const Situation& situation, const Matrix& series, const CurvePoint& neighbour,
+                                RunCounts& counts) {
+  CurvePoint point = neighbour;
+  point.flags = 0;
+  point.others = 0;
+  point.place = situation.place;
+  const double speed = series.col(1).head<2>().norm();
+  Matrix along = series;
+  for (Eigen::Index k = 1; k < along.cols(); ++k) along.col(k) /= std::pow(speed, k);
+  point.places = along.topRows(2);
+  point.places.col(0) = point.place;
+  point.tangent = point.places.col(1);
+  point.normal = Place(-point.tangent.y(), point.tangent.x());
+  if (point.functions.rows() == 2) point.functions = along.bottomRows(2).cast<Complex>();
+  point.path.x.col(0) = situation.point.equilibrium.x;
+  read_mode(situation, point);
+  count_others(window, function, situation.point.pencil, point, counts);
+  return point;
+}
+
 PlaceGuess predict(const CurvePoint& point, double h) {
   PlaceGuess guess;
   guess.place = evaluate_series(point.places, h);
