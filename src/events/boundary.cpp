@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "events/corners.hpp"
@@ -35,8 +35,10 @@ class BoundarySearch {
   std::optional<CurvePoint> start_on(const BoundarySeed& seed, const BoundaryFunction& function);
   Situation correct_seed(const BoundarySeed& seed, const BoundaryFunction& function);
   void finish();
-  void note(const std::string& text) {
-    if (said_.insert(text).second) result_.notes.push_back(text);
+  void note(const Finding& finding) {
+    std::vector<std::string>& places = findings_[finding.what];
+    if (std::find(places.begin(), places.end(), finding.where) == places.end())
+      places.push_back(finding.where);
   }
   void fail(const std::string& message) {
     result_.status = BoundaryStatus::incomplete;
@@ -54,10 +56,9 @@ class BoundarySearch {
   std::vector<BoundarySeed> seeds_;
   std::vector<LineExtremum> extrema_;
   std::vector<FollowedCurve> curves_;
-  std::set<std::string> said_;
+  std::map<std::string, std::vector<std::string>> findings_;  ///< where each holds
   int points_ = 0;
   double share_ = 0.0;  ///< of the work done
-  double step_share_ = 0.0;
 };
 
 /// The edges first, then the inner lines.
@@ -95,8 +96,7 @@ bool BoundarySearch::scan() {
   std::vector<double> references;
   for (LineScan& scan : scans) {
     if (scan.started) references.push_back(scan.s_ref);
-    if (!scan.note.empty()) note("no equilibrium, or no trace, " + scan.note);
-    for (const std::string& finding : scan.findings) note(finding);
+    for (const Finding& finding : scan.findings) note(finding);
     add(result_.counts, scan.counts);
     std::move(scan.seeds.begin(), scan.seeds.end(), std::back_inserter(seeds_));
     std::move(scan.extrema.begin(), scan.extrema.end(), std::back_inserter(extrema_));
@@ -104,7 +104,7 @@ bool BoundarySearch::scan() {
   result_.seeds = static_cast<int>(seeds_.size());
   if (references.empty()) {
     result_.status = BoundaryStatus::no_equilibrium;
-    result_.message = scans.front().note;
+    result_.message = scans.front().findings.front().where;
     return false;
   }
   std::nth_element(references.begin(),
@@ -168,8 +168,8 @@ std::optional<CurvePoint> BoundarySearch::start_on(const BoundarySeed& seed,
                                                    const BoundaryFunction& function) {
   const Situation there = correct_seed(seed, function);
   if (there.status != PointStatus::computed) {
-    note("a change of stability (" + boundary_name(seed.kind) + ") near " + window_.text(seed.place) +
-         " could not be followed: " + there.message);
+    note({"changes of stability that could not be followed",
+          boundary_name(seed.kind) + " near " + window_.text(seed.place) + ": " + there.message});
     fail("a change of stability could not be followed");
     return std::nullopt;
   }
@@ -205,15 +205,30 @@ void BoundarySearch::follow(const BoundarySeed& seed) {
   if (curves_.back().steps.empty()) curves_.pop_back();  // it only touches a corner of the window
 }
 
+/// Each finding once, with the first of its places.
+std::vector<std::string> told(const std::map<std::string, std::vector<std::string>>& findings) {
+  std::vector<std::string> notes;
+  for (const auto& [what, places] : findings) {
+    const std::string count = places.size() == 1 ? "" : std::to_string(places.size()) + ", first ";
+    notes.push_back(what + ": " + count + places.front());
+  }
+  return notes;
+}
+
 void BoundarySearch::finish() {
-  result_.corners = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
+  FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
+  result_.corners = std::move(found.corners);
+  for (const Place& place : found.apart)
+    note({"crossings of curves that belong to different equilibria, which are no corners",
+          window_.text(place)});
+  result_.notes = told(findings_);
   for (const FollowedCurve& followed : curves_) {
     BoundaryCurve curve;
     curve.kind = followed.function.kind;
     for (const CurvePoint& point : followed.points) {
       if ((point.flags & seed_flag) != 0) curve.mode = "mode " + std::to_string(point.number);
       curve.points.push_back({window_.declared(point.place), window_.declared_direction(point.tangent),
-                              point.s, point.others, point.shape, point.flags});
+                              point.s, point.others, point.shape, point.path.x.col(0), point.flags});
     }
     for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));
     curve.begin = followed.begin;

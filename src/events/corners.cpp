@@ -15,8 +15,9 @@ constexpr int pieces = 8;  ///< straight pieces that a step is looked at in
 constexpr int most_corrections = 10;
 constexpr double settled = 1e-14;
 constexpr double stagnated = 1e-10;
-constexpr double same_corner = 1e-7;  ///< of the window
-constexpr double least_sine = 1e-3;   ///< of the angle between curves that cross rather than touch
+constexpr double same_corner = 1e-7;       ///< of the window
+constexpr double same_coordinates = 1e-4;  ///< relative
+constexpr double least_sine = 1e-3;        ///< of the angle between curves that cross rather than touch
 
 /// A step as a chain of straight pieces.
 struct Chain {
@@ -52,6 +53,14 @@ std::optional<Place> crossing(const Place& a0, const Place& a1, const Place& b0,
   return inside ? std::optional(shares) : std::nullopt;
 }
 
+/// Coordinates of the predicted equilibria differ by no more than the prediction's error.
+bool same_equilibrium(const PlaceGuess& a, const PlaceGuess& b) {
+  constexpr double rounding = 1e-12;
+  const Vector& x = a.equilibrium.x;
+  const Vector& y = b.equilibrium.x;
+  return (x - y).norm() <= std::max(same_coordinates * std::max(x.norm(), y.norm()), rounding);
+}
+
 class CornerFinder {
  public:
   CornerFinder(const Window& window, const std::vector<FollowedCurve>& curves, RunCounts& counts)
@@ -64,7 +73,7 @@ class CornerFinder {
 
   void add_ends(double tolerance);
   void add_crossings();
-  std::vector<Corner> corners() &&;
+  FoundCorners found() &&;
 
  private:
   /// A step of a curve.
@@ -87,6 +96,7 @@ class CornerFinder {
   RunCounts& counts_;
   std::vector<std::vector<Chain>> chains_;
   std::vector<Corner> corners_;  ///< places still scaled
+  std::vector<Place> apart_;
 };
 
 void CornerFinder::add(CornerKind kind, const Place& place, std::array<Complex, 2> s, std::size_t a,
@@ -141,7 +151,12 @@ void CornerFinder::look_at(At a, At b) {
           crossing(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
       if (!shares) continue;
       const Place t = (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces;
-      if (!locate(a, b, t)) locate_on_dense(a, b, t);
+      const PlaceGuess first_guess = guess_at(a, t[0]);
+      if (!same_equilibrium(first_guess, guess_at(b, t[1]))) {
+        apart_.push_back(first_guess.place);
+      } else if (!locate(a, b, t)) {
+        locate_on_dense(a, b, t);
+      }
     }
   }
 }
@@ -215,9 +230,9 @@ void CornerFinder::locate_on_dense(At a, At b, Place t) {
   }
 }
 
-std::vector<Corner> CornerFinder::corners() && {
+FoundCorners CornerFinder::found() && {
   // Where a curve of pairs ends on one of divergence they touch; they do not cross.
-  std::vector<Corner> result;
+  FoundCorners result{{}, std::move(apart_)};
   for (const Corner& corner : corners_) {
     const bool touches =
         corner.kind == CornerKind::crossing &&
@@ -226,20 +241,20 @@ std::vector<Corner> CornerFinder::corners() && {
           return other.kind == CornerKind::takens_bogdanov && (other.place - corner.place).norm() < near &&
                  std::is_permutation(other.curves.begin(), other.curves.end(), corner.curves.begin());
         });
-    if (!touches) result.push_back(corner);
+    if (!touches) result.corners.push_back(corner);
   }
-  for (Corner& corner : result) corner.place = window_.declared(corner.place);
+  for (Corner& corner : result.corners) corner.place = window_.declared(corner.place);
   return result;
 }
 
 }  // namespace
 
-std::vector<Corner> find_corners(const Window& window, const std::vector<FollowedCurve>& curves,
-                                 double tolerance, RunCounts& counts) {
+FoundCorners find_corners(const Window& window, const std::vector<FollowedCurve>& curves, double tolerance,
+                          RunCounts& counts) {
   CornerFinder finder(window, curves, counts);
   finder.add_ends(tolerance);
   finder.add_crossings();
-  return std::move(finder).corners();
+  return std::move(finder).found();
 }
 
 }  // namespace eigentrail

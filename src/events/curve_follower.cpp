@@ -12,12 +12,13 @@ constexpr double accepted_share = 0.5;  ///< of the tolerance, as in a trace
 constexpr double first_step = 0.02;     ///< of the window; likewise below
 constexpr double longest_step = 0.1;
 constexpr double shortest_step = 1e-9;
-constexpr double nearest_edge = 10.0 * shortest_step;
 constexpr double same_place = 1e-9;
 constexpr double bent_too_much = 30.0;  ///< a step whose ends look away from its chord counts as this error
 constexpr int samples_per_step = 16;
 /// Of |s|: at the shortest step from an exceptional point two eigenvalues are closer than this.
 constexpr double coalescing = 1e-3;
+/// Steps shrink with the distance from a fold; below this they only fight the rounding that grows there.
+constexpr double shortest_beside_fold = 1e-6;
 constexpr double near_fold = 1e-3;  ///< reciprocal condition of the equilibrium's stiffness
 
 /// Whether a step's dense curve passes a place with this eigenvalue.
@@ -92,13 +93,14 @@ class Arm {
   /// Ends the arm on the first thing within the step that ends it.
   Landing land(const ChordStep& step);
   Landing land_on_edge(const ChordStep& step, double t);
+  /// The same with the dense output of a step that reaches over the edge. Needed where the function followed
+  /// vanishes all along the edge, as in a system without damping: no Newton step leads there.
+  Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess);
   Landing land_on_end(const ChordStep& step, double t);
   Landing close();
   Landing finish(const Situation& there, PointFlag flag, CurveEnd how);
-  /// Moves the last point along the curve onto an edge that is as near as the shortest step. Needed where the
-  /// function followed vanishes all along that edge, as in a system without damping: no Newton step leads
-  /// there.
-  bool snap_to_edge();
+  /// False when the step to the point is not accurate enough.
+  bool append(CurvePoint next);
   bool reject(StepControl& control, double h, double error, const std::string& why,
               PointStatus status = PointStatus::mode_lost);
 
@@ -108,6 +110,10 @@ class Arm {
     return false;
   }
   const CurvePoint& last() const { return points.back(); }
+  bool folds() const { return last().solves_equilibrium && last().equilibrium_condition < near_fold; }
+  bool stop_at_fold() {
+    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + window_.text(last().place));
+  }
   std::optional<ChordStep> step_to(const CurvePoint& next) const {
     return sign_ > 0.0 ? make_chord_step(last(), next) : make_chord_step(next, last());
   }
@@ -127,10 +133,8 @@ bool Arm::reject(StepControl& control, double h, double error, const std::string
   ++rejected;
   control.reject(h, error);
   if (!control.exhausted()) return true;
-  if (snap_to_edge()) return stop(CurveEnd::edge);
   const std::string where = window_.text(last().place);
-  if (last().solves_equilibrium && last().equilibrium_condition < near_fold)
-    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + where);
+  if (folds()) return stop_at_fold();
   if (status == PointStatus::no_equilibrium)
     return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
   if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
@@ -160,6 +164,7 @@ bool Arm::advance(StepControl& control) {
   control.accept(h, error);
   points.push_back(std::move(*next));
   steps.push_back(*step);
+  if (folds() && h < shortest_beside_fold) return stop_at_fold();
   on_point_();
   if (static_cast<int>(points.size()) < options_.max_points) return true;
   return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
@@ -190,19 +195,24 @@ Arm::Landing Arm::finish(const Situation& there, PointFlag flag, CurveEnd how) {
   if ((there.place - last().place).norm() > same_place) {
     std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
     if (!next) return Landing::failed;
-    const std::optional<ChordStep> step = step_to(*next);
-    if (!step || !(error_of(*step) <= 1.0)) return Landing::failed;
     if (flag == takens_bogdanov_flag) {
       // The double root is zero; QZ knows it to half the digits only.
       next->s = 0.0;
       next->others = last().others;
     }
-    points.push_back(std::move(*next));
-    steps.push_back(*step);
+    if (!append(std::move(*next))) return Landing::failed;
   }
   points.back().flags |= flag;
   stop(how);
   return Landing::landed;
+}
+
+bool Arm::append(CurvePoint next) {
+  const std::optional<ChordStep> step = step_to(next);
+  if (!step || !(error_of(*step) <= 1.0)) return false;
+  points.push_back(std::move(next));
+  steps.push_back(*step);
+  return true;
 }
 
 Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
@@ -215,28 +225,19 @@ Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
   Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
   if (there.status == PointStatus::computed && !Window::contains(there.place))
     there.status = PointStatus::mode_lost;
-  return finish(there, edge_flag, CurveEnd::edge);
+  const Landing landing = finish(there, edge_flag, CurveEnd::edge);
+  return landing == Landing::failed ? cut_on_edge(step, t, guess) : landing;
 }
 
-bool Arm::snap_to_edge() {
-  if (points.size() < 2) return false;
-  CurvePoint& point = points.back();
-  const Place ahead = sign_ * point.tangent;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double bound = ahead[axis] > 0.0 ? 1.0 : 0.0;
-    const double distance = (bound - point.place[axis]) / ahead[axis];
-    if (!(distance >= 0.0 && distance <= nearest_edge)) continue;
-    point.place += distance * ahead;
-    point.place[axis] = bound;
-    if (!Window::contains(point.place)) return false;
-    point.places.col(0) = point.place;
-    point.flags |= edge_flag;
-    const auto last_step = sign_ > 0.0 ? make_chord_step(points[points.size() - 2], point)
-                                       : make_chord_step(point, points[points.size() - 2]);
-    if (last_step) steps.back() = *last_step;
-    return true;
-  }
-  return false;
+Arm::Landing Arm::cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess) {
+  const Situation there = compute_situation(window_, function_, guess, counts_);
+  if (there.status != PointStatus::computed) return Landing::failed;
+  const Matrix series = step.series(sign_ > 0.0 ? t : 1.0 - t);
+  if (!append(point_on_dense_curve(window_, function_, there, series, last(), counts_)))
+    return Landing::failed;
+  points.back().flags = edge_flag;
+  stop(CurveEnd::edge);
+  return Landing::landed;
 }
 
 Arm::Landing Arm::land_on_end(const ChordStep& step, double t) {

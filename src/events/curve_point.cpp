@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/normalization.hpp"
 
 namespace eigentrail {
 namespace {
@@ -34,6 +35,7 @@ void read_mode(const Situation& situation, CurvePoint& point) {
     point.s = solver.eigenvalues()[upper];
     z = pair.Z * solver.eigenvectors().col(upper);
   }
+  z = normalize_shape(z, situation.pencil.M[0], {});
   const TangentBasis& basis = situation.point.basis;
   point.shape = basis.is_identity ? z : ComplexVector(basis.T[0].cast<Complex>() * z);
 }
@@ -89,6 +91,27 @@ std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunct
   const KktFactorization& kkt = situation.point.equilibrium.kkt;
   point.solves_equilibrium = kkt.can_solve();
   point.equilibrium_condition = kkt.reciprocal_condition();
+  read_mode(situation, point);
+  count_others(window, function, situation.point.pencil, point, counts);
+  return point;
+}
+
+CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& function,
+                                const Situation& situation, const Matrix& series, const CurvePoint& neighbour,
+                                RunCounts& counts) {
+  CurvePoint point = neighbour;
+  point.flags = 0;
+  point.others = 0;
+  point.place = situation.place;
+  const double speed = series.col(1).head<2>().norm();
+  Matrix along = series;
+  for (Eigen::Index k = 1; k < along.cols(); ++k) along.col(k) /= std::pow(speed, k);
+  point.places = along.topRows(2);
+  point.places.col(0) = point.place;
+  point.tangent = point.places.col(1);
+  point.normal = Place(-point.tangent.y(), point.tangent.x());
+  if (point.functions.rows() == 2) point.functions = along.bottomRows(2).cast<Complex>();
+  point.path.x.col(0) = situation.point.equilibrium.x;
   read_mode(situation, point);
   count_others(window, function, situation.point.pencil, point, counts);
   return point;

@@ -41,6 +41,12 @@ struct PointTrouble {
 std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
                                        const Situation& situation, const Place& along, RunCounts& counts);
 
+/// The same where the gradient of g vanishes: with the series (4 x (order + 2): place, tau, delta; in any
+/// variable) that the dense curve has there. What only predictions need is that of the neighbour.
+CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& function,
+                                const Situation& situation, const Matrix& series, const CurvePoint& neighbour,
+                                RunCounts& counts);
+
 /// Where the curve is expected at u = h.
 PlaceGuess predict(const CurvePoint& point, double h);
 

@@ -57,6 +57,12 @@ Place ChordStep::slope(double t) const {
   return interpolant(length, left, right, left.cols() - 1).slope(t).real().head<2>();
 }
 
+Matrix ChordStep::series(double t0) const {
+  return interpolant(length, left, right, left.cols() - 1)
+      .series(t0, static_cast<int>(left.cols()) - 1)
+      .real();
+}
+
 double ChordStep::error(double tolerance, double s_ref) const {
   const Vector errors = interpolant(length, left, right, left.cols()).error_without_last();
   const double place = std::max(errors[0], errors[1]) / tolerance;

@@ -16,6 +16,9 @@ struct ChordStep {
   /// Derivative of the place by t.
   Place slope(double t) const;
 
+  /// Coefficients in powers of (t - t0), 4 x (order + 2).
+  Matrix series(double t0) const;
+
   /// Estimated error of the dense output of order q as a fraction of what `tolerance` allows.
   double error(double tolerance, double s_ref) const;
 };

@@ -16,6 +16,8 @@ constexpr int samples_per_step = 16;
 constexpr double vanishing = 1e-9;
 constexpr int halvings = 40;
 constexpr double largest_jump = 1e-3;  ///< of |s|, where stability changes
+/// Of the window: a zero of the stiffness nearer to a fold is the fold itself.
+constexpr double beside_fold = 1e-4;
 /// Of the range: a trace that ends farther from its end did not get there.
 constexpr double arrived = 1e-9;
 
@@ -118,9 +120,10 @@ LineScan Scanner::run() {
   const TraceResult back = trace_line(1.0, 0.0);
   report(back);
   const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
-  const std::string name = window_.name(1 - line_.along);
-  scan_.note = "along " + name + " = " + window_.value_text(1 - line_.along, line_.held) +
-               (scan_.started ? " not everywhere: " : " nowhere: ") + reason;
+  const int other = 1 - line_.along;
+  scan_.findings.push_back(
+      {scan_.started ? "lines not searched from end to end" : "lines that could not be begun",
+       window_.name(other) + " = " + window_.value_text(other, line_.held) + ": " + reason});
   return std::move(scan_);
 }
 
@@ -134,6 +137,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.to = window_.declared(line_.at(to))[line_.along];
   options.tolerance = scan_tolerance;
   options.certify = false;
+  options.events = {.extrema = false};  // the scan looks for its own
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
   left_.reset();
@@ -223,14 +227,18 @@ void Scanner::add_extremum(Eigen::Index mode, double before, double here, double
 /// Boundaries of other kinds than those that are followed.
 void Scanner::report(const TraceResult& result) {
   for (const Event& event : result.events) {
-    const double u = window_.scaled(line_.along, event.p);
-    const std::string where = " at " + window_.text(line_.at(u));
-    if (event.kind == EventKind::fold)
-      scan_.findings.push_back("the equilibrium folds" + where + ": such a limit is not followed");
+    const Place place = line_.at(window_.scaled(line_.along, event.p));
+    if (event.kind == EventKind::fold) {
+      scan_.findings.push_back({"folds of the equilibrium, which are not followed", window_.text(place)});
+      std::erase_if(scan_.seeds, [&place](const BoundarySeed& seed) {
+        return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
+      });
+    }
     const bool on_axis = std::abs(event.s.real()) <= 1e-6 * std::abs(event.s);
     if (event.kind == EventKind::collision && event.modes.size() > 1 && event.s.imag() != 0.0 && on_axis)
-      scan_.findings.push_back("modes without damping coalesce" + where +
-                               ": such a limit is not followed, that of a system with a little damping is");
+      scan_.findings.push_back(
+          {"modes without damping that coalesce, which is not followed (add a little damping)",
+           window_.text(place)});
   }
 }
 

@@ -33,12 +33,16 @@ struct LineExtremum {
   double sign = 1.0;  ///< 1: a maximum below zero, to be climbed from; -1: a minimum above
 };
 
+/// What else there is to say, and where it holds.
+struct Finding {
+  std::string what, where;
+};
+
 struct LineScan {
   bool started = false;
-  std::string note;  ///< why the line was not searched from end to end, empty when it was
   std::vector<BoundarySeed> seeds;
   std::vector<LineExtremum> extrema;
-  std::vector<std::string> findings;  ///< what else there is to say
+  std::vector<Finding> findings;
   double s_ref = 0.0;
   RunCounts counts;
 };

@@ -6,14 +6,14 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/core/version.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
+#include "store/provenance.hpp"
 
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 33> reserved = {"point",
+const std::array<std::string, 34> reserved = {"point",
                                               "step",
                                               "curve",
                                               "corner",
@@ -28,6 +28,7 @@ const std::array<std::string, 33> reserved = {"point",
                                               "tangent",
                                               "other_unstable",
                                               "mode_shape",
+                                              "equilibrium",
                                               "flags",
                                               "point_curve",
                                               "step_point",
@@ -105,24 +106,14 @@ void BoundaryFile::write_attributes() {
   const auto number = [this](const std::string& name, auto value) {
     file_.set_attribute(name, static_cast<std::int64_t>(value));
   };
-  file_.set_attribute("format", std::string(boundary_format));
-  number("schema_version", boundary_schema_version);
-  file_.set_attribute("program_version", version());
-  file_.set_attribute("title", setup_.scene.title);
-  file_.set_attribute("scene", setup_.scene.text);
-  file_.set_attribute("scene_path", setup_.scene.path);
-  file_.set_attribute("parameter", first_.name);
+  write_provenance(file_, boundary_format, boundary_schema_version, setup_.scene, options.trace);
   file_.set_attribute("second_parameter", second_.name);
   file_.set_attribute("second_from", options.second_from);
   file_.set_attribute("second_to", options.second_to);
   file_.set_attribute("damping_ratio", options.damping_ratio ? exact_text(*options.damping_ratio) : "none");
   number("lines", options.lines);
-  file_.set_attribute("tolerance", options.trace.tolerance);
   file_.set_attribute("reference", result_.s_ref);
-  for (const auto& [key, text] : describe_options(options.trace)) file_.set_attribute("option_" + key, text);
-  std::string notes;
-  for (const std::string& note : result_.notes) notes += (notes.empty() ? "" : "; ") + note;
-  file_.set_attribute("notes", notes);
+  write_notes(file_, result_.notes);
   file_.set_attribute("status", result_.status == BoundaryStatus::completed ? "completed" : "incomplete");
   file_.set_attribute("message", result_.message);
   file_.set_attribute("seconds", result_.seconds);
@@ -163,7 +154,7 @@ void BoundaryFile::write_dimensions() {
 }
 
 void BoundaryFile::write_points() {
-  std::vector<double> P, Q, tangent;
+  std::vector<double> P, Q, tangent, equilibrium;
   std::vector<Complex> eigenvalue, shape;
   std::vector<std::int64_t> curve_number, others, flags;
   for (std::size_t i = 0; i < result_.curves.size(); ++i) {
@@ -173,6 +164,7 @@ void BoundaryFile::write_points() {
       tangent.insert(tangent.end(), point.tangent.begin(), point.tangent.end());
       eigenvalue.push_back(point.s);
       shape.insert(shape.end(), point.shape.begin(), point.shape.end());
+      equilibrium.insert(equilibrium.end(), point.equilibrium.begin(), point.equilibrium.end());
       curve_number.push_back(static_cast<std::int64_t>(i));
       others.push_back(point.others);
       flags.push_back(point.flags);
@@ -188,8 +180,11 @@ void BoundaryFile::write_points() {
   dataset({"other_unstable", "1",
            "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
           {"point"}, others);
-  dataset({"mode_shape", "1", "mode shape in physical coordinates, unit M-norm"}, {"point", "coordinate"},
-          shape);
+  dataset({"mode_shape", "1",
+           "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
+          {"point", "coordinate"}, shape);
+  dataset({"equilibrium", setup_.model->description().coordinate_units[0], "steady equilibrium x0"},
+          {"point", "coordinate"}, equilibrium);
   dataset({"flags", "1", "what is special about the point"}, {"point"}, flags,
           {{"flag_meanings", "seed:1 edge:2 takens_bogdanov:4"}});
 }

@@ -35,8 +35,7 @@ void read_attributes(const Hdf5File& file, LociFile& loci) {
 void check_format(const Hdf5File& file, const std::string& path) {
   const std::string format = file.has_attribute("format") ? file.text_attribute("format") : "";
   if (format.starts_with("eigentrail-") && format != loci_format) {
-    throw InputError(path + ": expected a loci file, found one of the format " + format +
-                     "; open it in h5py or xarray");
+    throw InputError(path + ": holds '" + format + "', not loci; open it in h5py or xarray");
   }
   if (format != loci_format) throw InputError(path + ": is an HDF5 file, but no loci file of eigentrail");
   const std::int64_t schema = file.integer_attribute("schema_version");

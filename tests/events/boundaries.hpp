@@ -51,6 +51,19 @@ inline BoundaryRequest square_window(double tolerance = 1e-9) {
   return request;
 }
 
+/// Ziegler's column (data/scenes/ziegler_column.toml): P is the load from 0 to 3, Q the damping.
+inline BoundaryResult ziegler_boundaries(double from, double to, double tolerance) {
+  BoundaryRequest request;
+  request.second = "Q";
+  request.from = from;
+  request.to = to;
+  request.tolerance = tolerance;
+  return boundaries_of(plane_scene(0.0, 3.0,
+                                   "M = [[[3, 1], [1, 1]]]\nC = [[[\"2 * Q\", \"-Q\"], [\"-Q\", \"Q\"]]]\n"
+                                   "K = [[[\"2 - P\", \"P - 1\"], [-1, 1]]]\n"),
+                       request);
+}
+
 /// The largest |miss(P, Q, tau, delta)| of the dense output at about `count` places of a curve.
 inline double largest_miss(const BoundaryCurve& curve, int count,
                            const std::function<double(const Eigen::Vector4d&)>& miss) {

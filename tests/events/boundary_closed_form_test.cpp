@@ -45,16 +45,7 @@ TEST(BoundaryClosedForm, InternalDampingWithAnisotropy) {
 
 /// Ziegler's column: P = 41/28 + b^2 / 2 with s = j sqrt(2/7).
 TEST(BoundaryClosedForm, ZieglerColumn) {
-  BoundaryRequest request;
-  request.second = "Q";
-  request.from = 0.01;
-  request.to = 1.0;
-  request.tolerance = tolerance;
-  const BoundaryResult result =
-      boundaries_of(plane_scene(0.0, 3.0,
-                                "M = [[[3, 1], [1, 1]]]\nC = [[[\"2 * Q\", \"-Q\"], [\"-Q\", \"Q\"]]]\n"
-                                "K = [[[\"2 - P\", \"P - 1\"], [-1, 1]]]\n"),
-                    request);
+  const BoundaryResult result = ziegler_boundaries(0.01, 1.0, tolerance);
   ASSERT_EQ(result.curves.size(), 1U);
   const BoundaryCurve& curve = result.curves.front();
   EXPECT_LT(

@@ -75,6 +75,44 @@ TEST(BoundaryEnds, DampingRatioEndsWhereTheFrequencyVanishes) {
   EXPECT_LT(last.place.norm(), 1e-12);
 }
 
+/// Without damping all modes of Ziegler's column stay on the axis: no Newton step leads onto that edge.
+TEST(BoundaryEnds, OnAnEdgeWithoutDamping) {
+  const BoundaryResult result = ziegler_boundaries(0.0, 1.0, 1e-9);
+  EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
+  ASSERT_EQ(result.curves.size(), 1U);
+  const BoundaryCurve& curve = result.curves[0];
+  EXPECT_EQ(curve.begin, CurveEnd::edge);
+  EXPECT_EQ(curve.end, CurveEnd::edge);
+  EXPECT_EQ(curve.extent().first[1], 0.0);
+  EXPECT_LT(
+      largest_miss(curve, 500, [](const auto& at) { return at[0] - 41.0 / 28.0 - 0.5 * at[1] * at[1]; }),
+      1e-8);
+}
+
+/// With the damping's sign all modes change theirs: Q = 0 up to the load where they coalesce, and the
+/// parabola, which crosses it.
+TEST(BoundaryEnds, InAnExceptionalPointBehindACrossingOfOneMode) {
+  const BoundaryResult result = ziegler_boundaries(-1.0, 1.0, 1e-9);
+  EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
+  ASSERT_EQ(result.curves.size(), 3U);
+  int without_damping = 0;
+  for (const BoundaryCurve& curve : result.curves) {
+    const auto [low, high] = curve.extent();
+    if (high[1] > 0.5) continue;
+    ++without_damping;
+    EXPECT_TRUE(curve.begin == CurveEnd::exceptional_point || curve.end == CurveEnd::exceptional_point);
+    EXPECT_LT(largest_miss(curve, 500, [](const auto& at) { return at[1]; }), 1e-8);
+    EXPECT_NEAR(high[0], 3.5 - std::sqrt(2.0), 1e-5);
+  }
+  EXPECT_EQ(without_damping, 2);
+  ASSERT_EQ(result.corners.size(), 2U);
+  for (const Corner& corner : result.corners) {
+    EXPECT_EQ(corner.kind, CornerKind::crossing);
+    EXPECT_NEAR(corner.place[0], 41.0 / 28.0, 1e-8);
+    EXPECT_NEAR(corner.place[1], 0.0, 1e-8);
+  }
+}
+
 /// A pendulum pushed tangentially: no equilibrium beyond a fold. With drag it stays stable up to there.
 TEST(BoundaryEnds, ScenesWithoutEquilibriumSomewhereSaySo) {
   const std::string scene =

@@ -1,9 +1,8 @@
 // The blade of data/scenes/rotating_mass.toml against an independent scan.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
@@ -32,17 +31,34 @@ double spectral_abscissa(const Model& model, double omega, double a_n) {
   return largest;
 }
 
-TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
-  std::ifstream file(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+/// omega and another parameter over the given ranges.
+BoundarySetup prepare_blade(const std::string& second, Place low, Place high, double tolerance) {
   BoundaryRequest request;
-  request.second = "a_n";
-  request.from = 200.0;
-  request.to = 3000.0;
-  request.first_from = 5.0;
-  request.first_to = 40.0;
-  request.tolerance = 1e-10;
-  const BoundarySetup setup = prepare_boundary(parse_scene(text, "rotating_mass.toml"), request);
+  request.second = second;
+  request.first_from = low[0];
+  request.first_to = high[0];
+  request.from = low[1];
+  request.to = high[1];
+  request.tolerance = tolerance;
+  return prepare_boundary(read_scene(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml"),
+                          request);
+}
+
+/// Below 10 rad/s the blade has several equilibria; the curves of one cross those of another in the plane.
+TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
+  const BoundarySetup setup = prepare_blade("drag", {5.0, 0.5}, {16.0, 320.0}, 1e-8);
+  const BoundaryResult result = find_boundaries(*setup.model, setup.options);
+  EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
+  EXPECT_GE(result.curves.size(), 2U);
+  EXPECT_TRUE(result.corners.empty());
+  const auto told = [](const std::string& note) {
+    return note.starts_with("crossings of curves that belong");
+  };
+  EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), told));
+}
+
+TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
+  const BoundarySetup setup = prepare_blade("a_n", {5.0, 200.0}, {40.0, 3000.0}, 1e-10);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
   const auto flutter = curves_of_kind(result, BoundaryKind::flutter);
   ASSERT_EQ(flutter.size(), 1U);

@@ -117,6 +117,10 @@ CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
   report.found_events = events.found;
   report.missing = events.missing;
   report.invented = events.invented;
+  for (const Event& event : trace.result.events) {
+    if (event.kind != EventKind::veering)
+      report.most_retrackings = std::max(report.most_retrackings, event.retrackings);
+  }
   const LabelCount labels = compare_labels(reference, trace);
   report.labels = labels.labels;
   report.wrong_labels = labels.wrong;

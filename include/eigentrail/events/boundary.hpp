@@ -49,7 +49,8 @@ struct BoundaryPoint {
   Place tangent;   ///< direction of the curve, of unit length where the window has side one; in their units
   Complex s;       ///< Im s >= 0
   int others = 0;  ///< modes beside this one that are unstable (less damped); a complex pair counts once
-  ComplexVector shape;  ///< n, physical coordinates
+  ComplexVector shape;  ///< n, physical coordinates, unit M-norm, its largest component real and positive
+  Vector equilibrium;   ///< n, coordinates
   int flags = 0;        ///< of PointFlag
 };
 
