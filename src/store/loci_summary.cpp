@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "store/provenance.hpp"
+
 namespace eigentrail {
 
 void write_events(Hdf5File& file, const std::vector<Event>& events) {
@@ -33,11 +35,9 @@ void write_summary(Hdf5File& file, const TraceResult& result) {
   const auto count = [&file](const std::string& name, std::uint64_t value) {
     file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
   };
-  std::string notes;
-  for (const std::string& note : result.notes) notes += (notes.empty() ? "" : "; ") + note;
   file.set_attribute("status", result.status == TraceStatus::completed ? "completed" : "ended early");
   file.set_attribute("message", result.message);
-  file.set_attribute("notes", notes);
+  write_notes(file, result.notes);
   file.set_attribute("seconds", result.seconds);
   count("nodes", static_cast<std::uint64_t>(result.nodes));
   count("events", result.events.size());

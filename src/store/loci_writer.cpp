@@ -1,21 +1,19 @@
 #include "eigentrail/store/loci_writer.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/core/version.hpp"
 #include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
+#include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
@@ -235,32 +233,17 @@ struct LociWriter::Implementation {
 
 LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model& model,
                        const TraceOptions& options, const TraceStart& start) {
-  // A name of this process alone: nothing that stands there is touched.
-  const std::string partial = path + ".partial." + std::to_string(getpid());
-  implementation_ =
-      std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
-  implementation_->n_modes = implementation_->n_functions = static_cast<std::size_t>(start.n_modes);
-  try {
+  write_complete(path, [&](const std::string& partial) {
+    implementation_ =
+        std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
+    implementation_->n_modes = implementation_->n_functions = static_cast<std::size_t>(start.n_modes);
     Hdf5File& file = implementation_->file;
-    file.set_attribute("format", std::string(loci_format));
-    file.set_attribute("schema_version", std::int64_t{loci_schema_version});
-    file.set_attribute("program_version", version());
-    file.set_attribute("title", scene.title);
-    file.set_attribute("scene", scene.text);
-    file.set_attribute("scene_path", scene.path);
-    file.set_attribute("parameter", options.parameter);
-    file.set_attribute("tolerance", options.tolerance);
+    write_provenance(file, loci_format, loci_schema_version, scene, options);
     file.set_attribute("reference", start.s_ref);
-    for (const auto& [key, text] : describe_options(options)) file.set_attribute("option_" + key, text);
     file.set_attribute("status", "running");
     implementation_->create_datasets(model, options);
     file.flush();
-    std::filesystem::rename(partial, path);
-  } catch (...) {
-    implementation_.reset();
-    std::remove(partial.c_str());
-    throw;
-  }
+  });
 }
 
 LociWriter::~LociWriter() {

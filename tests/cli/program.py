@@ -86,6 +86,38 @@ M = [[[1, 0], [0, 1]]]
 K = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]
 """
 
+# A pendulum pushed sideways by p times its weight, sin(angle) = p: hanging up to p = 1, standing on the way back.
+PUSHED_PENDULUM = """
+[parameters]
+g = 9.81
+p = 0.0
+[trace]
+parameter = "p"
+from = 0
+to = 1.2
+tolerance = 1e-2
+[gravity]
+acceleration = [0, 0, "-g"]
+[[point]]
+name = "bob"
+mass = 1.0
+position = [0, 0, -1]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.0
+[[fixed]]
+point = "bob"
+coordinate = "y"
+[[follower_force]]
+point = "bob"
+from = [0, 0, 0]
+to = "bob"
+magnitude = "p*g"
+angle = "-pi/2"
+axis = [0, 1, 0]
+"""
+
 
 def edited(scene, old, new):
     """The scene with its one occurrence of `old` replaced."""

@@ -1,0 +1,26 @@
+#include "store/provenance.hpp"
+
+#include "eigentrail/core/version.hpp"
+
+namespace eigentrail {
+
+void write_provenance(Hdf5File& file, const std::string& format, int schema_version, const Scene& scene,
+                      const TraceOptions& options) {
+  file.set_attribute("format", format);
+  file.set_attribute("schema_version", std::int64_t{schema_version});
+  file.set_attribute("program_version", version());
+  file.set_attribute("title", scene.title);
+  file.set_attribute("scene", scene.text);
+  file.set_attribute("scene_path", scene.path);
+  file.set_attribute("parameter", options.parameter);
+  file.set_attribute("tolerance", options.tolerance);
+  for (const auto& [key, text] : describe_options(options)) file.set_attribute("option_" + key, text);
+}
+
+void write_notes(Hdf5File& file, const std::vector<std::string>& notes) {
+  std::string joined;
+  for (const std::string& note : notes) joined += (joined.empty() ? "" : "; ") + note;
+  file.set_attribute("notes", joined);
+}
+
+}  // namespace eigentrail
