@@ -128,6 +128,8 @@ class Map(CommandTest):
         reference = (self.folder / "map_1.h5").read_bytes()
         for jobs in (2, 3, 8):
             self.assertEqual((self.folder / f"map_{jobs}.h5").read_bytes(), reference)
+        file = self.open("map_1.h5")
+        self.assertEqual([h5py.h5g.get_objinfo(file[name].id, b".").mtime for name in file], [0] * len(file))
 
     def test_summary_has_a_picture_shares_and_cost(self):
         text = self.circle()
