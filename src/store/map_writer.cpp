@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/core/version.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
+#include "store/provenance.hpp"
 
 namespace eigentrail {
 namespace {
@@ -49,21 +49,9 @@ class MapFile {
 };
 
 void MapFile::write_attributes(const std::vector<std::string>& notes) {
-  const Scene& scene = setup_.trace.scene;
-  file_.set_attribute("format", std::string(map_format));
-  file_.set_attribute("schema_version", std::int64_t{map_schema_version});
-  file_.set_attribute("program_version", version());
-  file_.set_attribute("title", scene.title);
-  file_.set_attribute("scene", scene.text);
-  file_.set_attribute("scene_path", scene.path);
-  file_.set_attribute("parameter", first_.name);
+  write_provenance(file_, map_format, map_schema_version, setup_.trace.scene, setup_.trace.options);
   file_.set_attribute("second_parameter", second_.name);
-  file_.set_attribute("tolerance", setup_.trace.options.tolerance);
-  for (const auto& [key, text] : describe_options(setup_.trace.options))
-    file_.set_attribute("option_" + key, text);
-  std::string joined;
-  for (const std::string& note : notes) joined += (joined.empty() ? "" : "; ") + note;
-  file_.set_attribute("notes", joined);
+  write_notes(file_, notes);
   write_counts();
 }
 

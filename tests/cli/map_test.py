@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 
 from command_test_case import CommandTest
-from program import BLADE, EXIT_NUMBERS_FAILED, ProgramTest, each_case, edited
+from program import BLADE, EXIT_NUMBERS_FAILED, PUSHED_PENDULUM, ProgramTest, each_case, edited
 
 # s^2 + (p^2 + q^2 - 1) s + 0.8 - p - q = 0: a circle of flutter and a line of divergence.
 CIRCLE = """\
@@ -28,47 +28,9 @@ C = [[["p*p + (30*q/pi)^2 - 1"]]]
 K = [[["0.8 - p - 30*q/pi"]]]
 """
 
-# A pendulum pushed sideways by p times its weight; it has no equilibrium with p > 1.
-PUSHED = """\
-[parameters]
-g = 9.81
-p = 0.0
-r = 0.1
-
-[trace]
-parameter = "r"
-from = 0.1
-to = 1
-
-[gravity]
-acceleration = [0, 0, "-g"]
-
-[[point]]
-name = "bob"
-mass = 1.0
-position = [0, 0, -1]
-
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = 1.0
-
-[[fixed]]
-point = "bob"
-coordinate = "y"
-
-[[follower_force]]
-point = "bob"
-from = [0, 0, 0]
-to = "bob"
-magnitude = "p*g"
-angle = "-pi/2"
-axis = [0, 1, 0]
-
-[[drag]]
-point = "bob"
-coefficient = "r"
-"""
+# Traced along its damping; it has no equilibrium with p > 1.
+PUSHED = edited(PUSHED_PENDULUM, "p = 0.0", "p = 0.0\nr = 0.1") + '[[drag]]\npoint = "bob"\ncoefficient = "r"\n'
+ALONG_DAMPING = ("--parameter", "r", "--first-from", "0.1", "--first-to", "1", "--second", "p")
 
 LAYOUT = {
     "q": (("q",), "rpm"),
@@ -166,6 +128,8 @@ class Map(CommandTest):
         reference = (self.folder / "map_1.h5").read_bytes()
         for jobs in (2, 3, 8):
             self.assertEqual((self.folder / f"map_{jobs}.h5").read_bytes(), reference)
+        file = self.open("map_1.h5")
+        self.assertEqual([h5py.h5g.get_objinfo(file[name].id, b".").mtime for name in file], [0] * len(file))
 
     def test_summary_has_a_picture_shares_and_cost(self):
         text = self.circle()
@@ -193,7 +157,7 @@ class Map(CommandTest):
         self.assertEqual(self.open("map.h5")["p"][-1], 1)
 
     def test_lines_without_equilibrium_are_unknown_and_said(self):
-        text = self.map(PUSHED, "--second", "p", "--from", "0", "--to", "1.5", grid="4x5")
+        text = self.map(PUSHED, *ALONG_DAMPING, "--from", "0", "--to", "1.5", grid="4x5")
         self.assertIn("unknown 50 % (10 of 20 cells)", text)
         self.assertRegex(text, r"note  2 of 4 lines could not be begun; .*, first at p = 1: no equilibrium found")
         file = self.open("map.h5")
@@ -206,7 +170,7 @@ class Map(CommandTest):
         self.circle()
         self.write("scene.toml", PUSHED)
         before = self.contents()
-        run = self.run_program("map", "scene.toml", "--second", "p", "--from", "1.1", "--to", "1.5", "--grid", "3",
+        run = self.run_program("map", "scene.toml", *ALONG_DAMPING, "--from", "1.1", "--to", "1.5", "--grid", "3",
                                "-o", "map.h5", "--force")
         self.assertEqual((run.returncode, run.stdout), (EXIT_NUMBERS_FAILED, ""))
         self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no cell of the window is known, nothing is written; "
