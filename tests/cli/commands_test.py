@@ -115,7 +115,9 @@ class Events(CommandTest):
                          [{key: row[key] for key in texts} for row in self.events()])
         for key in ("parameter", "real", "imag"):
             self.assertEqual([row[key] for row in rows], [float(row[key]) for row in self.events()])
-        self.assertEqual([list(row) for row in rows], [keys + ["puiseux"], keys])
+        self.assertEqual([list(row) for row in rows],
+                         [keys + ["puiseux", "sensitivity"], keys + ["direction", "sensitivity"]])
+        self.assertEqual(rows[1]["direction"], 1)
 
     def test_collision_has_its_puiseux_coefficient(self):
         """s = -0.05 +- sqrt(p - 0.9975): the coefficient is 1, or its other root."""
@@ -143,7 +145,7 @@ class Events(CommandTest):
         lines = self.run_well("events", "loci.h5").splitlines()
         self.assertRegex(lines[0], r"^ *kind +p +s +modes +remark$")
         self.assertRegex(lines[1], r"^ *collision +0\.9975 +-0\.05 \+ \S+j +\S.* +Puiseux coefficient ")
-        self.assertRegex(lines[2], r"^ *divergence +1 +0 \+ 0j +1 *$")
+        self.assertRegex(lines[2], r"^ *divergence +1 +0 \+ 0j +1 +unstable above *$")
         self.assertEqual(len(lines), 3)
 
     def test_both_directions_find_the_same(self):

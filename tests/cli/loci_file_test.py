@@ -41,6 +41,12 @@ LAYOUT = {
     "event_half_width": (("event",), "rad/s"),
     "event_puiseux": (("event",), "1/s"),
     "event_node": (("event",), "1"),
+    "event_direction": (("event",), "1"),
+    "event_value": (("event",), "1"),
+    "event_shape": (("event", "coordinate"), "1"),
+    "event_sensitivity": (("event", "scene_parameter"), "1/s per scene_parameter_unit"),
+    "event_shift": (("event", "scene_parameter"), "rad/s per scene_parameter_unit"),
+    "scene_parameter_unit": (("scene_parameter",), "1"),
     "stable_from": (("range",), "rad/s"),
     "stable_to": (("range",), "rad/s"),
     "stable_kind": (("range",), "1"),
@@ -51,10 +57,12 @@ LAYOUT = {
     "stable_largest_margin": (("range",), "1/s"),
     "stable_largest_at": (("range",), "rad/s"),
 }
-DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event", "range"}
-COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux"}
-WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "stable_mode"}
-TEXTS = {"events", "stable_kind", "stable_cause"}
+DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event", "range",
+              "scene_parameter"}
+COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux",
+           "event_shape", "event_sensitivity"}
+WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "event_direction", "stable_mode"}
+TEXTS = {"events", "stable_kind", "stable_cause", "scene_parameter_unit"}
 
 
 def type_of(name):
@@ -182,18 +190,21 @@ class Numbers(unittest.TestCase):
         np.testing.assert_array_equal(series[..., 2:], 0.0)
         np.testing.assert_allclose(self.data["step_length"], np.diff(omega), rtol=ROUNDING)
 
-    def test_flutter_is_the_one_event(self):
-        line, = self.data["events"]
-        kind, place, real, imag, modes = line.decode().split(",")
+    def test_damping_is_largest_once_and_then_the_blade_flutters(self):
+        extremum, flutter = self.data["events"]
+        self.assertEqual(extremum.decode().split(",")[0], "extremum")
+        kind, place, real, imag, modes = flutter.decode().split(",")
         self.assertEqual((kind, modes), ("flutter", "1"))
-        self.assertEqual(float(place), self.data["event_parameter"][0])
-        self.assertEqual(complex(float(real), float(imag)), self.data["event_eigenvalue"][0])
+        self.assertEqual(float(place), self.data["event_parameter"][1])
+        self.assertEqual(complex(float(real), float(imag)), self.data["event_eigenvalue"][1])
         self.assertAlmostEqual(float(place), 12.44, delta=0.005)
-        self.assertAlmostEqual(self.data["event_eigenvalue"][0].real, 0.0, delta=1e-8)
-        self.assertTrue(np.isnan(self.data["event_half_width"][0]))
-        self.assertTrue(np.isnan(self.data["event_puiseux"][0]))
-        node, omega = self.data["event_node"][0], self.data["omega"]
-        self.assertTrue(omega[node] <= self.data["event_parameter"][0] < omega[node - 1])
+        self.assertAlmostEqual(self.data["event_eigenvalue"][1].real, 0.0, delta=1e-8)
+        self.assertEqual(self.data["event_direction"].tolist(), [-1, -1])
+        self.assertTrue(np.isnan(self.data["event_value"][1]))
+        self.assertTrue(np.isnan(self.data["event_half_width"][1]))
+        self.assertTrue(np.isnan(self.data["event_puiseux"][1]))
+        node, omega = self.data["event_node"][1], self.data["omega"]
+        self.assertTrue(omega[node] <= self.data["event_parameter"][1] < omega[node - 1])
         self.assertTrue(self.data["eigenvalue"][node - 1, 0].real < 0.0 <= self.data["eigenvalue"][node, 0].real)
 
     def test_stable_range_ends_at_flutter(self):
@@ -201,7 +212,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual([text.decode() for text in data["stable_kind"]], ["stable"])
         self.assertEqual([text.decode() for text in data["stable_cause"][0]], ["start", "flutter"])
         self.assertEqual(data["stable_from"].tolist(), [100.0])
-        self.assertEqual(data["stable_to"][0], data["event_parameter"][0])
+        self.assertEqual(data["stable_to"][0], data["event_parameter"][1])
         self.assertEqual(data["stable_margin"][0].tolist(), [-data["eigenvalue"].real[0].max(), 0.0])
         self.assertEqual(data["stable_mode"][0, 1], 1)
 
@@ -296,7 +307,9 @@ class InXarray(unittest.TestCase):
     def test_steps_and_events_are_read_by_their_labels(self):
         left = self.set.dense_output.sel(step=0, function=0, end="left", order=0)
         self.assertEqual(complex(left), complex(self.set.eigenvalue.sel(node=0, mode="mode 1")))
-        self.assertEqual(str(self.set.events.sel(event=0).values).split(",")[0], "flutter")
+        self.assertEqual(str(self.set.events.sel(event=1).values).split(",")[0], "flutter")
+        drag = self.set.event_shift.sel(event=1, scene_parameter="drag")
+        self.assertAlmostEqual(float(drag), -1.174, delta=0.001)
 
     def test_root_attributes_arrive(self):
         self.assertEqual(self.set.attrs["format"], "eigentrail-loci")

@@ -30,8 +30,7 @@ void print_problems(const std::string& name, const RunSetting& setting, const Ca
     std::fprintf(stderr, "error %.3g tolerances at %.15g; ", report.worst_error, report.worst_at);
   if (report.wrong_labels > 0)
     std::fprintf(stderr, "%d of %d labels wrong; ", report.wrong_labels, report.labels);
-  if (report.most_retrackings > 4)
-    std::fprintf(stderr, "%d points for one event; ", report.most_retrackings);
+  if (report.most_retrackings > 4) std::fprintf(stderr, "%d points for one event; ", report.most_retrackings);
   for (const std::string& event : report.missing) std::fprintf(stderr, "missing %s; ", event.c_str());
   for (const std::string& event : report.invented) std::fprintf(stderr, "invented %s; ", event.c_str());
   std::fprintf(stderr, "\n");

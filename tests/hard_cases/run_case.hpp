@@ -27,7 +27,7 @@ struct CaseReport {
   int expected_events = 0;
   int found_events = 0;
   std::vector<std::string> missing, invented;
-  int most_retrackings = 0;  ///< points computed to locate one event; veerings aside
+  int most_retrackings = 0;        ///< points computed to locate one event; veerings aside
   double uncertified_share = 0.0;  ///< of modes times steps
   int labels = 0;                  ///< certified labels compared
   int wrong_labels = 0;            ///< of them, on another mode
