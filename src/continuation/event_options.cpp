@@ -23,16 +23,20 @@ std::vector<double> read_constants(TableReader& table, const char* key, const ch
   return values;
 }
 
-/// The traced parameter as the excitation frequency, if it is one.
+/// The traced parameter as the excitation frequency, if it is one. Turns are counted in Hz, too.
 Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
-  constexpr std::array<std::string_view, 8> rates{"",    "rad/s", "rpm",   "Hz",
-                                                  "1/s", "s^-1",  "deg/s", "rad s^-1"};
+  constexpr std::array<std::string_view, 9> angular{"",    "rad/s", "rad s^-1", "1/s",   "s^-1",
+                                                    "rpm", "rev/s", "deg/s",    "mrad/s"};
+  constexpr std::array<std::string_view, 2> turns{"Hz", "kHz"};
   const auto index = scene.parameters.index(traced);
   const std::string unit = index ? scene.parameters[static_cast<std::size_t>(*index)].unit : "";
-  if (std::find(rates.begin(), rates.end(), unit) == rates.end())
+  const auto is_one_of = [&](const auto& units) {
+    return std::find(units.begin(), units.end(), unit) != units.end();
+  };
+  if (!is_one_of(angular) && !is_one_of(turns))
     table.fail("harmonics", "of what frequency? '" + traced + "' is in " + unit +
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
-  return Expression::parse(traced, scene.parameters.names());
+  return Expression::parse((is_one_of(turns) ? "2 * pi * " : "") + traced, scene.parameters.names());
 }
 
 }  // namespace

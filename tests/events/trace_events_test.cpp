@@ -83,14 +83,18 @@ TEST(TraceEvents, FindResonancesWithAnExpression) {
 }
 
 TEST(TraceEvents, FindResonancesInTheUnitOfTheTracedParameter) {
-  // s = 3j, excited at p revolutions a minute.
-  const Setting setting = make_setting(
-      "[parameters]\np = {value = 0.0, unit = \"rpm\"}\nm = 0.0\n[trace]\nparameter = \"p\"\nfrom = "
-      "1\nto = 60\n[events]\nharmonics = [1]\n[matrix_family]\nM = [[[1]]]\nC = [[[0]], [[\"m\"]]]\nK = "
-      "[[[9]]]\n");
-  const auto events = events_of(setting, EventKind::resonance);
-  ASSERT_EQ(events.size(), 1U);
-  EXPECT_NEAR(events[0].p, 90.0 / std::acos(-1.0), 60.0 * located);
+  const double pi = std::acos(-1.0);
+  for (const auto& [unit, factor] : {std::pair("rpm", pi / 30.0), std::pair("Hz", 2.0 * pi),
+                                     std::pair("rad/s", 1.0), std::pair("deg/s", pi / 180.0)}) {
+    // s = 3j, excited at p in that unit; the damping is nothing but a use for p.
+    const Setting setting = make_setting(
+        "[parameters]\np = {value = 0.0, unit = \"" + std::string(unit) +
+        "\"}\nnone = 0.0\n[trace]\nparameter = \"p\"\nfrom = 0\nto = " + exact_text(6.0 / factor) +
+        "\n[events]\nharmonics = 1\n[matrix_family]\nM = [[[1]]]\nC = [[[0]], [[\"none\"]]]\nK = [[[9]]]\n");
+    const auto events = events_of(setting, EventKind::resonance);
+    ASSERT_EQ(events.size(), 1U) << unit;
+    EXPECT_NEAR(events[0].p, 3.0 / factor, 6.0 / factor * located) << unit;
+  }
 }
 
 TEST(TraceEvents, FindExtremaOfTheDampingRatio) {
