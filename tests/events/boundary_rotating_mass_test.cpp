@@ -7,6 +7,7 @@
 #include "eigentrail/reduction/reduced_pencil.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
 #include "events/boundaries.hpp"
+#include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
 namespace eigentrail::test {
@@ -57,13 +58,44 @@ TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
   EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), told));
 }
 
+/// Where the flutter of a trace of the blade lies.
+double flutter_of_trace(const OptionTexts& options, const std::string& drag = "2.0") {
+  const Setting setting =
+      scene_setting("rotating_mass", options, {{"drag   = { value = 2.0", "drag   = { value = " + drag}});
+  const TraceResult result = trace(*setting.model, setting.options, {});
+  double place = NAN;
+  for (const Event& event : result.events) {
+    if (event.kind == EventKind::flutter) place = event.p;
+  }
+  return place;
+}
+
+// In 40 digits: tests/hard_cases/reference_multibody.py.
+TEST(RotatingMassFlutter, InTheSpeed) {
+  EXPECT_NEAR(flutter_of_trace({}) / 12.4393882230095183, 1.0, 1e-9);
+  EXPECT_NEAR(flutter_of_trace({}, "20.0") / 8.41860515331042239, 1.0, 1e-9);
+}
+
+TEST(RotatingMassFlutter, InTheNormalForce) {
+  const double a_n = flutter_of_trace({{"parameter", "a_n"}, {"from", "1000"}, {"to", "20000"}});
+  const Setting setting = scene_setting("rotating_mass");
+  double low = a_n * (1.0 - 1e-4);
+  double high = a_n * (1.0 + 1e-4);
+  ASSERT_LT(spectral_abscissa(*setting.model, 40.0, low), 0.0);
+  ASSERT_GT(spectral_abscissa(*setting.model, 40.0, high), 0.0);
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (spectral_abscissa(*setting.model, 40.0, middle) > 0.0 ? high : low) = middle;
+  }
+  EXPECT_NEAR(a_n / low, 1.0, 1e-8);
+}
+
 TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
-  const BoundarySetup setup = prepare_blade("a_n", {5.0, 200.0}, {40.0, 3000.0}, 1e-10);
+  const BoundarySetup setup = prepare_blade("a_n", {5.0, 200.0}, {45.0, 20000.0}, 1e-10);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
   const auto flutter = curves_of_kind(result, BoundaryKind::flutter);
   ASSERT_EQ(flutter.size(), 1U);
   int compared = 0;
-  double nearest = INFINITY;
   const std::size_t steps = flutter[0].steps.size();
   for (int i = 0; i < 50; ++i) {
     const double along = (i + 0.5) / 50.0 * static_cast<double>(steps);
@@ -81,12 +113,16 @@ TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
     ++compared;
   }
   EXPECT_EQ(compared, 50);
-  // The reference of the paper's scene.
-  largest_miss(flutter[0], 20000, [&](const auto& at) {
-    nearest = std::min(nearest, std::hypot(at[0] / 12.4393882230095183 - 1.0, at[1] / 1000.0 - 1.0));
-    return 0.0;
-  });
-  EXPECT_LT(nearest, 1e-3);
+  // It goes through the points that traces along either parameter find.
+  const double a_n = flutter_of_trace({{"parameter", "a_n"}, {"from", "1000"}, {"to", "20000"}});
+  for (const auto& [omega, force] : {std::pair(12.4393882230095183, 1000.0), std::pair(40.0, a_n)}) {
+    double nearest = INFINITY;
+    largest_miss(flutter[0], 20000, [&](const auto& at) {
+      nearest = std::min(nearest, std::hypot(at[0] / omega - 1.0, at[1] / force - 1.0));
+      return 0.0;
+    });
+    EXPECT_LT(nearest, 1e-3);
+  }
 }
 
 }  // namespace
