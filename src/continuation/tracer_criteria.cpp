@@ -189,6 +189,9 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
     const bool pair = is_pair && watch.is_pair();
     const Watch::Seen seen = watch.next(value);
     watch.is_pair(is_pair);
+    // Where eigenvalues meet at the left end, what looks like an extremum is a kink.
+    const bool is_kink = seen == Watch::Seen::extremum && track.departure && last <= step.begin();
+    if (is_kink) continue;
     if (seen == Watch::Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = step.sign_change(criterion, member.index, last, t, before);
       locate(h, next, member, {criterion, pair, Sought::zero}, guess);
