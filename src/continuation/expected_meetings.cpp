@@ -133,14 +133,15 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   }
 }
 
-/// How far the dense output of a block of two may misplace a root of its gap.
+/// How far the dense output of a block of two may misplace a root of its gap on the real axis.
 double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
                      double position) {
   if (left.tracks[track].size() != 2) return INFINITY;
   const DenseBlock block = block_on_step(left, right, track);
   const HermiteInterpolant gap(length, block.left.row(1), block.right.row(1));
   const double slope = std::abs(gap.slope(position / length)[0] / length);
-  return gap.error_without_last()[0] / slope;
+  // Where it does not vanish the root lies beside the axis.
+  return (gap.error_without_last()[0] + std::abs(gap(position / length)[0])) / slope;
 }
 
 }  // namespace
@@ -217,7 +218,10 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   const int degree = 2 * static_cast<int>(left.size()) - 1;
   std::vector<Complex> roots =
       chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
-  std::erase_if(roots, [&](Complex t) { return gap.last_share(0, t) > told_by_series; });
+  std::erase_if(roots, [&](Complex t) {
+    const double share = gap.last_share(0, t);
+    return share > told_by_series || std::abs(t.imag() * length) > (1.0 + share) * width;
+  });
   for (Complex& root : roots) root *= length;
   return roots;
 }

@@ -95,8 +95,8 @@ class Tracer {
   bool land_on_meeting(double& h, std::optional<PathNode>& next);
   void record_meetings_at_start();
   std::optional<Meeting> meeting_at(double h, const ExpectedMeeting& expected, const PathNode& node) const;
-  bool land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next);
   enum class Approach { reached, nothing, failed };
+  Approach land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next);
   Approach approach_meeting(const ExpectedMeeting& expected, double h, const PathNode& next,
                             StrandSampler& strands, bool trusting, double& distance, int& retrackings);
   void record_at(double h, const ExpectedMeeting& expected, int retrackings, PathNode& next,

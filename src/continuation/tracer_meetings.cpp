@@ -100,17 +100,20 @@ std::optional<Meeting> Tracer::meeting_at(double h, const ExpectedMeeting& expec
   return meeting;
 }
 
-/// Where the dense output tells the place well enough, the point is there at once.
-bool Tracer::land_as_told(double h, const ExpectedMeeting& expected, std::optional<PathNode>& next) {
+/// Where the dense output tells the place well enough, the point is there at once: `nothing` when it does
+/// not, or when the meeting is not there.
+Tracer::Approach Tracer::land_as_told(double h, const ExpectedMeeting& expected,
+                                      std::optional<PathNode>& next) {
   constexpr double sure = 0.1;
   const double position = expected.position.real();
   if (expected.doubt > sure * at_point * coordinate_range() || node_.tracks[expected.a.track].departure ||
       position == h || std::abs(position) <= at_point * coordinate_range())
-    return false;
+    return Approach::nothing;
   std::optional<PathNode> point;
-  if (attempt(position, point) || !meeting_at(h, expected, *point)) return false;
+  if (attempt(position, point)) return Approach::failed;
+  if (!meeting_at(h, expected, *point)) return Approach::nothing;
   next = std::move(point);
-  return true;
+  return Approach::reached;
 }
 
 /// Shortens the step so that it ends on the first meeting inside it.
@@ -122,7 +125,9 @@ bool Tracer::land_on_meeting(double& h, std::optional<PathNode>& next) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     double distance = expected[i].position.real();
     int retrackings = 0;
-    if (!land_as_told(h, expected[i], next)) {
+    const Approach as_told = land_as_told(h, expected[i], next);
+    if (as_told == Approach::failed && std::abs(h) > uncertified_below_) return false;
+    if (as_told != Approach::reached) {
       StrandSampler strands(node_, *next, expected[i].a.track, h);
       Approach approach = approach_meeting(expected[i], h, *next, strands, true, distance, retrackings);
       if (approach == Approach::nothing) continue;
