@@ -47,6 +47,33 @@ std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> me
   return all;
 }
 
+/// Value, slope and second derivative of a polynomial.
+std::array<Complex, 3> jet(const ComplexVector& series, Complex at) {
+  std::array<Complex, 3> result{};
+  for (Eigen::Index j = series.size() - 1; j >= 0; --j) {
+    result[2] = result[2] * at + 2.0 * result[1];
+    result[1] = result[1] * at + result[0];
+    result[0] = result[0] * at + series[j];
+  }
+  return result;
+}
+
+/// Two roots much closer to each other than to zero: as the parabola about the point between them has them.
+void improve_double_root(const ComplexVector& series, std::array<Complex, 2>& roots) {
+  constexpr double close = 0.1;
+  Complex middle = 0.5 * (roots[0] + roots[1]);
+  if (!(std::abs(roots[0] - roots[1]) <= close * std::abs(middle))) return;
+  for (int k = 0; k < 3; ++k) {
+    const auto [value, slope, curvature] = jet(series, middle);
+    if (curvature == 0.0) return;
+    middle -= slope / curvature;
+  }
+  const auto [value, slope, curvature] = jet(series, middle);
+  const Complex half = std::sqrt(-2.0 * value / curvature);
+  roots = {middle - half, middle + half};
+  if (std::abs(roots[1]) < std::abs(roots[0])) std::swap(roots[0], roots[1]);
+}
+
 /// Roots of a series by magnitude. A companion matrix tells small roots to rounding of the large ones only;
 /// those near the point come from the first three coefficients, improved by Newton's method with all of them.
 std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reach) {
@@ -59,16 +86,12 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
   const Complex sum = series[1] + same_sign;
   std::array<Complex, 2> near{0.0, 0.0};
   if (sum != 0.0) near = {-2.0 * series[0] / sum, -0.5 * sum / series[2]};
+  improve_double_root(series, near);
   for (std::size_t i = 0; i < std::min<std::size_t>(2, roots.size()); ++i) {
     if (!(std::abs(near[i]) < 0.03 * std::abs(reach))) continue;
     for (int k = 0; k < 3; ++k) {
-      Complex value = 0.0;
-      Complex slope = 0.0;
-      for (Eigen::Index j = series.size() - 1; j >= 0; --j) {
-        slope = slope * near[i] + value;
-        value = value * near[i] + series[j];
-      }
-      // Double roots are as the quadratic has them.
+      const auto [value, slope, curvature] = jet(series, near[i]);
+      // Double roots are as the parabola has them.
       if (std::abs(slope) > 1e-6 * std::abs(series[1]) + 1e-12 * std::abs(series[2] * reach))
         near[i] -= value / slope;
     }

@@ -14,8 +14,6 @@ namespace {
 /// fails when one of them starts to pass, so that it is taken off the list.
 const std::map<int, std::string>& open_seeds() {
   static const std::map<int, std::string> seeds{
-      {1, "modes that coincide at a complex parameter without influence on each other appear as a veering"},
-      {4, "modes that coincide at a complex parameter without influence on each other appear as a veering"},
       {7, "stalls where two real roots come close and a crossing lies beside them"},
       {11, "a crossing appears as a veering of half-width 1e-12 as well"},
   };
