@@ -87,7 +87,7 @@ bool BoundarySearch::scan() {
   std::vector<LineScan> scans(lines.size());
   std::mutex mutex;
   std::size_t done = 0;
-  in_parallel(lines.size(), [&](std::size_t i) {
+  in_parallel(lines.size(), 0, [&](std::size_t i) {
     scans[i] = scan_line(window_, options_, lines[i]);
     const std::lock_guard lock(mutex);
     report(scanned * static_cast<double>(++done) / static_cast<double>(lines.size()));
@@ -117,7 +117,7 @@ bool BoundarySearch::scan() {
 void BoundarySearch::walk() {
   std::vector<std::optional<BoundarySeed>> found(extrema_.size());
   std::vector<RunCounts> counts(extrema_.size());
-  in_parallel(extrema_.size(), [&](std::size_t i) {
+  in_parallel(extrema_.size(), 0, [&](std::size_t i) {
     found[i] = walk_to_boundary(window_, options_, extrema_[i], 0.5 * spacing(), counts[i]);
   });
   result_.walks = static_cast<int>(extrema_.size());

@@ -4,6 +4,7 @@
 
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
+#include "events/second_parameter.hpp"
 
 namespace eigentrail {
 namespace {
@@ -42,22 +43,6 @@ OptionTexts trace_overrides(const BoundaryRequest& request) {
   if (request.first_to) texts.emplace_back("to", exact_text(*request.first_to));
   if (request.tolerance) texts.emplace_back("tolerance", exact_text(*request.tolerance));
   return texts;
-}
-
-void check_second(const Scene& scene, const BoundaryOptions& options) {
-  const std::string& name = options.second;
-  const auto index = scene.parameters.index(name);
-  if (!index) {
-    throw InputError("--second: no parameter is called '" + name + "'; " +
-                     suggestion(name, scene.parameters.names()));
-  }
-  if (name == options.trace.parameter)
-    throw InputError("--second: '" + name +
-                     "' is the first parameter already; choose another one, or give --parameter");
-  if (scene.parameters.at(name).definition) {
-    throw InputError("--second: '" + name +
-                     "' is defined by an expression; vary one of the parameters in it");
-  }
 }
 
 void check_numbers(const BoundaryOptions& options) {
@@ -116,7 +101,7 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   // Modes of damping ratio zero are those on the imaginary axis.
   if (options.damping_ratio == 0.0) options.damping_ratio.reset();
   options.lines = request.lines.value_or(options.lines);
-  check_second(setup.scene, options);
+  check_second_parameter(setup.scene.parameters, options.second, options.trace.parameter);
   check_numbers(options);
   // Both must enter the model.
   used.erase(setup.scene.parameters.index(options.trace.parameter).value());

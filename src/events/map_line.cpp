@@ -142,6 +142,7 @@ void add_axis_points(const std::vector<AxisStretch>& stretches, MapLine& line) {
 MapLine map_line(const MapSetup& setup, double second, const std::vector<double>& first) {
   TraceOptions options = setup.trace.options;
   options.values[setup.options.second] = second;
+  options.events = {.extrema = false};  // not needed for cells
   PathRecorder recorder;
   std::vector<int> expected;
   TraceObserver observer;

@@ -1,13 +1,12 @@
 #include "eigentrail/events/stability_map.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 #include "eigentrail/core/text.hpp"
+#include "events/parallel.hpp"
+#include "events/second_parameter.hpp"
 
 namespace eigentrail {
 namespace {
@@ -26,13 +25,7 @@ void check_options(const MapOptions& options, const TraceOptions& trace, const P
   const auto require = [](bool holds, const std::string& message) {
     if (!holds) throw InputError(message);
   };
-  const std::string& name = options.second;
-  require(parameters.index(name).has_value(),
-          "--second: no parameter is called '" + name + "'; " + suggestion(name, parameters.names()));
-  require(!parameters.at(name).definition,
-          "--second: '" + name + "' is defined by an expression; vary one of the parameters in it");
-  require(name != trace.parameter,
-          "--second: '" + name + "' is the first parameter already; choose another one, or give --parameter");
+  check_second_parameter(parameters, options.second, trace.parameter);
   require(std::isfinite(options.from) && std::isfinite(options.to), "--from, --to: expected finite numbers");
   require(options.from != options.to,
           "--to: equals --from (" + exact_text(options.from) + "): the window is empty");
@@ -114,30 +107,13 @@ StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>
   map.lines.resize(static_cast<std::size_t>(options.n_second));
   const std::vector<double> seconds = evenly(options.from, options.to, options.n_second);
 
-  std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   int finished = 0;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < seconds.size(); i = next++) {
-      try {
-        map.lines[i] = map_line(setup, seconds[i], map.first);
-        const std::scoped_lock lock(mutex);
-        done(++finished);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = seconds.size();
-      }
-    }
-  };
-  {
-    const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
-    const std::size_t jobs = options.jobs == 0 ? cores : static_cast<std::size_t>(options.jobs);
-    std::vector<std::jthread> pool;
-    for (std::size_t i = 0; i < std::min(jobs, seconds.size()); ++i) pool.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(seconds.size(), options.jobs, [&](std::size_t i) {
+    map.lines[i] = map_line(setup, seconds[i], map.first);
+    const std::scoped_lock lock(mutex);
+    done(++finished);
+  });
   return map;
 }
 
