@@ -1,6 +1,5 @@
 #include "continuation/criterion.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "eigentrail/core/series.hpp"
@@ -9,7 +8,7 @@
 namespace eigentrail {
 namespace {
 
-/// |mu| of a series with the conjugate of its coefficients.
+/// Series of |mu|^2.
 Vector magnitude_squared(const ComplexVector& mu) {
   return multiply_series(mu, mu.conjugate()).real();
 }
@@ -61,8 +60,17 @@ Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Cha
 }
 
 double criterion_value(const Criterion& criterion, Complex mu, Chart chart, double excitation) {
-  return criterion_series(criterion, ComplexVector::Constant(1, mu), chart,
-                          Vector::Constant(1, excitation))[0];
+  switch (criterion.kind) {
+    case EventKind::damping_ratio:
+      return mu.real() + criterion.value * std::abs(mu);
+    case EventKind::resonance:
+      return chart == Chart::finite ? mu.imag() - criterion.value * excitation
+                                    : -mu.imag() - criterion.value * excitation * std::norm(mu);
+    case EventKind::extremum:
+      return mu.real() / std::abs(mu);
+    default:
+      return mu.real();
+  }
 }
 
 Vector excitation_series(const EventOptions& options, const Parameters& parameters,

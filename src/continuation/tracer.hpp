@@ -158,7 +158,8 @@ class Tracer {
   bool probe_alone(Complex expected, std::size_t track, double distance, Closer& closer);
   std::optional<Closer> look_closer(double h, const PathNode& next, const Member& member, const Aim& aim,
                                     double distance);
-  void locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t);
+  bool locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t);
+  void note_unlocated(int mode, double p);
   void finish(double h, const PathNode& next, const Closer& closer, const Vector& g, double offset,
               double distance, const Member& member, const Aim& aim, int retrackings);
 

@@ -194,7 +194,8 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
     if (is_kink) continue;
     if (seen == Watch::Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = step.sign_change(criterion, member.index, last, t, before);
-      locate(h, next, member, {criterion, pair, Sought::zero}, guess);
+      if (!locate(h, next, member, {criterion, pair, Sought::zero}, guess) && !criterion.asks_for_pairs())
+        note_unlocated(mode, evaluate_series(node_.path.parameters, guess * h)[problem_.traced]);
     } else if (seen == Watch::Seen::extremum && criterion.asks_for_extrema()) {
       // Told from the error of the dense output by what it changes over half a step.
       constexpr double half_a_step = 0.125 * samples_per_step * samples_per_step;
@@ -209,6 +210,12 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
         locate(h, next, member, {criterion, pair, Sought::dip}, step.extremum(criterion, member.index, last));
     }
   }
+}
+
+/// A change of sign that Newton's method does not confirm is no event, but told.
+void Tracer::note_unlocated(int mode, double p) {
+  result_.notes.push_back("Re s of mode " + std::to_string(mode + 1) + " changes its sign near " +
+                          at_parameter(p) + " on the dense output; the place could not be located");
 }
 
 /// The point and its series.
@@ -280,8 +287,9 @@ std::optional<Tracer::Closer> Tracer::look_closer(double h, const PathNode& next
   return closer;
 }
 
-/// Newton's method for a zero or an extremum, on the series of the mode tracked anew at every guess.
-void Tracer::locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t) {
+/// Newton's method for a zero or an extremum, on the series of the mode tracked anew at every guess. False
+/// where it does not converge.
+bool Tracer::locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t) {
   const double reference = problem_.reference(node_.tracks[member.track].pair.chart);
   const double resolution = (aim.sought == Sought::zero ? 1e-12 : 1e-10) * coordinate_range();
   double distance = t * h;
@@ -289,41 +297,42 @@ void Tracer::locate(double h, const PathNode& next, const Member& member, const 
   double last_step = INFINITY;
   for (int i = 1; i <= most_retrackings; ++i) {
     const std::optional<Closer> closer = look_closer(h, next, member, aim, distance);
-    if (!closer) return;
+    if (!closer) return false;
     const ComplexVector& series = closer->series;
     const bool meets = series.size() < 2 || closer->gap <= 1e-7 * last_move;
     const bool on_axis = std::abs(closer->root.real()) <= 1e-6 * reference;
     if (meets && aim.criterion.kind == EventKind::flutter && (i > 1 || on_axis)) {
       // Newton has led to a double root, where derivatives of one eigenvalue end.
       record_zero(*closer, {}, 0.0, member, aim, i);
-      return;
+      return true;
     }
-    if (meets) return;
+    if (meets) return true;
     const Vector g = criterion_series(aim.criterion, series, node_.tracks[member.track].pair.chart,
                                       excitation(closer->node));
     // A mode that stays on the axis crosses it by rounding only.
     if (!g.allFinite() || std::abs(g[1]) <= vanishing * std::abs(series[1]) * (aim.sought == Sought::zero))
-      return;
+      return true;
     const RootOfSeries root = root_near_zero(aim.sought == Sought::zero ? g : derivative(g));
     const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(h);
     const double move = useful ? root.offset : aim.sought == Sought::zero ? -g[0] / g[1] : -0.5 * g[1] / g[2];
     last_move = std::abs(series[1] * move);
     const double share = (distance + move) / h;
-    if (!(share > -0.5 && share < 1.5)) return;
+    if (!(share > -0.5 && share < 1.5)) return false;
     // One correction more would square what is left.
     const bool settled = (useful && root.doubt <= resolution) || std::abs(move) <= 1e-10 * coordinate_range();
     if (!settled) {
-      if (std::abs(move) > 0.5 * last_step) return;
+      if (std::abs(move) > 0.5 * last_step) return false;
       last_step = std::abs(move);
       distance += move;
       continue;
     }
     // What lies behind the last point was seen from there.
     constexpr double beside = 0.05;
-    if (aim.sought == Sought::zero && !(share > -beside && share <= 1.0 + beside)) return;
+    if (aim.sought == Sought::zero && !(share > -beside && share <= 1.0 + beside)) return true;
     finish(h, next, *closer, g, move, distance, member, aim, i);
-    return;
+    return true;
   }
+  return false;
 }
 
 /// What a zero or an extremum that has been located means.
