@@ -104,11 +104,12 @@ int run_boundary(const BoundaryArguments& arguments) {
   const BoundaryResult result = find_boundaries(
       *setup.model, setup.options, [&progress](double share, int points) { progress.update(share, points); });
   progress.finish();
-  if (result.status == BoundaryStatus::no_equilibrium)
+  if (result.status == BoundaryStatus::no_equilibrium) {
     throw InputError(
         setup.scene.path +
         ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
+  }
   write_boundaries(arguments.output, setup, result);
   if (!arguments.quiet) {
     print_summary(setup, result);

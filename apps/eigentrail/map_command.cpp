@@ -34,10 +34,11 @@ void read_grid(const std::string& text, MapOptions& options) {
   const auto number = [&text](std::size_t begin, std::size_t end) {
     int value = 0;
     const auto parsed = std::from_chars(text.data() + begin, text.data() + end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + end)
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + end) {
       throw InputError(
           "--grid: expected N, or NxM for N values of the second parameter by M of the first; found '" +
           text + "'");
+    }
     return value;
   };
   const std::size_t cross = text.find('x');

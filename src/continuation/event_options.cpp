@@ -33,9 +33,10 @@ Expression traced_frequency(const Scene& scene, const std::string& traced, const
   const auto is_one_of = [&](const auto& units) {
     return std::find(units.begin(), units.end(), unit) != units.end();
   };
-  if (!is_one_of(angular) && !is_one_of(turns))
+  if (!is_one_of(angular) && !is_one_of(turns)) {
     table.fail("harmonics", "of what frequency? '" + traced + "' is in " + unit +
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
+  }
   return Expression::parse((is_one_of(turns) ? "2 * pi * " : "") + traced, scene.parameters.names());
 }
 

@@ -20,6 +20,13 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return result;
 }
 
+std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members) {
+  std::vector<Complex> roots;
+  roots.reserve(members.size());
+  for (const int i : members) roots.push_back(track.roots[i]);
+  return roots;
+}
+
 PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks) {
   PathNode base = node;
   base.tracks.clear();

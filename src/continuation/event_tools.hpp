@@ -33,6 +33,9 @@ std::vector<int> sorted_modes(const std::vector<int>& modes);
 /// Elements of either, ascending; both are ascending.
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 
+/// The eigenvalues of a track with these indices.
+std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members);
+
 /// A point with some of its tracks only: what an event needs.
 PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks);
 

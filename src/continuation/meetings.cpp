@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "continuation/event_tools.hpp"
 #include "core/matrix_series.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -17,9 +18,7 @@ namespace {
 
 /// The eigenvalues with these indices as a block of their own; empty when it cannot be told from the others.
 std::vector<ComplexMatrix> part_of_track(const Track& track, const std::vector<int>& members) {
-  std::vector<Complex> roots;
-  for (const int i : members) roots.push_back(track.roots[i]);
-  return part_series(track.series.Lambda, roots);
+  return part_series(track.series.Lambda, roots_of(track, members));
 }
 
 std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {

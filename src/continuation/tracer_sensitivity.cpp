@@ -15,12 +15,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members) {
-  std::vector<Complex> roots;
-  for (const int i : members) roots.push_back(track.roots[i]);
-  return roots;
-}
-
 /// d/dh of the mean of some eigenvalues of a block, in its chart; NaN where they are not told from the
 /// others.
 Complex mean_slope(const Track& track, const std::vector<Complex>& roots) {

@@ -35,11 +35,6 @@ std::vector<Complex> finite_eigenvalues(ComplexMatrix A, ComplexMatrix B) {
   return values;
 }
 
-std::vector<Complex> finite_eigenvalues(const ComplexMatrix& matrix) {
-  const ComplexVector values = Eigen::ComplexEigenSolver<ComplexMatrix>(matrix, false).eigenvalues();
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 ComplexVector chebyshev_coefficients(const std::function<Complex(double)>& f, int degree) {
