@@ -46,7 +46,7 @@ double square_radius(const Track& track) {
 
 /// Mean of a track in a chart; empty where it is at infinity there.
 ComplexVector mean_in(const Track& track, Chart chart) {
-  const ComplexVector mean = mean_series(track.series.Lambda);
+  ComplexVector mean = mean_series(track.series.Lambda);
   if (track.pair.chart == chart) return mean;
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
@@ -168,9 +168,10 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
   if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
   joined.met = std::move(met);
-  if (departure)
+  if (departure) {
     joined.departure =
         Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
+  }
   replace(node, members, std::move(joined));
   return true;
 }

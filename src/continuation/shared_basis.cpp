@@ -7,6 +7,7 @@ namespace eigentrail {
 std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical) {
   if (node.basis.is_identity) return physical;
   std::vector<ComplexMatrix> result;
+  result.reserve(physical.size());
   for (const ComplexMatrix& V : physical)
     result.emplace_back(node.basis.T[0].transpose().cast<Complex>() * V);
   return result;

@@ -102,7 +102,9 @@ void Tracer::survey_branch_point(const PathNode& node) {
     return std::pair(there.parameters(problem_.traced, 0) - node.p,
                      Vector(there.x.col(0) - node.path.x.col(0)));
   };
-  const auto [rise_ahead, move] = change(0.5 * reach);
+  const auto ahead_of_point = change(0.5 * reach);
+  const double rise_ahead = ahead_of_point.first;
+  const Vector& move = ahead_of_point.second;
   const double rise_back = change(-0.5 * reach).first;
   Eigen::Index most = 0;
   move.cwiseAbs().maxCoeff(&most);

@@ -80,9 +80,7 @@ Tracer::Watch::Seen Tracer::Watch::next(double value) {
 class Tracer::StepCriteria {
  public:
   StepCriteria(const Tracer& tracer, double h, const PathNode& next, std::size_t track)
-      : tracer_(tracer),
-        track_(tracer.node_.tracks[track]),
-        h_(h),
+      : track_(tracer.node_.tracks[track]),
         roots_(tracer.node_, next, track, h),
         excitation_(h, tracer.excitation(tracer.node_).cast<Complex>().transpose(),
                     tracer.excitation(next).cast<Complex>().transpose()) {
@@ -130,9 +128,7 @@ class Tracer::StepCriteria {
   }
 
  private:
-  const Tracer& tracer_;
   const Track& track_;
-  double h_;
   StrandSampler roots_;
   HermiteInterpolant excitation_;
   double begin_ = 0.0;
@@ -199,9 +195,10 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
     } else if (seen == Watch::Seen::extremum && criterion.asks_for_extrema()) {
       // Told from the error of the dense output by what it changes over half a step.
       constexpr double half_a_step = 0.125 * samples_per_step * samples_per_step;
-      if (half_a_step * std::abs(watch.bend()) > options_.tolerance)
+      if (half_a_step * std::abs(watch.bend()) > options_.tolerance) {
         locate(h, next, member, {criterion, pair, Sought::extremum},
                step.extremum(criterion, member.index, last));
+      }
     } else if (seen == Watch::Seen::extremum && before * watch.bend() > 0.0) {
       // A dip towards zero: two zeros may hide in it.
       constexpr double near = 10.0;
@@ -319,8 +316,9 @@ bool Tracer::locate(double h, const PathNode& next, const Member& member, const 
     const double share = (distance + move) / h;
     if (!(share > -0.5 && share < 1.5)) return false;
     // One correction more would square what is left.
-    const bool settled = (useful && root.doubt <= resolution) || std::abs(move) <= 1e-10 * coordinate_range();
-    if (!settled) {
+    const bool is_settled =
+        (useful && root.doubt <= resolution) || std::abs(move) <= 1e-10 * coordinate_range();
+    if (!is_settled) {
       if (std::abs(move) > 0.5 * last_step) return false;
       last_step = std::abs(move);
       distance += move;

@@ -38,7 +38,7 @@ constexpr double merged_assurance = 0.999;
 Tracer::Trouble Tracer::judge(double h, const PathNode& next, double& error) {
   certified_.assign(node_.tracks.size(), false);
   if (Trouble trouble = check_path(h, next)) return trouble;
-  const Trouble inaccuracy = measure_error(h, next);
+  Trouble inaccuracy = measure_error(h, next);
   error = inaccuracy.error;
   if (error > 1.0) return inaccuracy;
   if (Trouble trouble = check_identity(next)) return trouble;
