@@ -1,6 +1,7 @@
 #include "eigentrail/scene/value.hpp"
 
 #include <toml++/toml.h>
+
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -50,19 +51,46 @@ Table convert_table(const toml::table& source, const std::string& path) {
   return table;
 }
 
+/// Where a text that begins at `i` ends: at its last quote, or where it would have to end.
+std::size_t end_of_text(std::string_view text, std::size_t i) {
+  const char quote = text[i];
+  const std::string triple(3, quote);
+  const bool over_lines = text.substr(i, 3) == triple;
+  for (i += over_lines ? 3 : 1; i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (over_lines ? text.substr(i, 3) == triple : text[i] == quote) {
+      return i + (over_lines ? 2 : 0);
+    } else if (!over_lines && text[i] == '\n') {
+      return i - 1;
+    }
+  }
+  return text.size() - 1;
+}
+
 /// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack. Counts
-/// dots since the last character that ends a key or a number; two dots in a row belong to neither.
+/// dots outside of texts since the last character that ends a key or a number; two dots in a row belong to
+/// neither.
 void reject_deep_keys(std::string_view text, const std::string& path) {
   constexpr int most_parts = 32;
   int line = 1;
   int parts = 0;
   char last = ' ';
-  for (const char c : text) {
-    if (c == '\n') ++line;
-    if (c == '.') {
-      parts = last == '.' ? 0 : parts + 1;
-    } else if (std::string_view(",=\n{}[]#").find(c) != std::string_view::npos) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_text(text, i);
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                          text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+      i = end;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
       parts = 0;
+    } else if (c == '.') {
+      parts = last == '.' ? 0 : parts + 1;
+    } else if (std::string_view(",=\n{}[]").find(c) != std::string_view::npos) {
+      parts = 0;
+      line += c == '\n';
     }
     if (parts > most_parts) {
       throw InputError(prefix(path, {line, 1}) + "a key of more than " + std::to_string(most_parts) +

@@ -139,7 +139,10 @@ TEST(ParseToml, RefusesNestingBeyondAnyUse) {
                          Row{"dotted keys", dotted + "a = 1\n"}, Row{"dotted header", "[" + dotted + "a]\n"},
                          Row{"dotted key of an inline table", "x = { " + dotted + "a = 1 }\n"},
                          Row{"dotted keys in nested tables", nested},
-                         Row{"quoted parts of a dotted key", "\"=\"." + dotted + "a = 1\n"}}) {
+                         Row{"quoted parts of a dotted key", "\"=\"." + dotted + "a = 1\n"},
+                         Row{"behind a text", "x = { s = 'it', " + dotted + "a = 1 }\n"},
+                         Row{"behind an escaped quote", "x = { s = \"\\\"\", " + dotted + "a = 1 }\n"},
+                         Row{"behind a long text", "x = { s = \"\"\" \" \"\"\", " + dotted + "a = 1 }\n"}}) {
     EXPECT_TRUE(input_error([&] { parsed(row.text); }).starts_with("test.toml:1:")) << row.name;
   }
 }
@@ -151,6 +154,16 @@ TEST(ParseToml, RowsOfManyNumbersAreNotTakenForKeys) {
   const Array& rows = std::get<Array>(get<Array>(root, "M")[0].data);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(std::get<double>(std::get<Array>(rows[1].data)[500].data), 2.0);
+}
+
+TEST(ParseToml, DotsInTextsAndCommentsAreNotTakenForKeys) {
+  std::string sum = "0.5";
+  for (int i = 0; i < 100; ++i) sum += " + 0.5 * p";
+  for (const std::string& quote : {"\"", "'", "\"\"\"", "'''"}) {
+    const Table root = parsed("# " + sum + "\nx = " + quote + sum + quote + "  # it's " + sum + "\ny = 1\n");
+    EXPECT_EQ(get<std::string>(root, "x"), sum);
+    EXPECT_EQ(get<double>(root, "y"), 1.0);
+  }
 }
 
 }  // namespace
