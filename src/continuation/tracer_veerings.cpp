@@ -1,6 +1,8 @@
 // Exceptional points beside the real parameter axis: two modes come close and part again.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "continuation/event_tools.hpp"
 #include "continuation/tracer.hpp"
@@ -297,10 +299,19 @@ void Tracer::record_veering(const PathNode& base, double h, const ExpectedMeetin
   // Another exceptional point as near as this one spoils the series: then nothing can be told.
   const bool is_told = !is_double_root(gap, root) && confirms_root(gap_there(*below), root - position);
   const bool is_wide = event.half_width > widest_veering * range();
-  if (is_told && !is_wide && event.half_width >= resolution)
-    add_event(std::move(event));
-  else
+  const bool counts = is_told && !is_wide && event.half_width >= resolution;
+  if (!counts) {
     no_veerings_.push_back(std::move(event));
+    return;
+  }
+  std::vector<int> members(there.modes.size());
+  std::iota(members.begin(), members.end(), 0);
+  keep_shape(*below, 0, members, offset, event);
+  const auto stays = [](const Track&, const PathNode&, const Track&) {
+    return std::numeric_limits<double>::quiet_NaN();  // the point itself is complex
+  };
+  keep_sensitivities(solved_point(*below), *below, 0, members, stays, event);
+  add_event(std::move(event));
 }
 
 }  // namespace eigentrail

@@ -206,6 +206,23 @@ TEST(TraceEvents, KeepTheShiftOfCrossings) {
   EXPECT_NEAR(events[0].shift[setting.parameter("b")], 1.0, 1e-8);
 }
 
+TEST(TraceEvents, VeeringsKeepAnEigenvectorAndTheSlopesOfTheMean) {
+  // s^2 = -(eigenvalue of [[a + p, e], [e, b]]): closest at p = b - a, exceptional points at +- 2 e j.
+  const Setting setting = make_setting(
+      "[parameters]\np = 0.0\na = 1.0\nb = 1.5\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n"
+      "[matrix_family]\nM = [[[1, 0], [0, 1]]]\nK = [[[\"a\", 1e-3], [1e-3, \"b\"]], [[1, 0], [0, 0]]]\n");
+  const auto events = events_of(setting, EventKind::veering);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(events[0].p, 0.5, 1e-9);
+  EXPECT_NEAR(events[0].half_width, 2e-3, 1e-9);
+  EXPECT_NEAR(events[0].shape.norm(), 1.0, 1e-9);
+  // Both freedoms take part alike, and the mean moves with half of either stiffness: ds = j dk / (4 sqrt(k)).
+  EXPECT_NEAR(std::abs(events[0].shape[0]), std::sqrt(0.5), 1e-6);
+  const Complex expected(0.0, 0.25 / std::sqrt(1.5));
+  for (const char* name : {"p", "a", "b"})
+    EXPECT_NEAR(std::abs(events[0].sensitivity[setting.parameter(name)] - expected), 0.0, 1e-5) << name;
+}
+
 /// The one event of a kind when another parameter has a value of its own.
 Event event_at(const Setting& setting, EventKind kind, const std::string& parameter, double value) {
   TraceOptions options = setting.options;
