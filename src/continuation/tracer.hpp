@@ -190,6 +190,7 @@ class Tracer {
   double heading(const PathNode& node, double towards) const;
   double fold_distance(const PathNode& node) const;
   bool land_on_fold(double& h, std::optional<PathNode>& next);
+  void keep_vanishing_mode(const PathNode& node, Event& event) const;
   void find_folds(double h, const PathNode& next);
   void add_static_event(const PathNode& node, Event event);
   void note_branch_point(double p);

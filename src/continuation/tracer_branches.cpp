@@ -279,6 +279,8 @@ void Tracer::record_branch_point(const PathNode& node) {
   event.p = branch_.p;
   event.retrackings = 1;
   event.node = result_.nodes;
+  keep_vanishing_mode(node, event);
+  event.modes.clear();  // of this path; the other one has them, too
   add_event(std::move(event));
   survey_branch_point(node);
 }

@@ -149,6 +149,21 @@ bool Tracer::land_on_fold(double& h, std::optional<PathNode>& next) {
   return false;
 }
 
+/// The modes and the shape of the eigenvalue that vanishes with the tangent stiffness.
+void Tracer::keep_vanishing_mode(const PathNode& node, Event& event) const {
+  double least = INFINITY;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& track = node.tracks[i];
+    const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
+    if (size >= least) continue;
+    least = size;
+    event.modes = sorted_modes(track.arriving);
+    Eigen::Index member = 0;
+    track.roots.cwiseAbs().minCoeff(&member);
+    keep_shape(node, i, {static_cast<int>(member)}, 0.0, event);
+  }
+}
+
 void Tracer::find_folds(double h, const PathNode& next) {
   if (!plane_ || !(heading(next, -h) * heading(next, h) < 0.0)) return;
   if (on_branch_point(coordinate(next.path.x.col(0), next.p))) return;
@@ -161,17 +176,7 @@ void Tracer::find_folds(double h, const PathNode& next) {
   event.p = next.p + 0.5 * fold_distance(next) * coefficient(next.path.parameters, problem_.traced, 1);
   event.retrackings = 1;
   event.node = result_.nodes;
-  // The eigenvalue that vanishes with the tangent stiffness.
-  double least = INFINITY;
-  std::size_t vanishing = 0;
-  for (const Track& track : next.tracks) {
-    const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
-    if (size >= least) continue;
-    least = size;
-    event.modes = sorted_modes(track.arriving);
-    vanishing = static_cast<std::size_t>(&track - next.tracks.data());
-  }
-  if (!next.tracks.empty()) keep_shape(next, vanishing, {0}, 0.0, event);
+  keep_vanishing_mode(next, event);
   if (event.kind == EventKind::fold) keep_fold_sensitivities(next, event);
   add_event(std::move(event));
 }
