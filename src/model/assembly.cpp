@@ -5,9 +5,14 @@
 namespace eigentrail {
 namespace {
 
-template <int Q>
-std::vector<Series<double, Q>> to_series(const VectorSeries& coefficients) {
-  std::vector<Series<double, Q>> series(static_cast<std::size_t>(coefficients.rows()));
+template <class Real>
+using Columns = typename BasicPath<Real>::Columns;
+template <class Real>
+using Coefficients = typename BasicLinearization<Real>::Coefficients;
+
+template <class Real, int Q>
+std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
+  std::vector<Series<Real, Q>> series(static_cast<std::size_t>(coefficients.rows()));
   for (Eigen::Index i = 0; i < coefficients.rows(); ++i) {
     for (int k = 0; k <= Q; ++k) series[static_cast<std::size_t>(i)][k] = coefficient(coefficients, i, k);
   }
@@ -15,34 +20,37 @@ std::vector<Series<double, Q>> to_series(const VectorSeries& coefficients) {
 }
 
 /// Adds a series to an entry of a matrix series and notes whether all its coefficients are finite.
-template <int Q>
-void add_entry(MatrixSeries& sum, int row, int column, const Series<double, Q>& value, bool& finite) {
+template <class Real, int Q>
+void add_entry(Coefficients<Real>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
+  using std::isfinite;
   for (int k = 0; k <= Q; ++k) {
     sum[k](row, column) += value[k];
-    finite = finite && std::isfinite(value[k]);
+    finite = finite && isfinite(value[k]);
   }
 }
 
-template <int Q>
-void add_entry(VectorSeries& sum, int row, const Series<double, Q>& value, bool& finite) {
+template <class Real, int Q>
+void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& finite) {
+  using std::isfinite;
   for (int k = 0; k <= Q; ++k) {
     sum(row, k) += value[k];
-    finite = finite && std::isfinite(value[k]);
+    finite = finite && isfinite(value[k]);
   }
 }
 
 /// Drops the trailing coefficients that are exactly zero: a constant keeps one.
-void trim(MatrixSeries& series) {
-  while (series.size() > 1 && series.back().isZero(0.0)) series.pop_back();
+template <class Real>
+void trim(Coefficients<Real>& series) {
+  while (series.size() > 1 && series.back().isZero(Real(0.0))) series.pop_back();
 }
 
 /// Evaluates one element with forces: its derivative in each direction gives a column of M, C or K.
-template <int Q, class Element>
-bool linearize_force(const Placed<Element>& placed, const PathValues<Series<double, Q>>& values,
-                     std::span<const Series<double, Q>> lambda, Linearization& sum) {
-  using Scalar = Series<Series<double, Q>, 1>;
+template <class Real, int Q, class Element>
+bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
+                     std::span<const Series<Real, Q>> lambda, BasicLinearization<Real>& sum) {
+  using Scalar = Series<Series<Real, Q>, 1>;
   bool finite = true;
-  const auto differentiate = [&](bool depends, Motion motion, MatrixSeries& matrix) {
+  const auto differentiate = [&](bool depends, Motion motion, Coefficients<Real>& matrix) {
     if (!depends) return;
     for (const int point : placed.points) {
       for (int column = 3 * point; column < 3 * point + 3; ++column) {
@@ -50,7 +58,7 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<doub
         placed.element.force(view);
         for (std::size_t i = 0; i < placed.points.size(); ++i) {
           for (int axis = 0; axis < 3; ++axis) {
-            add_entry<Q>(matrix, 3 * placed.points[i] + axis, column, -view.force(i)[axis][1], finite);
+            add_entry<Real, Q>(matrix, 3 * placed.points[i] + axis, column, -view.force(i)[axis][1], finite);
           }
         }
       }
@@ -63,10 +71,10 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<doub
 }
 
 /// Rows of A, and (A^T lambda)_/x as the second derivatives of lambda^T c (Eq. 18), which is symmetric.
-template <int Q, class Element>
-bool linearize_constraint(const Placed<Element>& placed, const PathValues<Series<double, Q>>& values,
-                          std::span<const Series<double, Q>> lambda, Linearization& sum) {
-  using Scalar = Series<Series<Series<double, Q>, 1>, 1>;
+template <class Real, int Q, class Element>
+bool linearize_constraint(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
+                          std::span<const Series<Real, Q>> lambda, BasicLinearization<Real>& sum) {
+  using Scalar = Series<Series<Series<Real, Q>, 1>, 1>;
   bool finite = true;
   std::vector<int> coordinates;
   for (const int point : placed.points) {
@@ -79,47 +87,47 @@ bool linearize_constraint(const Placed<Element>& placed, const PathValues<Series
       ElementView<Scalar> view(values, placed.points, lambda,
                                {Seed{Motion::position, a}, Seed{Motion::position, b}});
       placed.element.constraint(view);
-      const Series<double, Q>& curvature = view.lagrangian()[1][1];
-      add_entry<Q>(sum.K, a, b, curvature, finite);
+      const Series<Real, Q>& curvature = view.lagrangian()[1][1];
+      add_entry<Real, Q>(sum.K, a, b, curvature, finite);
       if (a == b) {
         for (int row = 0; row < Element::constraint_count; ++row) {
-          add_entry<Q>(sum.A, placed.first_row + row, a, view.constraint(row)[0][1], finite);
+          add_entry<Real, Q>(sum.A, placed.first_row + row, a, view.constraint(row)[0][1], finite);
         }
       } else {
-        add_entry<Q>(sum.K, b, a, curvature, finite);
+        add_entry<Real, Q>(sum.K, b, a, curvature, finite);
       }
     }
   }
   return finite;
 }
 
-template <int Q, class Element>
-bool force_residual(const Placed<Element>& placed, const PathValues<Series<double, Q>>& values,
-                    std::span<const Series<double, Q>> lambda, SteadyResidual& sum) {
+template <class Real, int Q, class Element>
+bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
+                    std::span<const Series<Real, Q>> lambda, BasicSteadyResidual<Real>& sum) {
   bool finite = true;
-  ElementView<Series<double, Q>> view(values, placed.points, lambda);
+  ElementView<Series<Real, Q>> view(values, placed.points, lambda);
   placed.element.force(view);
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      add_entry<Q>(sum.force, 3 * placed.points[i] + axis, -view.force(i)[axis], finite);
+      add_entry<Real, Q>(sum.force, 3 * placed.points[i] + axis, -view.force(i)[axis], finite);
     }
   }
   return finite;
 }
 
-template <int Q, class Element>
-bool constraint_residual(const Placed<Element>& placed, const PathValues<Series<double, Q>>& values,
-                         std::span<const Series<double, Q>> lambda, SteadyResidual& sum) {
-  using Scalar = Series<Series<double, Q>, 1>;
+template <class Real, int Q, class Element>
+bool constraint_residual(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
+                         std::span<const Series<Real, Q>> lambda, BasicSteadyResidual<Real>& sum) {
+  using Scalar = Series<Series<Real, Q>, 1>;
   bool finite = true;
   bool first = true;
   for (const int point : placed.points) {
     for (int i = 3 * point; i < 3 * point + 3; ++i) {
       ElementView<Scalar> view(values, placed.points, lambda, {Seed{Motion::position, i}});
       placed.element.constraint(view);
-      add_entry<Q>(sum.force, i, view.lagrangian()[1], finite);
+      add_entry<Real, Q>(sum.force, i, view.lagrangian()[1], finite);
       for (int row = 0; first && row < Element::constraint_count; ++row) {
-        add_entry<Q>(sum.constraint, placed.first_row + row, view.constraint(row)[0], finite);
+        add_entry<Real, Q>(sum.constraint, placed.first_row + row, view.constraint(row)[0], finite);
       }
       first = false;
     }
@@ -127,9 +135,9 @@ bool constraint_residual(const Placed<Element>& placed, const PathValues<Series<
   return finite;
 }
 
-template <int Q, class Element>
-std::span<const Series<double, Q>> own_multipliers(const Placed<Element>& placed,
-                                                   const PathValues<Series<double, Q>>& values) {
+template <class Real, int Q, class Element>
+std::span<const Series<Real, Q>> own_multipliers(const Placed<Element>& placed,
+                                                 const PathValues<Series<Real, Q>>& values) {
   if constexpr (HasConstraint<Element>) {
     return std::span(values.lambda)
         .subspan(static_cast<std::size_t>(placed.first_row), Element::constraint_count);
@@ -138,17 +146,18 @@ std::span<const Series<double, Q>> own_multipliers(const Placed<Element>& placed
   }
 }
 
-MatrixSeries zero_series(int order, Eigen::Index rows, Eigen::Index columns) {
-  return MatrixSeries(static_cast<std::size_t>(order) + 1, Matrix::Zero(rows, columns));
+template <class Real>
+Coefficients<Real> zero_series(int order, Eigen::Index rows, Eigen::Index columns) {
+  return Coefficients<Real>(static_cast<std::size_t>(order) + 1, Columns<Real>::Zero(rows, columns));
 }
 
 }  // namespace
 
-template <int Q>
-Assembly<Q>::Assembly(const MultibodyData& data, const Path& path) : data_(data) {
-  values_.x = to_series<Q>(path.x);
-  values_.lambda = to_series<Q>(path.lambda);
-  std::vector<Base> parameters = to_series<Q>(path.parameters);
+template <class Real, int Q>
+Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& path) : data_(data) {
+  values_.x = to_series<Real, Q>(path.x);
+  values_.lambda = to_series<Real, Q>(path.lambda);
+  std::vector<Base> parameters = to_series<Real, Q>(path.parameters);
   data.parameters.to_si(std::span<Base>(parameters));
   values_.values.reserve(data.quantities.size());
   for (const Expression& quantity : data.quantities) {
@@ -156,18 +165,20 @@ Assembly<Q>::Assembly(const MultibodyData& data, const Path& path) : data_(data)
   }
 }
 
-template <int Q>
-EvaluationFault Assembly<Q>::residual(SteadyResidual& result, EvaluationCounts& counts) const {
-  result.force = VectorSeries::Zero(data_.n_coordinates, Q + 1);
-  result.constraint = VectorSeries::Zero(data_.n_constraints, Q + 1);
+template <class Real, int Q>
+EvaluationFault Assembly<Real, Q>::residual(BasicSteadyResidual<Real>& result,
+                                            EvaluationCounts& counts) const {
+  result.force = Columns<Real>::Zero(data_.n_coordinates, Q + 1);
+  result.constraint = Columns<Real>::Zero(data_.n_constraints, Q + 1);
   EvaluationFault fault;
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
     for (const Placed<Element>& placed : list) {
-      const auto lambda = own_multipliers<Q>(placed, values_);
+      const auto lambda = own_multipliers<Real, Q>(placed, values_);
       bool finite = true;
-      if constexpr (HasForce<Element>) finite = force_residual<Q>(placed, values_, lambda, result) && finite;
+      if constexpr (HasForce<Element>)
+        finite = force_residual<Real, Q>(placed, values_, lambda, result) && finite;
       if constexpr (HasConstraint<Element>)
-        finite = constraint_residual<Q>(placed, values_, lambda, result) && finite;
+        finite = constraint_residual<Real, Q>(placed, values_, lambda, result) && finite;
       if (!finite && !fault) fault.source = placed.label;
     }
     counts.residual[kind] += list.size();
@@ -175,37 +186,40 @@ EvaluationFault Assembly<Q>::residual(SteadyResidual& result, EvaluationCounts& 
   return fault;
 }
 
-template <int Q>
-EvaluationFault Assembly<Q>::linearize(Linearization& result, EvaluationCounts& counts) const {
+template <class Real, int Q>
+EvaluationFault Assembly<Real, Q>::linearize(BasicLinearization<Real>& result,
+                                             EvaluationCounts& counts) const {
   const int n = data_.n_coordinates;
-  result.M = zero_series(Q, n, n);
-  result.C = zero_series(Q, n, n);
-  result.K = zero_series(Q, n, n);
-  result.A = zero_series(Q, data_.n_constraints, n);
+  result.M = zero_series<Real>(Q, n, n);
+  result.C = zero_series<Real>(Q, n, n);
+  result.K = zero_series<Real>(Q, n, n);
+  result.A = zero_series<Real>(Q, data_.n_constraints, n);
   EvaluationFault fault;
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
     for (const Placed<Element>& placed : list) {
-      const auto lambda = own_multipliers<Q>(placed, values_);
+      const auto lambda = own_multipliers<Real, Q>(placed, values_);
       bool finite = true;
-      if constexpr (HasForce<Element>) finite = linearize_force<Q>(placed, values_, lambda, result) && finite;
+      if constexpr (HasForce<Element>)
+        finite = linearize_force<Real, Q>(placed, values_, lambda, result) && finite;
       if constexpr (HasConstraint<Element>)
-        finite = linearize_constraint<Q>(placed, values_, lambda, result) && finite;
+        finite = linearize_constraint<Real, Q>(placed, values_, lambda, result) && finite;
       if (!finite && !fault) fault.source = placed.label;
     }
     counts.linearization[kind] += list.size();
   });
-  trim(result.M);
-  trim(result.C);
-  trim(result.K);
-  trim(result.A);
+  trim<Real>(result.M);
+  trim<Real>(result.C);
+  trim<Real>(result.K);
+  trim<Real>(result.A);
   return fault;
 }
 
-template class Assembly<0>;
-template class Assembly<1>;
-template class Assembly<2>;
-template class Assembly<3>;
-template class Assembly<4>;
-template class Assembly<5>;
+template class Assembly<double, 0>;
+template class Assembly<double, 1>;
+template class Assembly<double, 2>;
+template class Assembly<double, 3>;
+template class Assembly<double, 4>;
+template class Assembly<double, 5>;
+template class Assembly<Extended, 0>;
 
 }  // namespace eigentrail

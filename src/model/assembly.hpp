@@ -1,4 +1,5 @@
-// Evaluation of all elements of a multibody model in series of order Q along a path.
+// Evaluation of all elements of a multibody model in series of order Q along a path; Real is double, or
+// Extended for references.
 #pragma once
 
 #include "model/registry.hpp"
@@ -14,26 +15,27 @@ struct MultibodyData {
   int n_constraints = 0;
 };
 
-template <int Q>
+template <class Real, int Q>
 class Assembly {
  public:
-  Assembly(const MultibodyData& data, const Path& path);
+  Assembly(const MultibodyData& data, const BasicPath<Real>& path);
 
-  EvaluationFault residual(SteadyResidual& result, EvaluationCounts& counts) const;
-  EvaluationFault linearize(Linearization& result, EvaluationCounts& counts) const;
+  EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const;
+  EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const;
 
  private:
-  using Base = Series<double, Q>;
+  using Base = Series<Real, Q>;
 
   const MultibodyData& data_;
   PathValues<Base> values_;
 };
 
-extern template class Assembly<0>;
-extern template class Assembly<1>;
-extern template class Assembly<2>;
-extern template class Assembly<3>;
-extern template class Assembly<4>;
-extern template class Assembly<5>;
+extern template class Assembly<double, 0>;
+extern template class Assembly<double, 1>;
+extern template class Assembly<double, 2>;
+extern template class Assembly<double, 3>;
+extern template class Assembly<double, 4>;
+extern template class Assembly<double, 5>;
+extern template class Assembly<Extended, 0>;
 
 }  // namespace eigentrail

@@ -93,9 +93,9 @@ struct SeriesOf {
   using Base = typename SeriesOf<typename Scalar::Coefficient>::Base;
   static constexpr int depth = SeriesOf<typename Scalar::Coefficient>::depth + 1;
 };
-template <int Q>
-struct SeriesOf<Series<double, Q>> {
-  using Base = Series<double, Q>;
+template <class Real, int Q>
+requires(!is_series<Real>) struct SeriesOf<Series<Real, Q>> {
+  using Base = Series<Real, Q>;
   static constexpr int depth = 0;
 };
 
@@ -109,7 +109,7 @@ struct PathValues {
   std::vector<Base> values;  ///< quantities, by slot
 };
 
-/// What an element sees and writes to during one evaluation. Scalar is Series<double, Q> (values along the
+/// What an element sees and writes to during one evaluation. Scalar is Series<Real, Q> (values along the
 /// path), or that nested once (with the derivative in direction `seeds[0]`) or twice (`seeds[0]` and
 /// `seeds[1]`).
 template <class Scalar>

@@ -6,52 +6,55 @@
 namespace eigentrail {
 namespace {
 
-using Scalar = Series<double, max_order>;
-
 /// SI values of the parameters along the path, the variable among them.
+template <class Scalar>
 struct ParameterSeries {
   Scalar variable;
   std::vector<Scalar> si;
 };
 
-ParameterSeries parameter_series(const Parameters& parameters, int variable, const Path& path) {
-  ParameterSeries result;
+template <class Real, int Q>
+ParameterSeries<Series<Real, Q>> parameter_series(const Parameters& parameters, int variable,
+                                                  const BasicPath<Real>& path) {
+  ParameterSeries<Series<Real, Q>> result;
   result.si.resize(parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    for (int k = 0; k <= max_order; ++k) {
+    for (int k = 0; k <= Q; ++k) {
       result.si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
     }
   }
-  parameters.to_si(std::span<Scalar>(result.si));
+  parameters.to_si(std::span<Series<Real, Q>>(result.si));
   result.variable = result.si[static_cast<std::size_t>(variable)];
   return result;
 }
 
-bool is_zero(const MatrixSeries& series, std::size_t k) {
-  return series[k].isZero(0.0);
-}
-
 /// Coefficients of the polynomial along the path up to h^order, trailing zeros dropped.
-MatrixSeries evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
-                      const ParameterSeries& parameters, int order, bool& finite) {
-  MatrixSeries result(static_cast<std::size_t>(order) + 1, Matrix::Zero(rows, columns));
+template <class Real, int Q>
+auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
+              const ParameterSeries<Series<Real, Q>>& parameters, int order, bool& finite) {
+  using std::isfinite;
+  using Scalar = Series<Real, Q>;
+  using Coefficients = typename BasicLinearization<Real>::Coefficients;
+  using Coefficient = typename Coefficients::value_type;
+  Coefficients result(static_cast<std::size_t>(order) + 1, Coefficient::Zero(rows, columns));
   Scalar power(1.0);
   for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
     for (int k = 0; k <= order; ++k) {
-      finite = finite && std::isfinite(power[k]);
-      if (power[k] != 0.0) result[static_cast<std::size_t>(k)] += power[k] * polynomial.coefficients[j];
+      finite = finite && isfinite(power[k]);
+      if (power[k] != Real(0.0))
+        result[static_cast<std::size_t>(k)] += power[k] * polynomial.coefficients[j].template cast<Real>();
     }
     for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
       if (entry.power != static_cast<int>(j)) continue;
       const Scalar value = entry.expression.evaluate(std::span<const Scalar>(parameters.si)) * power;
       for (int k = 0; k <= order; ++k) {
-        finite = finite && std::isfinite(value[k]);
+        finite = finite && isfinite(value[k]);
         result[static_cast<std::size_t>(k)](entry.row, entry.column) += value[k];
       }
     }
     power *= parameters.variable;
   }
-  while (result.size() > 1 && is_zero(result, result.size() - 1)) result.pop_back();
+  while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
   return result;
 }
 
@@ -138,15 +141,16 @@ EvaluationFault MatrixFamily::residual(const Path& path, int order, SteadyResidu
   return {};
 }
 
-EvaluationFault MatrixFamily::linearize(const Path& path, int order, Linearization& result,
-                                        EvaluationCounts& counts) const {
-  const ParameterSeries parameters = parameter_series(description().parameters, variable_, path);
+template <class Real, int Q>
+EvaluationFault MatrixFamily::evaluate_all(const BasicPath<Real>& path, int order,
+                                           BasicLinearization<Real>& result, EvaluationCounts& counts) const {
+  const auto parameters = parameter_series<Real, Q>(description().parameters, variable_, path);
   const Eigen::Index n = n_coordinates();
   EvaluationFault fault;
   std::size_t effect = 0;
   const auto evaluate_one = [&](const MatrixPolynomial& polynomial, Eigen::Index rows, const char* name) {
     bool finite = true;
-    MatrixSeries series = evaluate(polynomial, rows, n, parameters, order, finite);
+    auto series = evaluate<Real, Q>(polynomial, rows, n, parameters, order, finite);
     if (!finite && !fault) fault.source = name;
     if (!polynomial.empty()) ++counts.linearization[effect];
     ++effect;
@@ -157,6 +161,24 @@ EvaluationFault MatrixFamily::linearize(const Path& path, int order, Linearizati
   result.K = evaluate_one(K_, n, "matrix K");
   result.A = evaluate_one(A_, n_constraints(), "matrix A");
   return fault;
+}
+
+EvaluationFault MatrixFamily::linearize(const Path& path, int order, Linearization& result,
+                                        EvaluationCounts& counts) const {
+  return evaluate_all<double, max_order>(path, order, result, counts);
+}
+
+EvaluationFault MatrixFamily::extended_residual(const BasicPath<Extended>&,
+                                                BasicSteadyResidual<Extended>& result) const {
+  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
+  result.constraint = ExtendedMatrix::Zero(n_constraints(), 1);
+  return {};
+}
+
+EvaluationFault MatrixFamily::extended_linearization(const BasicPath<Extended>& path,
+                                                     BasicLinearization<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return evaluate_all<Extended, 0>(path, 0, result, counts);
 }
 
 }  // namespace eigentrail

@@ -35,8 +35,16 @@ class MatrixFamily final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
+  EvaluationFault extended_residual(const BasicPath<Extended>& path,
+                                    BasicSteadyResidual<Extended>& result) const override;
+  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
+                                         BasicLinearization<Extended>& result) const override;
 
  private:
+  template <class Real, int Q>
+  EvaluationFault evaluate_all(const BasicPath<Real>& path, int order, BasicLinearization<Real>& result,
+                               EvaluationCounts& counts) const;
+
   bool constant(const MatrixPolynomial& polynomial, int traced_parameter) const;
 
   int variable_;

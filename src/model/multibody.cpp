@@ -97,12 +97,24 @@ Structure Multibody::structure(int traced_parameter) const {
 
 EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
                                     EvaluationCounts& counts) const {
-  return dispatch(order, [&]<int Q>() { return Assembly<Q>(data_, path).residual(result, counts); });
+  return dispatch(order, [&]<int Q>() { return Assembly<double, Q>(data_, path).residual(result, counts); });
 }
 
 EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
                                      EvaluationCounts& counts) const {
-  return dispatch(order, [&]<int Q>() { return Assembly<Q>(data_, path).linearize(result, counts); });
+  return dispatch(order, [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
+}
+
+EvaluationFault Multibody::extended_residual(const BasicPath<Extended>& path,
+                                             BasicSteadyResidual<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return Assembly<Extended, 0>(data_, path).residual(result, counts);
+}
+
+EvaluationFault Multibody::extended_linearization(const BasicPath<Extended>& path,
+                                                  BasicLinearization<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return Assembly<Extended, 0>(data_, path).linearize(result, counts);
 }
 
 }  // namespace eigentrail

@@ -15,6 +15,10 @@ class Multibody final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
+  EvaluationFault extended_residual(const BasicPath<Extended>& path,
+                                    BasicSteadyResidual<Extended>& result) const override;
+  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
+                                         BasicLinearization<Extended>& result) const override;
 
  private:
   MultibodyData data_;

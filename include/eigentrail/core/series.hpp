@@ -218,19 +218,30 @@ Scalar integer_power(Scalar base, int n) {
   return power;
 }
 
+namespace detail {
+
+template <class T>
+inline constexpr bool is_series = false;
+template <class T, int Q>
+inline constexpr bool is_series<Series<T, Q>> = true;
+
+}  // namespace detail
+
 /// x^y for x_0 > 0.
 template <class T, int Q>
 Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
   return exp(y * log(x));
 }
 
-/// The same along the path; where y is a constant whole number it holds for every x, as std::pow does.
-template <int Q>
-Series<double, Q> pow(const Series<double, Q>& x, const Series<double, Q>& y) {
+/// The same along the path, with numbers as coefficients; where y is a constant whole number it holds for
+/// every x, as std::pow does.
+template <class T, int Q>
+requires(!detail::is_series<T>) Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
+  using std::abs, std::floor;
   bool constant = true;
-  for (int k = 1; k <= Q; ++k) constant = constant && y[k] == 0.0;
-  if (constant && y[0] == std::floor(y[0]) && std::abs(y[0]) <= 64.0)
-    return integer_power(x, static_cast<int>(y[0]));
+  for (int k = 1; k <= Q; ++k) constant = constant && y[k] == T(0.0);
+  if (constant && y[0] == floor(y[0]) && abs(y[0]) <= T(64.0))
+    return integer_power(x, static_cast<int>(static_cast<double>(y[0])));
   return exp(y * log(x));
 }
 

@@ -26,15 +26,20 @@ using VectorSeries = Matrix;
 using ComplexVectorSeries = ComplexMatrix;
 
 /// The path near a point: every parameter, the coordinates and the multipliers as series in h.
-struct Path {
-  VectorSeries parameters;  ///< n_parameters x (<= order + 1), in the units the scene declares
-  VectorSeries x;           ///< n_coordinates x (<= order + 1)
-  VectorSeries lambda;      ///< n_constraints x (<= order + 1)
+template <class Real>
+struct BasicPath {
+  using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  Columns parameters;  ///< n_parameters x (<= order + 1), in the units the scene declares
+  Columns x;           ///< n_coordinates x (<= order + 1)
+  Columns lambda;      ///< n_constraints x (<= order + 1)
 };
+using Path = BasicPath<double>;
 
 /// Coefficient k of a series, zero when the series is shorter.
-inline double coefficient(const VectorSeries& series, Eigen::Index row, Eigen::Index k) {
-  return k < series.cols() ? series(row, k) : 0.0;
+template <class Derived>
+typename Derived::Scalar coefficient(const Eigen::MatrixBase<Derived>& series, Eigen::Index row,
+                                     Eigen::Index k) {
+  return k < series.cols() ? series(row, k) : typename Derived::Scalar(0.0);
 }
 
 /// Value of sum_k series(:, k) h^k by Horner's rule.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/core/extended.hpp"
 #include "eigentrail/core/types.hpp"
 #include "eigentrail/scene/parameters.hpp"
 
@@ -58,18 +59,24 @@ struct ModelDescription {
 };
 
 /// Steady equations A^T lambda - f(x, 0, p) = 0 and c(x, p) = 0 as series (Eqs. 14a, 14b).
-struct SteadyResidual {
-  VectorSeries force;       ///< n x (order + 1): A^T lambda - f
-  VectorSeries constraint;  ///< m x (order + 1): c
+template <class Real>
+struct BasicSteadyResidual {
+  using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  Columns force;       ///< n x (order + 1): A^T lambda - f
+  Columns constraint;  ///< m x (order + 1): c
 };
+using SteadyResidual = BasicSteadyResidual<double>;
 
 /// Linearization about the path as series (Eqs. 16a, 16b); all derivatives are total along the path.
-struct Linearization {
-  MatrixSeries M;  ///< n x n
-  MatrixSeries C;  ///< n x n, -f_/x'
-  MatrixSeries K;  ///< n x n, -f_/x + (A^T lambda)_/x
-  MatrixSeries A;  ///< m x n
+template <class Real>
+struct BasicLinearization {
+  using Coefficients = std::vector<Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>>;
+  Coefficients M;  ///< n x n
+  Coefficients C;  ///< n x n, -f_/x'
+  Coefficients K;  ///< n x n, -f_/x + (A^T lambda)_/x
+  Coefficients A;  ///< m x n
 };
+using Linearization = BasicLinearization<double>;
 
 /// Evaluations of each effect (index as in ModelDescription::effects), summed over a run.
 struct EvaluationCounts {
@@ -111,6 +118,17 @@ class Model {
   /// M, C, K + (A^T lambda)_/x and A along `path` up to h^order.
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
+
+  /// The same two at a point, of order 0, with 113 bits: for references. A model that does not have them
+  /// answers with a fault.
+  virtual EvaluationFault extended_residual(const BasicPath<Extended>&,
+                                            BasicSteadyResidual<Extended>&) const {
+    return {"a model without extended precision"};
+  }
+  virtual EvaluationFault extended_linearization(const BasicPath<Extended>&,
+                                                 BasicLinearization<Extended>&) const {
+    return {"a model without extended precision"};
+  }
 
   /// Counters of the right size, all zero.
   EvaluationCounts new_counts() const {

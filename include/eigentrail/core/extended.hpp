@@ -1,0 +1,107 @@
+// Numbers with 113 bits (IEEE 754 binary128, about 34 digits): the scalar of references.
+//
+// Software arithmetic, some fifty times slower than double. Nothing on the way of a trace uses it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <complex>
+#include <type_traits>
+
+namespace eigentrail {
+
+/// A binary128 number. A class of its own, because the C++ library has functions for neither of the two
+/// types that compilers offer; these are found by argument only, so no call with a double meets them.
+class Extended {
+ public:
+  Extended() = default;
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Extended(Number value) : value_(value) {}  // NOLINT: exact
+
+  /// Nearest double.
+  explicit operator double() const { return static_cast<double>(value_); }
+
+  Extended& operator+=(const Extended& b) {
+    value_ += b.value_;
+    return *this;
+  }
+  Extended& operator-=(const Extended& b) {
+    value_ -= b.value_;
+    return *this;
+  }
+  Extended& operator*=(const Extended& b) {
+    value_ *= b.value_;
+    return *this;
+  }
+  Extended& operator/=(const Extended& b) {
+    value_ /= b.value_;
+    return *this;
+  }
+
+  friend Extended operator+(Extended a, const Extended& b) { return a += b; }
+  friend Extended operator-(Extended a, const Extended& b) { return a -= b; }
+  friend Extended operator*(Extended a, const Extended& b) { return a *= b; }
+  friend Extended operator/(Extended a, const Extended& b) { return a /= b; }
+  friend Extended operator-(const Extended& a) { return Extended(0.0) - a; }
+  friend Extended operator+(const Extended& a) { return a; }
+
+  friend bool operator==(const Extended& a, const Extended& b) { return a.value_ == b.value_; }
+  friend bool operator!=(const Extended& a, const Extended& b) { return a.value_ != b.value_; }
+  friend bool operator<(const Extended& a, const Extended& b) { return a.value_ < b.value_; }
+  friend bool operator>(const Extended& a, const Extended& b) { return a.value_ > b.value_; }
+  friend bool operator<=(const Extended& a, const Extended& b) { return a.value_ <= b.value_; }
+  friend bool operator>=(const Extended& a, const Extended& b) { return a.value_ >= b.value_; }
+
+  friend Extended abs(const Extended& x);
+  friend Extended floor(const Extended& x);
+  friend Extended sqrt(const Extended& x);
+  friend Extended exp(const Extended& x);
+  friend Extended log(const Extended& x);
+  friend Extended sin(const Extended& x);
+  friend Extended cos(const Extended& x);
+  friend Extended tan(const Extended& x);
+  friend Extended asin(const Extended& x);
+  friend Extended acos(const Extended& x);
+  friend Extended atan(const Extended& x);
+  friend Extended sinh(const Extended& x);
+  friend Extended cosh(const Extended& x);
+  friend Extended tanh(const Extended& x);
+  friend bool isfinite(const Extended& x);
+
+ private:
+  static Extended of(_Float128 value) {
+    Extended result;
+    result.value_ = value;
+    return result;
+  }
+
+  _Float128 value_ = 0;
+};
+
+using ExtendedMatrix = Eigen::Matrix<Extended, Eigen::Dynamic, Eigen::Dynamic>;
+using ExtendedVector = Eigen::Matrix<Extended, Eigen::Dynamic, 1>;
+using ExtendedComplex = std::complex<Extended>;
+using ExtendedComplexMatrix = Eigen::Matrix<ExtendedComplex, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Nearest double-precision values.
+template <class Derived>
+Eigen::MatrixXd to_double(const Eigen::MatrixBase<Derived>& values) {
+  return values.unaryExpr([](const Extended& x) { return static_cast<double>(x); });
+}
+inline std::complex<double> to_double(const ExtendedComplex& value) {
+  return {static_cast<double>(value.real()), static_cast<double>(value.imag())};
+}
+
+}  // namespace eigentrail
+
+template <>
+struct Eigen::NumTraits<eigentrail::Extended> : Eigen::GenericNumTraits<double> {
+  using Real = eigentrail::Extended;
+  using NonInteger = eigentrail::Extended;
+  using Nested = eigentrail::Extended;
+  using Literal = double;
+  static Real epsilon() { return Real(0x1p-112); }
+  static Real dummy_precision() { return Real(0x1p-100); }
+  static int digits10() { return 33; }
+  enum { RequireInitialization = 1, ReadCost = 2, AddCost = 50, MulCost = 50 };
+};
