@@ -5,9 +5,9 @@
 #include <optional>
 #include <random>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
-#include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
@@ -77,68 +77,6 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   return spectrum;
 }
 
-/// Near a meeting single eigenvalues are as uncertain as roots of a polynomial there, and what the file
-/// stores, and promises, are the block's functions. An error of an eigenvalue counts as the error of those:
-/// weighed by its distance to the others, where that is below a tenth.
-double weight_in_block(const Spectrum& spectrum, Complex s, double error, double scale) {
-  double weight = 1.0;
-  for (const StartingMode& other : spectrum.modes) {
-    for (const Complex neighbour : {other.s, std::conj(other.s)}) {
-      if (neighbour == s || (other.s.imag() == 0.0 && neighbour != other.s)) continue;
-      weight *= std::min(1.0, std::max(std::abs(neighbour - s), error) / (0.1 * scale));
-      if (other.s.imag() == 0.0) break;
-    }
-  }
-  return weight;
-}
-
-/// Whether each mode is part of a block of several on the step.
-std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes) {
-  std::vector<bool> result(n_modes, false);
-  for (const DenseBlock& block : step.blocks) {
-    for (const int mode : block.modes) result[static_cast<std::size_t>(mode)] = block.size() > 1;
-  }
-  return result;
-}
-
-/// Distance of every traced value from the eigenvalue assigned to it, one to one, relative to max(|s|,
-/// reference); zero for modes that do not exist. More traced values than eigenvalues: those left over are
-/// infinitely far.
-Vector distances(const ComplexVector& traced, const std::vector<bool>& in_block, const Spectrum& spectrum,
-                 double reference) {
-  std::vector<Eigen::Index> present;
-  for (Eigen::Index i = 0; i < traced.size(); ++i) {
-    if (std::isfinite(traced[i].real())) present.push_back(i);
-  }
-  const auto n = static_cast<Eigen::Index>(std::max(spectrum.modes.size(), present.size()));
-  constexpr double nowhere = 1e30;
-  Matrix cost = Matrix::Constant(n, n, nowhere);
-  const auto count = static_cast<Eigen::Index>(present.size());
-  cost.bottomRows(n - count).setZero();  // eigenvalues that nobody followed
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Complex value = traced[present[static_cast<std::size_t>(i)]];
-    for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
-      const Complex s = spectrum.modes[j].s;
-      // A pair is stored by its upper member; on the real axis rounding may pick the lower one.
-      const double distance = std::min(std::abs(value - s), std::abs(value - std::conj(s)));
-      cost(i, static_cast<Eigen::Index>(j)) = distance / std::max(std::abs(s), reference);
-    }
-  }
-  const std::vector<int> assignment = optimal_assignment(cost);
-  Vector result = Vector::Zero(traced.size());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const int j = assignment[static_cast<std::size_t>(i)];
-    const double distance = cost(i, j);
-    const Eigen::Index mode = present[static_cast<std::size_t>(i)];
-    result[mode] = distance < nowhere ? distance : INFINITY;
-    if (!in_block[static_cast<std::size_t>(mode)] || !std::isfinite(result[mode])) continue;
-    const Complex s = spectrum.modes[static_cast<std::size_t>(j)].s;
-    const double scale = std::max(std::abs(s), reference);
-    result[mode] *= weight_in_block(spectrum, s, distance * scale, scale);
-  }
-  return result;
-}
-
 }  // namespace
 
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
@@ -162,8 +100,10 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
       }
       Eigen::Index mode = 0;
       const std::vector<bool> in_block = in_blocks(loci.steps[position.step], loci.modes.size());
+      std::vector<Complex> exact;
+      for (const StartingMode& found : spectrum->modes) exact.push_back(found.s);
       const double worst =
-          distances(loci.eigenvalues_at(position), in_block, *spectrum, reference).maxCoeff(&mode);
+          distances_from_spectrum(loci.eigenvalues_at(position), in_block, exact, reference).maxCoeff(&mode);
       if (report.worst.mode < 0 || worst > report.worst.relative)
         report.worst = {worst, p, static_cast<int>(mode)};
     }

@@ -13,7 +13,7 @@ import numpy as np
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
 from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, edited
 
-COMMANDS = ["trace", "eval", "events", "boundary", "map", "info", "explain"]
+COMMANDS = ["trace", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
 
 
 class Program(CommandTest):

@@ -1,0 +1,126 @@
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "accuracy_report.hpp"
+#include "check_output.hpp"
+#include "commands.hpp"
+#include "eigentrail/store/accuracy_writer.hpp"
+#include "eigentrail/store/output_file.hpp"
+#include "progress_bar.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct AccuracyArguments {
+  std::string scene;
+  std::optional<std::string> output;  ///< absent: nothing is written
+  bool force = false;
+  bool quiet = false;
+  std::map<std::string, std::string> lists;  ///< by flag, as given
+  StudyOptions options;
+  std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
+};
+
+/// Numbers separated by commas; "none" is no number at all. Leaves `numbers` alone when the flag was not
+/// given.
+template <class Number>
+void read_list(const AccuracyArguments& arguments, const std::string& flag, std::vector<Number>& numbers) {
+  const auto given = arguments.lists.find(flag);
+  if (given == arguments.lists.end()) return;
+  const std::string& text = given->second;
+  numbers.clear();
+  if (text == "none") return;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (;;) {
+    Number number{};
+    const auto parsed = std::from_chars(at, end, number);
+    const bool ends = parsed.ptr == end;
+    if (parsed.ec != std::errc() || (!ends && *parsed.ptr != ','))
+      throw InputError(flag + ": expected numbers separated by commas; found '" + text + "'");
+    numbers.push_back(number);
+    if (ends) return;
+    at = parsed.ptr + 1;
+  }
+}
+
+void check_options(const StudyOptions& options) {
+  std::string message;
+  for (const std::string& fault : find_faults(options)) message += (message.empty() ? "--" : "; --") + fault;
+  if (!message.empty()) throw InputError(message);
+}
+
+int run_accuracy(AccuracyArguments& arguments) {
+  StudyOptions& options = arguments.options;
+  read_list(arguments, "--tolerances", options.tolerances);
+  read_list(arguments, "--orders", options.orders);
+  read_list(arguments, "--grids", options.grids);
+  check_options(options);
+  TraceSetup setup = prepare_trace(read_scene(arguments.scene),
+                                   {arguments.trace_options.begin(), arguments.trace_options.end()});
+  if (arguments.output) {
+    check_output(*arguments.output, arguments.force, {accuracy_format, "work-precision study"});
+    check_can_create(*arguments.output);
+  }
+  ProgressBar progress(arguments.quiet);
+  const Study study = accuracy_study(setup, options, [&](int done, int all) {
+    progress.update(static_cast<double>(done) / all, done, "runs");
+  });
+  progress.finish();
+  if (study.reference.samples.empty()) {
+    std::fprintf(stderr, "eigentrail: %s: no reference could be computed anywhere on the range\n",
+                 setup.scene.path.c_str());
+    return numbers_failed;
+  }
+  if (!arguments.quiet) print_study(setup, study);
+  if (arguments.output) {
+    write_study(*arguments.output, setup, options, study);
+    if (!arguments.quiet) std::printf("wrote %s\n", arguments.output->c_str());
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<AccuracyArguments>();
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "work-precision study of a scene: the error really achieved, and what it costs");
+  StudyOptions& options = arguments->options;
+  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", arguments->output, "file to write (HDF5)");
+  for (const auto& [flag, help] :
+       {std::array{"--tolerances", "tolerances to trace with: A,B,... (1e-2,1e-3,...,1e-12)"},
+        std::array{"--orders", "orders of the power series: A,B,... (1,2,3,4)"},
+        std::array{"--grids",
+                   "points of the grids of the other methods: A,B,..., or none (25,50,...,800)"}}) {
+    command->add_option_function<std::string>(
+        flag,
+        [arguments, flag = std::string(flag)](const std::string& text) { arguments->lists[flag] = text; },
+        help);
+  }
+  command->add_option("--samples", options.samples, "parameter values at which errors are measured")
+      ->capture_default_str();
+  command->add_option("--repeat", options.repeat, "runs whose median time counts")->capture_default_str();
+  for (const auto& [flag, key, help] :
+       {std::array{"--parameter", "parameter", "name of the traced parameter"},
+        std::array{"--from", "from", "where the range begins"}, std::array{"--to", "to", "where it ends"}}) {
+    command->add_option_function<std::string>(
+        flag,
+        [arguments, key = std::string(key)](const std::string& text) {
+          arguments->trace_options[key] = text;
+        },
+        std::string(help) + " (overrides the scene)");
+  }
+  command->add_flag("--force", arguments->force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no table");
+  command->footer(
+      "Example:\n  eigentrail accuracy data/scenes/rotating_mass.toml --tolerances 1e-4,1e-8 -o study.h5");
+  command->callback([arguments, &exit_code] { exit_code = run_accuracy(*arguments); });
+}
+
+}  // namespace eigentrail::app

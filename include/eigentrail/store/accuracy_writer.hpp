@@ -1,0 +1,18 @@
+// Writes a work-precision study (HDF5, format "eigentrail-accuracy", schema 1; docs/accuracy.md).
+#pragma once
+
+#include <string>
+
+#include "eigentrail/accuracy/study.hpp"
+
+namespace eigentrail {
+
+inline constexpr int accuracy_schema_version = 1;
+inline constexpr const char* accuracy_format = "eigentrail-accuracy";
+
+/// Writes the whole study; the file appears under its name complete or not at all, an existing one is
+/// replaced in that moment. Throws std::runtime_error when it cannot be written.
+void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
+                 const Study& study);
+
+}  // namespace eigentrail

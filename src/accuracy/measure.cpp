@@ -1,0 +1,178 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+
+#include "accuracy/grid_interpolant.hpp"
+#include "accuracy/grid_loci.hpp"
+#include "accuracy/spectrum_distance.hpp"
+#include "eigentrail/accuracy/study.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+
+namespace eigentrail {
+namespace {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::uint64_t sum(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+void take_counts(const RunCounts& counts, MeasuredRun& run) {
+  run.factorizations =
+      counts.modes.factorizations + counts.certificate_factorizations + counts.event_factorizations;
+  run.spectra = counts.spectra;
+  run.evaluations = sum(counts.evaluations.residual) + sum(counts.evaluations.linearization);
+}
+
+/// Takes the error at one sample into the run.
+void take_error(const Vector& distances, double p, MeasuredRun& run) {
+  const double worst = distances.size() > 0 ? distances.maxCoeff() : 0.0;
+  if (run.measured == 0 || worst > run.error) {
+    run.error = worst;
+    run.worst_parameter = p;
+  }
+}
+
+/// Largest error of the dense output. A sample that the path passes more or less often than the reference is
+/// left out: it lies between two answers to where a fold is.
+void measure_path(const RecordedPath& path, const ReferenceSet& reference, MeasuredRun& run) {
+  for (const ReferenceSample& sample : reference.samples) {
+    const std::vector<PathPosition> positions = path.positions(sample.p);
+    if (positions.size() != sample.passages.size()) continue;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const ComplexVector values = path.eigenvalues_at(positions[i]);
+      const std::vector<bool> in_block =
+          in_blocks(path.steps[positions[i].step], static_cast<std::size_t>(values.size()));
+      take_error(distances_from_spectrum(values, in_block, sample.passages[i], reference.s_ref), sample.p,
+                 run);
+    }
+    ++run.measured;
+  }
+}
+
+/// Grids see the first passage only.
+void measure_interpolant(const GridLoci& loci, Interpolation kind, const ReferenceSet& reference,
+                         MeasuredRun& run) {
+  const GridInterpolant interpolant(loci.p[0], loci.p[1] - loci.p[0], loci.s, kind);
+  for (const ReferenceSample& sample : reference.samples) {
+    if (sample.passages.size() != 1) continue;
+    const ComplexVector values = interpolant(sample.p);
+    const std::vector<bool> everywhere(static_cast<std::size_t>(values.size()), true);
+    take_error(loci.both_members
+                   ? distances_from_members(values, sample.passages[0], reference.s_ref)
+                   : distances_from_spectrum(values, everywhere, sample.passages[0], reference.s_ref),
+               sample.p, run);
+    ++run.measured;
+  }
+}
+
+/// A name in the folder for temporary files, removed at the end.
+class TemporaryFile {
+ public:
+  TemporaryFile()
+      : path_(std::filesystem::temp_directory_path() / ("eigentrail_" + std::to_string(getpid()) + ".h5")) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  std::string name() const { return path_.string(); }
+  std::uint64_t size() const { return std::filesystem::file_size(path_); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Traces once and records, with a loci file as a user would have it; not timed.
+std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
+  const TemporaryFile file;
+  std::optional<TraceStart> started;
+  std::optional<LociWriter> writer;
+  TraceObserver observer;
+  observer.started = [&](const TraceStart& start) { started = start; };
+  observer.point = [&](const TracePoint& point) {
+    if (!writer) writer.emplace(file.name(), setup.scene, *setup.model, setup.options, *started);
+    writer->append(point);
+    recorder.append(point);
+    return true;
+  };
+  const TraceResult result = trace(*setup.model, setup.options, observer);
+  if (!writer) return 0;
+  writer->finish(result, {});
+  writer.reset();
+  return file.size();
+}
+
+std::vector<double> equidistant(const TraceOptions& options, int points) {
+  std::vector<double> p;
+  for (int i = 0; i < points; ++i) p.push_back(options.from + (options.to - options.from) * i / (points - 1));
+  return p;
+}
+
+}  // namespace
+
+MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference, int repeat) {
+  MeasuredRun run;
+  run.method = setup.options.certify ? Method::trace : Method::trace_uncertified;
+  run.tolerance = setup.options.tolerance;
+  run.order = setup.options.order;
+  PathRecorder recorder;
+  run.bytes = record(setup, recorder);
+  std::vector<double> seconds;
+  for (int i = 0; i < repeat; ++i) {
+    const TraceResult result = trace(*setup.model, setup.options, {});
+    seconds.push_back(result.seconds);
+    run.completed = result.status == TraceStatus::completed;
+    run.message = result.message;
+    run.points = result.nodes;
+    take_counts(result.counts, run);
+  }
+  run.seconds = median(seconds);
+  measure_path(recorder.path(), reference, run);
+  return run;
+}
+
+MeasuredRun measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
+                         int repeat) {
+  MeasuredRun run;
+  run.method = method;
+  run.tolerance = std::numeric_limits<double>::quiet_NaN();
+  run.points = points;
+  const PathProblem problem = [&] {
+    PathProblem result = problem_along(*setup.model, setup.options.parameter);
+    result.s_ref = reference.s_ref;
+    return result;
+  }();
+  const bool by_qz = method == Method::qz_linear || method == Method::qz_spline;
+  const std::vector<double> p = equidistant(setup.options, points);
+  GridLoci loci;
+  std::vector<double> seconds;
+  for (int i = 0; i < repeat; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    loci = by_qz ? qz_grid(problem, p) : corrected_grid(problem, p, method);
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  run.seconds = median(seconds);
+  run.completed = loci.completed;
+  run.message = loci.message;
+  take_counts(loci.counts, run);
+  if (loci.completed) {
+    const Interpolation kind =
+        method == Method::qz_linear ? Interpolation::linear : Interpolation::cubic_spline;
+    measure_interpolant(loci, kind, reference, run);
+  }
+  return run;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,90 @@
+#include <cmath>
+
+#include "accuracy/grid_loci.hpp"
+#include "eigentrail/modes/matching.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A whole spectrum, both members of complex pairs.
+struct GridPoint {
+  ComplexVector s;
+  ComplexMatrix shapes;  ///< columns: v = T z
+  Matrix mass;           ///< weight of the modal assurance criterion
+};
+
+GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
+  std::vector<Complex> s;
+  std::vector<ComplexVector> shapes;
+  for (const StartingMode& mode : spectrum.modes) {
+    const ComplexVector v = point.basis.T[0].cast<Complex>() * mode.z;
+    s.push_back(mode.s);
+    shapes.push_back(v);
+    if (mode.s.imag() == 0.0) continue;
+    s.push_back(std::conj(mode.s));
+    shapes.push_back(v.conjugate());
+  }
+  const auto count = static_cast<Eigen::Index>(s.size());
+  GridPoint result{ComplexVector(count), ComplexMatrix(point.basis.T[0].rows(), count),
+                   point.equilibrium.linearization.M[0]};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    result.s[i] = s[static_cast<std::size_t>(i)];
+    result.shapes.col(i) = shapes[static_cast<std::size_t>(i)];
+  }
+  return result;
+}
+
+/// 1 - MAC; members above and below the real axis are not matched with each other, or whirl forwards would be
+/// taken for the conjugate of whirl backwards, which has the same shape.
+Matrix disagreement(const GridPoint& last, const GridPoint& next) {
+  Matrix cost = 1.0 - modal_assurance(last.shapes, next.shapes, next.mass).array();
+  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+    for (Eigen::Index j = 0; j < cost.cols(); ++j) {
+      if (last.s[i].imag() * next.s[j].imag() < 0.0) cost(i, j) += 10.0;
+      if (!std::isfinite(cost(i, j))) cost(i, j) = 1.0;
+    }
+  }
+  return cost;
+}
+
+/// The point with its eigenvalues in the order of those of the last one.
+GridPoint in_order(const GridPoint& last, const GridPoint& next) {
+  const std::vector<int> successor = optimal_assignment(disagreement(last, next));
+  GridPoint result = next;
+  for (Eigen::Index i = 0; i < next.s.size(); ++i) {
+    result.s[i] = next.s[successor[static_cast<std::size_t>(i)]];
+    result.shapes.col(i) = next.shapes.col(successor[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
+}  // namespace
+
+GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p) {
+  GridLoci loci;
+  loci.both_members = true;
+  EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p.front())), {}, false};
+  GridPoint last;
+  for (const double value : p) {
+    const PathPoint point = reduce_at(problem, value, guess, Matrix(), loci.counts);
+    loci.message = point.message;
+    if (point.status != PointStatus::computed) return loci;
+    guess = {point.equilibrium.x, point.equilibrium.lambda, true};
+    const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+    ++loci.counts.spectra;
+    loci.message = "QZ did not yield a spectrum";
+    if (spectrum.status != SpectrumStatus::complete) return loci;
+    GridPoint next = members_of(spectrum, point);
+    loci.message = "the number of finite eigenvalues changes";
+    if (!loci.p.empty() && next.s.size() != last.s.size()) return loci;
+    last = loci.p.empty() ? std::move(next) : in_order(last, next);
+    loci.p.push_back(value);
+    loci.s.push_back(last.s);
+  }
+  loci.message.clear();
+  loci.completed = true;
+  return loci;
+}
+
+}  // namespace eigentrail

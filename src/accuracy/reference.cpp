@@ -1,0 +1,194 @@
+#include "eigentrail/accuracy/reference.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/extended_pencil.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues closer than this share of their size are refined together.
+constexpr double close = 1e-3;
+
+ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
+  const ExtendedMatrix real = B * Z.real();
+  const ExtendedMatrix imag = B * Z.imag();
+  ExtendedComplexMatrix product(B.rows(), Z.cols());
+  product.real() = real;
+  product.imag() = imag;
+  return product;
+}
+
+ExtendedComplexMatrix to_extended(const ComplexMatrix& values) {
+  return values.unaryExpr([](const Complex& c) { return ExtendedComplex(c.real(), c.imag()); });
+}
+
+ComplexMatrix rounded(const ExtendedComplexMatrix& values) {
+  return values.unaryExpr([](const ExtendedComplex& c) { return to_double(c); });
+}
+
+/// Refines a pair that has converged in double precision; returns the last relative correction of Lambda.
+double refine_pair(const ExtendedPencil& pencil, const InvariantPair& pair, double reference,
+                   ExtendedComplexMatrix& Lambda) {
+  const Eigen::Index n = pair.Z.rows();
+  const Eigen::Index k = pair.size();
+  ExtendedComplexMatrix Z = to_extended(pair.Z);
+  Lambda = to_extended(pair.Lambda);
+  const ExtendedComplexMatrix W0 = to_extended(pair.W.topRows(n).adjoint());
+  const ExtendedComplexMatrix W1 = to_extended(pair.W.bottomRows(n).adjoint());
+  ComplexMatrix dZ, dLambda;
+  return refine_to_rounding([&] {
+    const ExtendedComplexMatrix slope = multiply(pencil.M, Z) * Lambda + multiply(pencil.C, Z);
+    const ExtendedComplexMatrix residual = slope * Lambda + multiply(pencil.K, Z);
+    const ExtendedComplexMatrix defect = W0 * Z + (W1 * Z) * Lambda - ExtendedComplexMatrix::Identity(k, k);
+    pair.factors->solve(-rounded(residual), -rounded(defect), dZ, dLambda);
+    Z += to_extended(dZ);
+    Lambda += to_extended(dLambda);
+    return dLambda.norm() / std::max(pair.Lambda.norm(), reference);
+  });
+}
+
+/// Eigenvalues of a block. Of three and more: the mean, and the distances from it in double precision.
+std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bool real) {
+  const Eigen::Index k = Lambda.rows();
+  if (k == 1) return {Lambda(0, 0)};
+  const ExtendedComplex mean = Lambda.trace() / ExtendedComplex(static_cast<double>(k));
+  if (k == 2) {
+    const ExtendedComplex half = (Lambda(0, 0) - Lambda(1, 1)) / ExtendedComplex(2.0);
+    const ExtendedComplex root = std::sqrt(half * half + Lambda(0, 1) * Lambda(1, 0));
+    return {mean + root, mean - root};
+  }
+  const ComplexMatrix apart = rounded(Lambda - mean * ExtendedComplexMatrix::Identity(k, k));
+  // A real block has exactly real or conjugate eigenvalues.
+  const ComplexVector distances =
+      real ? ComplexVector(Eigen::EigenSolver<Matrix>(apart.real(), false).eigenvalues())
+           : ComplexVector(Eigen::ComplexEigenSolver<ComplexMatrix>(apart, false).eigenvalues());
+  std::vector<ExtendedComplex> result;
+  for (const Complex distance : distances)
+    result.push_back(mean + ExtendedComplex(distance.real(), distance.imag()));
+  return result;
+}
+
+/// Close eigenvalues, by index into a list that holds both members of complex pairs.
+std::vector<std::vector<std::size_t>> clusters(const std::vector<Complex>& s, double reference) {
+  std::vector<std::size_t> label(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    label[i] = i;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double scale = std::max({std::abs(s[i]), std::abs(s[j]), reference});
+      if (std::abs(s[i] - s[j]) > close * scale) continue;
+      const std::size_t joined = label[j];
+      const std::size_t left = label[i];
+      for (std::size_t l = 0; l <= i; ++l) label[l] = label[l] == left ? joined : label[l];
+    }
+  }
+  std::vector<std::vector<std::size_t>> groups(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) groups[label[i]].push_back(i);
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+/// Finite eigenvalues, both members of complex pairs, with the mode of each.
+struct Members {
+  std::vector<Complex> s;
+  std::vector<std::size_t> mode;
+
+  explicit Members(const Spectrum& spectrum) {
+    for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
+      add(spectrum.modes[i].s, i);
+      if (spectrum.modes[i].s.imag() != 0.0) add(std::conj(spectrum.modes[i].s), i);
+    }
+  }
+
+  /// Whether the conjugates of a group are in it too.
+  bool closed(const std::vector<std::size_t>& group) const {
+    return std::all_of(group.begin(), group.end(), [&](std::size_t i) {
+      return s[i].imag() == 0.0 || std::any_of(group.begin(), group.end(),
+                                               [&](std::size_t j) { return j != i && mode[j] == mode[i]; });
+    });
+  }
+
+  Complex mean(const std::vector<std::size_t>& group) const {
+    Complex sum = 0.0;
+    for (const std::size_t i : group) sum += s[i];
+    return sum / static_cast<double>(group.size());
+  }
+
+ private:
+  void add(Complex value, std::size_t index) {
+    s.push_back(value);
+    mode.push_back(index);
+  }
+};
+
+InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum, const Members& members,
+                            const std::vector<std::size_t>& group, double reference) {
+  const bool real = members.closed(group);
+  const Complex mean = members.mean(group);
+  if (group.size() > 1) {
+    return invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], real ? mean.real() : mean,
+                              static_cast<Eigen::Index>(group.size()), real, reference);
+  }
+  const StartingMode& mode = spectrum.modes[members.mode[group[0]]];
+  InvariantPair pair;
+  pair.is_real = real;
+  pair.Z = mode.z;
+  if (real) {
+    // The vector of a real eigenvalue is real up to a factor.
+    Eigen::Index largest = 0;
+    mode.z.cwiseAbs().maxCoeff(&largest);
+    pair.Z = (mode.z / mode.z[largest]).real().cast<Complex>();
+  }
+  pair.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
+  return pair;
+}
+
+/// Refines all groups; adds their eigenvalues with Im s >= 0.
+void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpectrum& result) {
+  const ReducedPencil pencil{{to_double(extended.M)}, {to_double(extended.C)}, {to_double(extended.K)}};
+  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  result.status = ReferenceStatus::no_spectrum;
+  if (spectrum.status != SpectrumStatus::complete) return;
+  result.status = ReferenceStatus::not_converged;
+  const PencilAtPoint at_point(pencil);
+  const Members members(spectrum);
+  ModeCounts counts;
+  for (const auto& group : clusters(members.s, reference)) {
+    const bool real = members.closed(group);
+    if (!real && members.mean(group).imag() < 0.0) continue;
+    const InvariantPair pair = correct_pair(
+        at_point, starting_pair(pencil, spectrum, members, group, reference), reference, {}, counts);
+    if (pair.status != PairStatus::converged) return;
+    ExtendedComplexMatrix Lambda;
+    const double last = refine_pair(extended, pair, reference, Lambda);
+    if (!(last <= reference_accuracy)) return;
+    result.correction = std::max(result.correction, last);
+    for (const ExtendedComplex& s : eigenvalues(Lambda, real)) {
+      if (!real || s.imag() >= Extended(0.0)) result.s.push_back(s);
+    }
+  }
+  result.status = ReferenceStatus::converged;
+}
+
+}  // namespace
+
+ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess) {
+  ReferenceSpectrum result;
+  RunCounts counts;
+  const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
+  result.status = ReferenceStatus::no_equilibrium;
+  if (point.status != PointStatus::computed) return result;
+  const std::optional<ExtendedPencil> pencil = extended_pencil(problem, point);
+  result.status = ReferenceStatus::not_available;
+  if (!pencil) return result;
+  result.status = ReferenceStatus::no_equilibrium;
+  if (pencil->correction > reference_accuracy) return result;
+  result.correction = pencil->correction;
+  refine_modes(*pencil, problem.s_ref, result);
+  return result;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/spectrum_distance.hpp"
+#include "eigentrail/accuracy/study.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Tells where to look for equilibria; far better than that needs.
+constexpr double guide_tolerance = 1e-10;
+
+/// Behind a fold an equilibrium looked for at p alone may be that of another passage; its eigenvalues are
+/// then further off than this.
+constexpr double same_passage = 1e-3;
+
+/// A trace with the equilibria at its nodes.
+struct Guide {
+  RecordedPath path;
+  std::vector<Vector> x, lambda;
+  double s_ref = 1.0;
+
+  EquilibriumGuess guess(const PathPosition& position) const {
+    const auto between = [&](const std::vector<Vector>& nodes) {
+      return Vector((1.0 - position.t) * nodes[position.step] + position.t * nodes[position.step + 1]);
+    };
+    return {between(x), between(lambda), false};
+  }
+};
+
+Guide trace_guide(const TraceSetup& setup) {
+  TraceOptions options = setup.options;
+  options.tolerance = guide_tolerance;
+  options.order = 3;
+  Guide guide;
+  PathRecorder recorder;
+  TraceObserver observer;
+  observer.point = [&](const TracePoint& point) {
+    recorder.append(point);
+    guide.x.emplace_back(point.node.path.x.col(0));
+    guide.lambda.emplace_back(point.node.path.lambda.col(0));
+    return true;
+  };
+  const TraceResult result = trace(*setup.model, options, observer);
+  if (!has_started(result.status)) throw InputError(setup.scene.path + ": " + result.message);
+  guide.path = recorder.path();
+  guide.s_ref = result.s_ref;
+  return guide;
+}
+
+std::vector<Complex> nearest_doubles(const ReferenceSpectrum& reference) {
+  std::vector<Complex> s;
+  for (const ExtendedComplex& value : reference.s) s.push_back(to_double(value));
+  return s;
+}
+
+/// Whether the spectrum is that of the guide there.
+bool same(const Guide& guide, const PathPosition& position, const std::vector<Complex>& spectrum) {
+  const PathStep& step = guide.path.steps[position.step];
+  if (follows_parameter(step)) return true;
+  const ComplexVector values = guide.path.eigenvalues_at(position);
+  const std::vector<bool> in_block = in_blocks(step, static_cast<std::size_t>(values.size()));
+  return distances_from_spectrum(values, in_block, spectrum, guide.s_ref).maxCoeff() < same_passage;
+}
+
+}  // namespace
+
+std::vector<double> sample_parameters(const TraceOptions& options, int count) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  std::vector<double> parameters;
+  for (int i = 1; i <= count; ++i) {
+    const double part = std::fmod(golden * i, 1.0);
+    parameters.push_back(options.from + part * (options.to - options.from));
+  }
+  std::sort(parameters.begin(), parameters.end());
+  return parameters;
+}
+
+ReferenceSet reference_set(const TraceSetup& setup, const std::vector<double>& parameters) {
+  const Guide guide = trace_guide(setup);
+  PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  problem.steady.relax = false;  // another equilibrium than that of the path proves nothing
+  problem.s_ref = guide.s_ref;
+  ReferenceSet set;
+  set.s_ref = guide.s_ref;
+  for (const double p : parameters) {
+    ReferenceSample sample{p, {}};
+    bool solved = true;
+    for (const PathPosition& position : guide.path.positions(p)) {
+      const ReferenceSpectrum reference = reference_spectrum(problem, p, guide.guess(position));
+      sample.passages.push_back(nearest_doubles(reference));
+      solved = solved && reference.status == ReferenceStatus::converged &&
+               same(guide, position, sample.passages.back());
+      if (solved) set.correction = std::max(set.correction, reference.correction);
+    }
+    if (solved && !sample.passages.empty()) {
+      set.samples.push_back(std::move(sample));
+    } else {
+      ++set.unsolved;
+    }
+  }
+  return set;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,96 @@
+#include "eigentrail/accuracy/study.hpp"
+
+#include <algorithm>
+
+namespace eigentrail {
+namespace {
+
+constexpr Method grid_methods[] = {Method::qz_linear, Method::qz_spline, Method::zero_order, Method::secant,
+                                   Method::tangent};
+
+/// Sets options of a trace for a while.
+class OptionsGuard {
+ public:
+  explicit OptionsGuard(TraceOptions& options) : options_(options), kept_(options) {}
+  ~OptionsGuard() { options_ = kept_; }
+  OptionsGuard(const OptionsGuard&) = delete;
+  OptionsGuard& operator=(const OptionsGuard&) = delete;
+
+ private:
+  TraceOptions& options_;
+  TraceOptions kept_;
+};
+
+template <class Values, class Within>
+bool all(const Values& values, Within within) {
+  return !values.empty() && std::all_of(values.begin(), values.end(), within);
+}
+
+}  // namespace
+
+std::string method_name(Method method) {
+  switch (method) {
+    case Method::trace:
+      return "eigentrail";
+    case Method::trace_uncertified:
+      return "eigentrail, no certificate";
+    case Method::qz_linear:
+      return "QZ on a grid, linear";
+    case Method::qz_spline:
+      return "QZ on a grid, cubic spline";
+    case Method::zero_order:
+      return "corrector on a grid, zero-order predictor, cubic spline";
+    case Method::secant:
+      return "corrector on a grid, secant predictor, cubic spline";
+    default:
+      return "corrector on a grid, tangent predictor, cubic spline";
+  }
+}
+
+std::vector<std::string> find_faults(const StudyOptions& options) {
+  std::vector<std::string> faults;
+  if (!all(options.tolerances, [](double t) { return t >= 1e-13 && t <= 0.1; }))
+    faults.push_back("tolerances: expected numbers from 1e-13 to 0.1");
+  if (!all(options.orders, [](int order) { return order >= 1 && order <= 4; }))
+    faults.push_back("orders: expected numbers from 1 to 4");
+  if (!options.grids.empty() && !all(options.grids, [](int n) { return n >= 5 && n <= 1000000; }))
+    faults.push_back("grids: expected numbers from 5 to 1000000");
+  if (options.samples < 1 || options.samples > 1000000)
+    faults.push_back("samples: expected a number from 1 to 1000000");
+  if (options.repeat < 1 || options.repeat > 1000)
+    faults.push_back("repeat: expected a number from 1 to 1000");
+  return faults;
+}
+
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
+                     const std::function<void(int, int)>& progress) {
+  const OptionsGuard guard(setup.options);
+  const TraceOptions own = setup.options;
+  const std::size_t all_runs =
+      options.tolerances.size() * options.orders.size() + 2 + options.grids.size() * std::size(grid_methods);
+  Study study{reference_set(setup, sample_parameters(own, options.samples)), {}};
+  const auto done = [&](MeasuredRun run) {
+    study.runs.push_back(std::move(run));
+    progress(static_cast<int>(study.runs.size()), static_cast<int>(all_runs));
+  };
+  for (const int order : options.orders) {
+    for (const double tolerance : options.tolerances) {
+      setup.options.order = order;
+      setup.options.tolerance = tolerance;
+      done(measure_trace(setup, study.reference, options.repeat));
+    }
+  }
+  setup.options = own;
+  for (const bool certify : {true, false}) {
+    setup.options.certify = certify;
+    done(measure_trace(setup, study.reference, options.repeat));
+  }
+  setup.options = own;
+  for (const Method method : grid_methods) {
+    for (const int points : options.grids)
+      done(measure_grid(setup, study.reference, method, points, options.repeat));
+  }
+  return study;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,122 @@
+#include "eigentrail/accuracy/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr int samples = 60;
+
+ReferenceSet references(const Setting& setting, int count = samples) {
+  return reference_set(setting, sample_parameters(setting.options, count));
+}
+
+class ShippedScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedScene, KeepsEveryToleranceAtEveryOrder) {
+  Setting setting = scene_setting(GetParam());
+  const ReferenceSet reference = references(setting);
+  EXPECT_EQ(reference.unsolved, 0);
+  EXPECT_LT(reference.correction, 1e-28);
+  for (const int order : {1, 3, 4}) {
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      if (order == 1 && tolerance < 1e-6) continue;  // thousands of points
+      setting.options.order = order;
+      setting.options.tolerance = tolerance;
+      const MeasuredRun run = measure_trace(setting, reference, 1);
+      EXPECT_TRUE(run.completed) << run.message;
+      EXPECT_EQ(run.measured, samples);
+      EXPECT_LE(run.error, tolerance) << "order " << order << " at " << run.worst_parameter;
+      EXPECT_GT(run.factorizations, 0U);
+      EXPECT_GT(run.evaluations, 0U);
+      EXPECT_GT(run.bytes, 0U);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Accuracy, ShippedScene,
+                         testing::Values("pendulum", "spring_pendulum", "rotating_mass", "ziegler_column"),
+                         [](const auto& name) { return std::string(name.param); });
+
+/// Order of convergence seen between a grid and one with half the step.
+double observed_order(const Setting& setting, const ReferenceSet& reference, Method method, int points) {
+  const MeasuredRun coarse = measure_grid(setting, reference, method, points, 1);
+  const MeasuredRun fine = measure_grid(setting, reference, method, 2 * points - 1, 1);
+  EXPECT_TRUE(coarse.completed && fine.completed) << coarse.message << fine.message;
+  return std::log2(coarse.error / fine.error);
+}
+
+TEST(GridRivals, ConvergeWithTheOrderOfTheirInterpolation) {
+  const Setting setting = scene_setting("pendulum");
+  const ReferenceSet reference = references(setting, 400);
+  EXPECT_NEAR(observed_order(setting, reference, Method::qz_linear, 51), 2.0, 0.4);
+  for (const Method method : {Method::qz_spline, Method::zero_order, Method::secant, Method::tangent})
+    EXPECT_NEAR(observed_order(setting, reference, method, 51), 4.0, 0.8) << method_name(method);
+}
+
+TEST(GridRivals, BetterPredictorsSaveCorrectionsNotError) {
+  const Setting setting = scene_setting("rotating_mass", {{"from", "100"}, {"to", "40"}});
+  const ReferenceSet reference = references(setting);
+  const MeasuredRun zero = measure_grid(setting, reference, Method::zero_order, 100, 1);
+  const MeasuredRun tangent = measure_grid(setting, reference, Method::tangent, 100, 1);
+  ASSERT_TRUE(zero.completed && tangent.completed) << zero.message << tangent.message;
+  EXPECT_NEAR(zero.error, tangent.error, 1e-3 * zero.error);
+  EXPECT_LE(tangent.factorizations, zero.factorizations);
+}
+
+TEST(GridRivals, NeedMorePointsThanTheTrace) {
+  Setting setting = scene_setting("rotating_mass");
+  const ReferenceSet reference = references(setting);
+  const MeasuredRun own = measure_trace(setting, reference, 1);
+  const MeasuredRun rival = measure_grid(setting, reference, Method::qz_spline, 10 * own.points, 1);
+  ASSERT_TRUE(rival.completed) << rival.message;
+  EXPECT_GT(rival.error, own.error);
+}
+
+TEST(Study, SamplesFillTheRange) {
+  TraceOptions options;
+  options.from = 3.0;
+  options.to = -1.0;
+  const std::vector<double> p = sample_parameters(options, 100);
+  ASSERT_EQ(p.size(), 100U);
+  double gap = std::max(p.front() + 1.0, 3.0 - p.back());
+  for (std::size_t i = 1; i < p.size(); ++i) gap = std::max(gap, p[i] - p[i - 1]);
+  EXPECT_GT(p.front(), -1.0);
+  EXPECT_LT(p.back(), 3.0);
+  EXPECT_LT(gap, 3.0 * 4.0 / 100);
+}
+
+TEST(Study, MeasuresOnAPathThatTurnsBack) {
+  const Setting setting = pushed_pendulum({.to = 1.2}, {{"tolerance", "1e-6"}});
+  const ReferenceSet reference = references(setting);
+  const MeasuredRun run = measure_trace(setting, reference, 1);
+  EXPECT_GT(run.measured, samples / 2);
+  EXPECT_LE(run.error, 1e-6) << run.worst_parameter;
+}
+
+TEST(Study, HasARunForEverySetting) {
+  Setting setting = scene_setting("pendulum");
+  const StudyOptions options{
+      .tolerances = {1e-4, 1e-6}, .orders = {2, 3}, .grids = {10}, .samples = 5, .repeat = 1};
+  int last = 0;
+  const Study study = accuracy_study(setting, options, [&](int done, int all) {
+    EXPECT_EQ(done, ++last);
+    EXPECT_EQ(all, 11);
+  });
+  EXPECT_EQ(study.runs.size(), 11U);
+  EXPECT_EQ(setting.options.tolerance, 1e-8);  // as the scene says, again
+  EXPECT_TRUE(setting.options.certify);
+}
+
+TEST(StudyOptions, EveryFaultIsTold) {
+  EXPECT_TRUE(find_faults(StudyOptions{}).empty());
+  const StudyOptions wrong{.tolerances = {}, .orders = {5}, .grids = {4}, .samples = 0, .repeat = 0};
+  EXPECT_EQ(find_faults(wrong).size(), 5U);
+}
+
+}  // namespace
+}  // namespace eigentrail::test

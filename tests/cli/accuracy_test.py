@@ -1,0 +1,135 @@
+"""`eigentrail accuracy`: the file that others open, what is said, and bad input."""
+
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from command_test_case import CommandTest, blade_eigenvalues
+from program import BLADE, ProgramTest, each_case
+
+NARROW = ("--tolerances", "1e-3,1e-6", "--orders", "2,3", "--samples", "20", "--repeat", "1")
+N_RUNS = 2 * 2 + 2 + 5 * 2
+
+# Per dataset: dimensions and units.
+LAYOUT = {
+    "run": (("run",), "1"),
+    "method": (("run",), "1"),
+    "run_tolerance": (("run",), "1"),
+    "order": (("run",), "1"),
+    "status": (("run",), "1"),
+    "points": (("run",), "1"),
+    "error": (("run",), "1"),
+    "error_parameter": (("run",), "rad/s"),
+    "samples_measured": (("run",), "1"),
+    "wall_time": (("run",), "s"),
+    "factorizations": (("run",), "1"),
+    "spectra": (("run",), "1"),
+    "evaluations": (("run",), "1"),
+    "file_size": (("run",), "byte"),
+    "sample": (("sample",), "1"),
+    "mode": (("mode",), "1"),
+    "sample_parameter": (("sample",), "rad/s"),
+    "reference_eigenvalue": (("sample", "mode"), "1/s"),
+}
+
+
+class Accuracy(CommandTest):
+    def study(self, *options, grids="10,20"):
+        """Studies BLADE; returns what is said."""
+        self.write("scene.toml", BLADE)
+        return self.run_well("accuracy", "scene.toml", *NARROW, "--grids", grids, *options)
+
+    def open(self, name):
+        file = h5py.File(self.folder / name)
+        self.addCleanup(file.close)
+        return file
+
+    def test_datasets_have_dimensions_units_and_names(self):
+        self.study("-o", "study.h5")
+        file = self.open("study.h5")
+        self.assertEqual(set(file), set(LAYOUT))
+        for name, (dimensions, units) in LAYOUT.items():
+            with self.subTest(name):
+                dataset = file[name]
+                self.assertEqual(dataset.shape, tuple(len(file[d]) for d in dimensions))
+                if name not in dimensions:
+                    self.assertEqual([[scale.name for scale in dim.values()] for dim in dataset.dims],
+                                     [["/" + d] for d in dimensions])
+                self.assertEqual(dataset.attrs["units"], units)
+                self.assertTrue(dataset.attrs["long_name"])
+        self.assertEqual((file.attrs["format"], file.attrs["schema_version"]), ("eigentrail-accuracy", 1))
+        self.assertEqual(file.attrs["scene"], BLADE)
+        self.assertLess(file.attrs["reference_correction"], 1e-28)
+        self.assertEqual(file.attrs["reference_unsolved"], 0)
+
+    def test_xarray_opens_it_and_the_references_are_the_closed_form(self):
+        self.study("-o", "study.h5")
+        with xarray.open_dataset(self.folder / "study.h5", engine="h5netcdf") as data:
+            self.assertEqual(data.sizes, {"run": N_RUNS, "sample": 20, "mode": 2})
+            for omega, s in zip(data.sample_parameter.values, data.reference_eigenvalue.values):
+                np.testing.assert_allclose(sorted(s, key=np.imag), blade_eigenvalues(omega), rtol=1e-14)
+            own = np.isfinite(data.run_tolerance.values)
+            self.assertEqual(np.count_nonzero(own), 6)
+            self.assertTrue((data.error.values[own] <= data.run_tolerance.values[own]).all())
+            self.assertTrue((data.file_size.values[own] > 0).all())
+            self.assertTrue((data.status.values == "completed").all())
+            self.assertTrue((data.samples_measured.values == 20).all())
+
+    def test_table_and_conclusions(self):
+        text = self.study()
+        self.assertRegex(text, r"errors over 20 values of omega, against eigenvalues computed with 113 bits")
+        self.assertRegex(text, r"\n +3 +1e-06 ")
+        self.assertRegex(text, r"QZ on a grid, cubic spline +20 ")
+        self.assertRegex(text, r"\n +1e-06 +order \d at ")
+        self.assertRegex(text, r"6 of 6 traces kept their tolerance; order \d was the fastest at most tolerances; "
+                               r"the certificate costs \S+ % of the time at tolerance 1e-06 and order 3")
+        self.assertEqual(self.contents().keys(), {"scene.toml"})
+
+    def test_quiet_says_nothing_and_grids_can_be_left_out(self):
+        self.assertEqual(self.study("--quiet", "-o", "study.h5", grids="none"), "")
+        self.assertEqual(len(self.open("study.h5")["run"]), 6)
+
+    def test_force_replaces_a_study(self):
+        self.study("-o", "study.h5")
+        self.study("-o", "study.h5", "--force", "--to", "50")
+        self.assertGreater(np.min(self.open("study.h5")["sample_parameter"]), 50)
+
+
+BAD_STUDIES = [
+    ("tolerance that no trace takes", ["--tolerances", "1e-3,1e-20"], ["--tolerances: expected numbers from 1e-13"]),
+    ("word as tolerance", ["--tolerances", "fine"], ["--tolerances: expected numbers separated", "found 'fine'"]),
+    ("empty list", ["--tolerances", "1e-3,"], ["--tolerances: expected numbers separated"]),
+    ("no tolerance", ["--tolerances", "none"], ["--tolerances: expected numbers from"]),
+    ("order five", ["--orders", "5"], ["--orders: expected numbers from 1 to 4"]),
+    ("half an order", ["--orders", "1.5"], ["--orders: expected numbers separated", "found '1.5'"]),
+    ("grid of four points", ["--grids", "4"], ["--grids: expected numbers from 5"]),
+    ("no samples", ["--samples", "0"], ["--samples: expected a number from 1"]),
+    ("no repetition", ["--repeat", "0"], ["--repeat: expected a number from 1"]),
+    ("unknown parameter", ["--parameter", "omga"], ["did you mean 'omega'?"]),
+    ("empty range", ["--to", "100"], ["[trace] to: equals from (100)"]),
+    ("loci file as output", ["-o", "blade.h5", "--force"], ["blade.h5: is no readable work-precision study", "--force"]),
+    ("existing study without force", ["-o", "study.h5"], ["study.h5: exists already", "--force"]),
+    ("scene as output", ["-o", "scene.toml", "--force"], ["scene.toml: is no readable work-precision study"]),
+    ("output in a missing folder", ["-o", "none/new.h5"], ["none/new.h5: the folder none does not exist"]),
+    ("output without a name", ["--output="], ["--output"]),
+]
+
+
+@each_case(BAD_STUDIES)
+class BadStudy(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", BLADE)
+        self.run_well("trace", "scene.toml", "-o", "blade.h5", "--quiet")
+        self.run_well("accuracy", "scene.toml", *NARROW, "--grids", "none", "-o", "study.h5", "--quiet")
+
+    def check(self, options, fragments):
+        before = self.contents()
+        self.assert_refused(self.run_program("accuracy", "scene.toml", *options), fragments)
+        self.assertEqual(self.contents(), before)
+
+
+if __name__ == "__main__":
+    unittest.main()
