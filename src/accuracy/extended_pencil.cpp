@@ -21,7 +21,9 @@ double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, Ex
   if (!equilibrium.kkt.can_solve()) return 0.0;  // the guess is the equilibrium, exactly
   const Matrix reactions = equilibrium.linearization.A[0].transpose();
   const double length = largest(equilibrium.x);
-  const double reaction = largest(reactions * equilibrium.lambda);
+  // Where constraints carry no load, what the stiffness makes of the length is the scale of forces.
+  const double force = std::max(largest(reactions * equilibrium.lambda),
+                                equilibrium.linearization.K[0].cwiseAbs().maxCoeff() * length);
   return refine_to_rounding([&]() -> double {
     BasicSteadyResidual<Extended> residual;
     if (model.extended_residual(path, residual)) return NAN;
@@ -29,7 +31,7 @@ double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, Ex
     equilibrium.kkt.solve(-to_double(residual.force.col(0)), -to_double(residual.constraint.col(0)), dx, dl);
     path.x.col(0) += dx.cast<Extended>();
     path.lambda.col(0) += dl.cast<Extended>();
-    return std::max(relative(largest(dx), length), relative(largest(reactions * dl), reaction));
+    return std::max(relative(largest(dx), length), relative(largest(reactions * dl), force));
   });
 }
 

@@ -35,15 +35,15 @@ std::string method_name(Method method) {
     case Method::trace_uncertified:
       return "eigentrail, no certificate";
     case Method::qz_linear:
-      return "QZ on a grid, linear";
+      return "QZ, linear";
     case Method::qz_spline:
-      return "QZ on a grid, cubic spline";
+      return "QZ, cubic spline";
     case Method::zero_order:
-      return "corrector on a grid, zero-order predictor, cubic spline";
+      return "corrector, zero-order, cubic spline";
     case Method::secant:
-      return "corrector on a grid, secant predictor, cubic spline";
+      return "corrector, secant, cubic spline";
     default:
-      return "corrector on a grid, tangent predictor, cubic spline";
+      return "corrector, tangent, cubic spline";
   }
 }
 

@@ -18,7 +18,7 @@ struct StudyOptions {
   std::vector<int> orders = {1, 2, 3, 4};                              ///< 1 to 4
   std::vector<int> grids = {25, 50, 100, 200, 400, 800};  ///< points of the rivals' grids, >= 5; may be empty
   int samples = 200;                                      ///< parameters at which errors are measured, >= 1
-  int repeat = 3;                                         ///< runs whose median wall time counts, >= 1
+  int repeat = 5;                                         ///< runs whose median wall time counts, >= 1
 };
 
 /// Every violated inequality above, in words. Empty when the options can be used.
@@ -47,6 +47,7 @@ enum class Method {
   secant,             ///< corrector from the secant through the last two points
   tangent             ///< corrector from the tangent at the last point
 };
+/// "QZ, cubic spline": for tables and files.
 std::string method_name(Method method);
 
 /// A method at one setting: what it achieved and what that took.
