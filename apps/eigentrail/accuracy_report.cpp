@@ -58,7 +58,11 @@ void print_rivals(const std::vector<MeasuredRun>& runs) {
                     std::to_string(run.factorizations), std::to_string(run.spectra),
                     std::to_string(run.evaluations), milliseconds(run.seconds)});
   }
-  if (rows.size() > 1) print_table(rows);
+  if (rows.size() == 1) return;
+  std::printf(
+      "  times of traces include the certificate, lost modes and special points; those below have none of "
+      "them\n");
+  print_table(rows);
 }
 
 /// The fastest of the runs that `choose` admits and whose error is within the bound.

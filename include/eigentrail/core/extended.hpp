@@ -6,12 +6,20 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <type_traits>
 
 namespace eigentrail {
 
-/// A binary128 number. A class of its own, because the C++ library has functions for neither of the two
-/// types that compilers offer; these are found by argument only, so no call with a double meets them.
+#ifdef __SIZEOF_FLOAT128__
+__extension__ using Binary128 = __float128;
+#else
+using Binary128 = long double;  // binary128 where there is no other type for it
+static_assert(std::numeric_limits<long double>::digits == 113);
+#endif
+
+/// A binary128 number. A class of its own, because the C++ library has no functions for the type that
+/// compilers offer; these are found by argument only, so no call with a double meets them.
 class Extended {
  public:
   Extended() = default;
@@ -69,13 +77,13 @@ class Extended {
   friend bool isfinite(const Extended& x);
 
  private:
-  static Extended of(_Float128 value) {
+  static Extended of(Binary128 value) {
     Extended result;
     result.value_ = value;
     return result;
   }
 
-  _Float128 value_ = 0;
+  Binary128 value_ = 0;
 };
 
 using ExtendedMatrix = Eigen::Matrix<Extended, Eigen::Dynamic, Eigen::Dynamic>;
