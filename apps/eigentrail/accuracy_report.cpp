@@ -84,20 +84,21 @@ std::string cost_text(const MeasuredRun* run) {
   return setting + ": " + std::to_string(run->points) + " points, " + milliseconds(run->seconds);
 }
 
-/// For each error: the fastest way to it.
+/// For each error: the fastest trace that promised and kept it, and the fastest rival that happened to.
 void print_advice(const std::vector<MeasuredRun>& runs) {
   std::set<double, std::greater<>> bounds;
   for (const MeasuredRun& run : runs) {
     if (run.method == Method::trace) bounds.insert(run.tolerance);
   }
-  const bool rivals =
-      std::any_of(runs.begin(), runs.end(), [](const MeasuredRun& run) { return !by_trace(run); });
+  const auto is_rival = [](const MeasuredRun& run) { return !by_trace(run); };
+  const bool rivals = std::any_of(runs.begin(), runs.end(), is_rival);
   std::vector<std::vector<std::string>> rows{{"error below", "fastest trace"}};
   if (rivals) rows[0].emplace_back("fastest instead");
   for (const double bound : bounds) {
-    const auto is_trace = [](const MeasuredRun& run) { return run.method == Method::trace; };
-    const auto is_rival = [](const MeasuredRun& run) { return !by_trace(run); };
-    rows.push_back({exact_text(bound), cost_text(fastest(runs, bound, is_trace))});
+    const auto promised = [bound](const MeasuredRun& run) {
+      return run.method == Method::trace && run.tolerance <= bound;
+    };
+    rows.push_back({exact_text(bound), cost_text(fastest(runs, bound, promised))});
     if (rivals) rows.back().push_back(cost_text(fastest(runs, bound, is_rival)));
   }
   print_table(rows);
