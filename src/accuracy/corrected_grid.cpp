@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "accuracy/grid_loci.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 

@@ -1,6 +1,7 @@
 #include "accuracy/extended_pencil.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace eigentrail {
 namespace {

@@ -1,6 +1,7 @@
 // The reduced pencil at one point with 113 bits: the first two stages of a reference.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "eigentrail/continuation/path_point.hpp"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "accuracy/grid_interpolant.hpp"
 #include "accuracy/grid_loci.hpp"

@@ -1,6 +1,7 @@
 #include "eigentrail/accuracy/study.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace eigentrail {
 namespace {
