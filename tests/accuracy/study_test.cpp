@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& name) { return std::string(name.param.name); });
 
 TEST(Study, SeesTheErrorBesideAnInfiniteEigenvalue) {
-  // A mass passes zero and s infinity. What a trace keeps to its tolerance there is the error of 1/s relative
-  // to its size at the ends of the step; relative to its size within the step it is larger.
+  // A mass passes zero and s infinity. A step is judged by the error of 1/s relative to its size at the ends
+  // and in the middle; relative to its size elsewhere on the step it is larger.
   const Setting setting = family(
       "M = [[[0, 0], [0, 1]], [[1, 0], [0, 0]]]\nC = [[[1, 0], [0, 0.1]]]\nK = [[[1, 0.1], [0.1, 4]]]\n");
   const ReferenceSet reference = references(setting);
