@@ -121,10 +121,17 @@ TEST(Reference, SaysWhereThereIsNoEquilibrium) {
   EXPECT_EQ(reference_of(pushed_pendulum({}), 1.1).status, ReferenceStatus::no_equilibrium);
 }
 
+Parameter parameter_p() {
+  Parameter p;
+  p.name = "p";
+  p.value = 1.0;
+  return p;
+}
+
 /// A model of somebody else: one mass on a spring, without extended precision.
 class ForeignModel final : public Model {
  public:
-  ForeignModel() : Model({{"x"}, {"m"}, {}, {}, Parameters({{"p", 1.0}})}) {}
+  ForeignModel() : Model({{"x"}, {"m"}, {}, {}, Parameters({parameter_p()})}) {}
   Vector initial_guess(const Vector&) const override { return Vector::Zero(1); }
   Structure structure(int) const override { return {.known_equilibrium = true}; }
   EvaluationFault residual(const Path&, int order, SteadyResidual& result, EvaluationCounts&) const override {
