@@ -45,7 +45,6 @@ double evaluation_seconds(const Setting& setting, int repeats) {
 
 Figures absent_effects(const BenchOptions& options) {
   const Setting whole = chain_without("");
-  const double whole_seconds = evaluation_seconds(whole, options.repeats);
   const TimedTrace whole_trace = time_trace(whole, whole.options, options.repeats);
   std::uint64_t absent = 0, present = 0;
   double worst_evaluation = 0.0, worst_trace = 0.0;
@@ -55,6 +54,7 @@ Figures absent_effects(const BenchOptions& options) {
     const TimedTrace trace = time_trace(without, without.options, options.repeats);
     absent += evaluations(without, trace.result, effect);
     present += evaluations(whole, whole_trace.result, effect);
+    const double whole_seconds = evaluation_seconds(whole, options.repeats);  // beside it: machines drift
     const double ratio = evaluation_seconds(without, options.repeats) / whole_seconds;
     const double trace_ratio =
         trace.seconds / trace.result.nodes * whole_trace.result.nodes / whole_trace.seconds;

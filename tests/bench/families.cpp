@@ -11,8 +11,8 @@ namespace {
 
 constexpr double lowest_frequency = 3.0, spacing = 0.1;  ///< rad/s
 constexpr double movement = 1.5;   ///< standard deviation of the stiffness that moves single modes, 1/s^2
-constexpr double coupling = 0.15;  ///< of the stiffness that couples two modes, 1/s^2
-constexpr double whirl = 0.05;     ///< of the gyroscopic coupling, 1/s
+constexpr double coupling = 0.06;  ///< of the stiffness that couples two modes, 1/s^2
+constexpr double whirl = 0.02;     ///< of the gyroscopic coupling, 1/s
 constexpr double damping = 0.02;   ///< 1/s
 
 using Normal = std::normal_distribution<double>;

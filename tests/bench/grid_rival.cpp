@@ -75,7 +75,7 @@ int points_for_spline(const Recording& exact, const TraceOptions& range, const s
     if (high > 1'000'000) throw std::runtime_error("points_for_spline: not with a million points");
   }
   int low = std::max(4, high / 2);
-  while (high - low > 0.03 * high) {
+  while (high - low > std::max(1.0, 0.03 * high)) {
     const int middle = (low + high) / 2;
     (enough(middle) ? high : low) = middle;
   }

@@ -120,7 +120,8 @@ Figures growth(const BenchOptions& options) {
     const Setting setting = gyroscopic_family(n, seed, {});
     with_size.add(n, time_trace(setting, few_modes_of(setting, 6, true), options.repeats));
   }
-  const Setting setting = gyroscopic_family(options.smoke ? 8 : 50, seed, {});
+  const int n_fixed = options.smoke ? 8 : 50;
+  const Setting setting = gyroscopic_family(n_fixed, seed, {});
   for (const int modes : options.smoke ? std::vector<int>{2, 4} : std::vector<int>{3, 6, 12, 25, 50})
     with_modes.add(modes, time_trace(setting, few_modes_of(setting, modes, true), options.repeats));
   return {

@@ -21,10 +21,11 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Median over `repeats` >= 1 calls of `work`.
+/// Median over `repeats` >= 1 calls of `work`, after one that warms up caches and libraries.
 template <class Work>
 double median_seconds(int repeats, Work&& work) {
   std::vector<double> times;
+  work();
   for (int i = 0; i < repeats; ++i) times.push_back(seconds_of(work));
   return median(std::move(times));
 }
