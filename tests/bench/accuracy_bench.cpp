@@ -21,7 +21,7 @@ struct Run {
 };
 
 std::vector<HardCase> cases(const BenchOptions& options) {
-  const int seeds = options.smoke ? 2 : 60;
+  const int seeds = options.smoke ? 2 : 40;
   std::vector<HardCase> list = hard_cases();
   if (options.smoke) list.resize(2);
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -33,7 +33,7 @@ std::vector<HardCase> cases(const BenchOptions& options) {
 
 std::vector<Run> runs_of(const HardCase& hard_case, const BenchOptions& options) {
   std::vector<Sample> samples;
-  for (const double p : sample_parameters(hard_case, options.smoke ? 5 : 60))
+  for (const double p : sample_parameters(hard_case, options.smoke ? 5 : 40))
     samples.push_back(sample_at(hard_case, p));
   std::vector<Run> runs;
   for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {

@@ -5,13 +5,10 @@
 #include <functional>
 #include <stdexcept>
 
-#define lapack_complex_float std::complex<float>
-#define lapack_complex_double std::complex<double>
-#include <lapacke.h>
-
 #include "bench/shift_invert.hpp"
 #include "bench/spline.hpp"
 #include "bench/timing.hpp"
+#include "core/lapack.hpp"
 #include "hard_cases/rivals.hpp"
 
 namespace eigentrail::test {

@@ -24,15 +24,14 @@ TimedTrace time_trace(const Setting& setting, const TraceOptions& options, int r
   TimedTrace timed;
   std::vector<double> whole, following;
   for (int i = 0; i < repeats; ++i) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
-    Clock::time_point first_point = begin;
+    const double begin = cpu_seconds();
+    double first_point = begin;
     TraceObserver observer;
-    observer.started = [&](const TraceStart&) { first_point = Clock::now(); };
+    observer.started = [&](const TraceStart&) { first_point = cpu_seconds(); };
     timed.result = completed(trace(*setting.model, options, observer));
-    const Clock::time_point end = Clock::now();
-    whole.push_back(std::chrono::duration<double>(end - begin).count());
-    following.push_back(std::chrono::duration<double>(end - first_point).count());
+    const double end = cpu_seconds();
+    whole.push_back(end - begin);
+    following.push_back(end - first_point);
   }
   timed.seconds = median(std::move(whole));
   timed.follow_seconds = median(std::move(following));

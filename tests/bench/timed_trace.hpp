@@ -10,7 +10,7 @@ namespace eigentrail::test {
 
 struct TimedTrace {
   TraceResult result;           ///< of the last repetition
-  double seconds = 0.0;         ///< median, the first spectrum included
+  double seconds = 0.0;         ///< CPU time, median, the first spectrum included
   double follow_seconds = 0.0;  ///< median, from the first point on
 
   double seconds_per_mode_step() const;
