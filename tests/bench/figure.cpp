@@ -22,8 +22,11 @@ bool Figure::reached() const {
   return target->sense == Target::Sense::at_most ? value <= target->limit : value >= target->limit;
 }
 
-void write_table(const std::vector<Figure>& figures, std::ostream& out) {
+void write_table_head(std::ostream& out) {
   out << "| benchmark | figure | measured | target | reached | from |\n|---|---|---|---|---|---|\n";
+}
+
+void write_table_lines(const std::vector<Figure>& figures, std::ostream& out) {
   for (const Figure& figure : figures) {
     out << "| " << figure.benchmark << " | " << figure.quantity << " | " << short_text(figure.value) << " | "
         << target_text(figure) << " | "

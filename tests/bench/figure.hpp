@@ -29,8 +29,9 @@ struct Figure {
   bool reached() const;  ///< true without a target
 };
 
-/// Markdown, one line per figure.
-void write_table(const std::vector<Figure>& figures, std::ostream& out);
+/// Markdown: the head of the table, and one line per figure.
+void write_table_head(std::ostream& out);
+void write_table_lines(const std::vector<Figure>& figures, std::ostream& out);
 
 /// {"figures": [{"benchmark", "quantity", "value", "target", "sense", "reached", "detail"}, ...]}; a value
 /// that is not finite is null.

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "bench/benchmarks.hpp"
 
@@ -22,16 +23,19 @@ std::vector<std::string> names() {
   return result;
 }
 
+/// Prints the lines of every benchmark when it is done: the whole suite takes a while.
 Figures measure(const std::vector<std::string>& only, const BenchOptions& options) {
   Figures all;
+  write_table_head(std::cout);
   for (const Benchmark& benchmark : benchmarks()) {
     const bool wanted = only.empty() || std::find(only.begin(), only.end(), benchmark.name) != only.end();
     if (!wanted) continue;
     std::cerr << benchmark.name << " ..." << std::endl;
-    for (Figure& figure : benchmark.run(options)) {
-      figure.benchmark = benchmark.name;
-      all.push_back(std::move(figure));
-    }
+    Figures figures = benchmark.run(options);
+    for (Figure& figure : figures) figure.benchmark = benchmark.name;
+    write_table_lines(figures, std::cout);
+    std::cout.flush();
+    std::move(figures.begin(), figures.end(), std::back_inserter(all));
   }
   return all;
 }
@@ -54,7 +58,6 @@ int run(int argc, char** argv) {
   if (options.smoke) options.repeats = 1;
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
   const Figures figures = measure(only, options);
-  write_table(figures, std::cout);
   if (json.empty()) return 0;
   std::ofstream file(json);
   write_json(figures, options.smoke, file);
