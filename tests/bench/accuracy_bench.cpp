@@ -91,10 +91,12 @@ Figures accuracy_and_factorizations(const BenchOptions& options) {
   }
   const auto error = [](const Run& run) { return run.error; };
   const Run& largest = worst(runs, error);
-  const auto ended = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return !run.completed; });
+  std::string ended;
+  for (const Run& run : runs) {
+    if (!run.completed) ended += (ended.empty() ? "; ended early: " : ", ") + run.text();
+  }
   Figures figures{{"error / tolerance, 95 % of the runs", quantile(runs, 0.95, error), at_most(2.0),
-                   std::to_string(runs.size()) + " runs at 1e-4, 1e-6, 1e-8, 1e-10, " +
-                       std::to_string(ended) + " ended early"},
+                   std::to_string(runs.size()) + " runs at 1e-4, 1e-6, 1e-8, 1e-10" + ended},
                   {"error / tolerance, largest", error(largest), at_most(4.0), largest.text()}};
   for (Figure& figure : factorization_figures(runs)) figures.push_back(std::move(figure));
   return figures;
