@@ -12,14 +12,19 @@ constexpr int max_refinements = 40;
 constexpr double stagnation = 1e-11;
 constexpr double rounding = 1e-15;
 
-/// Real matrix times complex matrix as one real product.
+/// Real matrix times complex matrix of few columns, as real matrix-vector products: a matrix product would
+/// first copy B into its own order, which costs more than the few columns themselves.
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
-  Matrix parts(Z.rows(), 2 * Z.cols());
-  parts << Z.real(), Z.imag();
-  const Matrix product = B * parts;
   ComplexMatrix result(B.rows(), Z.cols());
-  result.real() = product.leftCols(Z.cols());
-  result.imag() = product.rightCols(Z.cols());
+  Vector part(Z.rows()), product(B.rows());
+  for (Eigen::Index j = 0; j < Z.cols(); ++j) {
+    part = Z.col(j).real();
+    product.noalias() = B * part;
+    result.col(j).real() = product;
+    part = Z.col(j).imag();
+    product.noalias() = B * part;
+    result.col(j).imag() = product;
+  }
   return result;
 }
 

@@ -174,16 +174,14 @@ void compare(const LabelledLoci& loci, double low, double high, const ModesAt& m
 
 }  // namespace
 
-GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points) {
-  const TraceSetup setup = prepare_trace(parse_scene(hard_case.scene, hard_case.name + ".toml"), {});
+GridSpectra spectra_on_grid(const TraceSetup& setup, double from, double to, int n_points) {
   const PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   RunCounts counts;
   GridSpectra result;
-  EquilibriumGuess guess{setup.model->initial_guess(parameters_at(problem, hard_case.from)), {}};
+  EquilibriumGuess guess{setup.model->initial_guess(parameters_at(problem, from)), {}};
   for (int k = 0; k < n_points; ++k) {
     const double part = static_cast<double>(k) / (n_points - 1);
-    const double p = hard_case.from + part * (hard_case.to - hard_case.from);
-    const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
+    const PathPoint point = reduce_at(problem, from + part * (to - from), guess, Matrix(), counts);
     if (point.status != PointStatus::computed) {
       result.complete = false;
       break;
@@ -192,6 +190,11 @@ GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points) {
     result.points.push_back(spectrum_at(point));
   }
   return result;
+}
+
+GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points) {
+  const TraceSetup setup = prepare_trace(parse_scene(hard_case.scene, hard_case.name + ".toml"), {});
+  return spectra_on_grid(setup, hard_case.from, hard_case.to, n_points);
 }
 
 LabelledLoci carry_labels(const GridSpectra& spectra, Carrier carrier) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "eigentrail/continuation/trace_options.hpp"
 #include "hard_cases/catalogue.hpp"
 #include "hard_cases/reference_labels.hpp"
 
@@ -36,8 +37,11 @@ struct GridSpectra {
   bool complete = true;
 };
 
-/// `n_points` >= 2 from one end of the case's range to the other. The reduced pencils are the library's, each
+/// `n_points` >= 2 from one end of a range to the other. The reduced pencils are the library's, each
 /// equilibrium solved from the one before; ends early where there is none.
+GridSpectra spectra_on_grid(const TraceSetup& setup, double from, double to, int n_points);
+
+/// The same on the range of a case.
 GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points);
 
 /// Carries the labels. One O(n^3) assignment per point.

@@ -1,0 +1,20 @@
+#include "bench/benchmarks.hpp"
+
+namespace eigentrail::test {
+
+const std::vector<Benchmark>& benchmarks() {
+  static const std::vector<Benchmark> all{{"accuracy", accuracy_and_factorizations},
+                                          {"step_time", step_time},
+                                          {"rotating_mass", rotating_mass},
+                                          {"veerings", veerings},
+                                          {"few_modes", few_modes},
+                                          {"tolerance", tolerance},
+                                          {"order", order},
+                                          {"absent_effects", absent_effects},
+                                          {"symmetric", symmetric},
+                                          {"growth", growth},
+                                          {"threads", threads}};
+  return all;
+}
+
+}  // namespace eigentrail::test

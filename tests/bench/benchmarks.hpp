@@ -1,0 +1,44 @@
+// The benchmarks of the performance suite. Each measures one or a few figures; none asserts anything.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/figure.hpp"
+
+namespace eigentrail::test {
+
+struct BenchOptions {
+  bool smoke = false;  ///< sizes that take seconds: to see that everything runs, not for figures
+  int repeats = 3;     ///< of every timed run, >= 1; medians are reported
+};
+
+using Figures = std::vector<Figure>;
+
+struct Benchmark {
+  std::string name;  ///< for --only
+  std::function<Figures(const BenchOptions&)> run;
+};
+
+// accuracy_bench.cpp
+Figures accuracy_and_factorizations(const BenchOptions& options);
+// step_time_bench.cpp
+Figures step_time(const BenchOptions& options);
+Figures growth(const BenchOptions& options);
+Figures symmetric(const BenchOptions& options);
+Figures threads(const BenchOptions& options);
+// rival_bench.cpp
+Figures rotating_mass(const BenchOptions& options);
+Figures veerings(const BenchOptions& options);
+Figures few_modes(const BenchOptions& options);
+// tolerance_bench.cpp
+Figures tolerance(const BenchOptions& options);
+Figures order(const BenchOptions& options);
+// effects_bench.cpp
+Figures absent_effects(const BenchOptions& options);
+
+/// All of them, in the order of the table.
+const std::vector<Benchmark>& benchmarks();
+
+}  // namespace eigentrail::test
