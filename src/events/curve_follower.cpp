@@ -176,7 +176,7 @@ Arm::Landing Arm::land(const ChordStep& step) {
     constexpr double rounding = 1e-13;
     return std::min(place.minCoeff(), 1.0 - place.maxCoeff()) + rounding;
   });
-  const double end = first_negative([&](double t) {
+  const double last = first_negative([&](double t) {
     const Eigen::Vector4d there = at(step, t);
     return function_.distance_to_end(there[2], there[3]);
   });
@@ -186,8 +186,8 @@ Arm::Landing Arm::land(const ChordStep& step) {
     distance_from(step, first.place, seed);
     if (sign_ < 0.0) seed = 1.0 - seed;
   }
-  if (seed <= std::min(edge, end)) return seed > 1.0 ? Landing::nothing : close();
-  return edge <= end ? land_on_edge(step, edge) : land_on_end(step, end);
+  if (seed <= std::min(edge, last)) return seed > 1.0 ? Landing::nothing : close();
+  return edge <= last ? land_on_edge(step, edge) : land_on_end(step, last);
 }
 
 Arm::Landing Arm::finish(const Situation& there, PointFlag flag, CurveEnd how) {

@@ -251,12 +251,12 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
 }
 
 Complex eigenvalue_remainder(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  using Extended = std::complex<long double>;
-  using ExtendedVector = Eigen::Matrix<Extended, Eigen::Dynamic, 1>;
-  const ExtendedVector z = pair.Z.col(0).cast<Extended>();
-  const auto mu = static_cast<Extended>(pair.Lambda(0, 0));
-  const auto times = [&z](const Matrix& B) { return ExtendedVector(B.cast<Extended>() * z); };
-  const ExtendedVector residual = (times(pencil.M) * mu + times(pencil.C)) * mu + times(pencil.K);
+  using LongComplex = std::complex<long double>;
+  using LongVector = Eigen::Matrix<LongComplex, Eigen::Dynamic, 1>;
+  const LongVector z = pair.Z.col(0).cast<LongComplex>();
+  const auto mu = static_cast<LongComplex>(pair.Lambda(0, 0));
+  const auto times = [&z](const Matrix& B) { return LongVector(B.cast<LongComplex>() * z); };
+  const LongVector residual = (times(pencil.M) * mu + times(pencil.C)) * mu + times(pencil.K);
   const ComplexMatrix defect = ComplexMatrix::Identity(1, 1) - normalization(pair.W, pair.Z, pair.Lambda);
   ComplexMatrix dZ, dLambda;
   pair.factors->solve(-residual.cast<Complex>(), defect, dZ, dLambda);
