@@ -2,7 +2,6 @@
 
 import unittest
 
-import h5py
 import numpy as np
 import xarray
 
@@ -41,24 +40,10 @@ class Accuracy(CommandTest):
         self.write("scene.toml", BLADE)
         return self.run_well("accuracy", "scene.toml", *NARROW, "--grids", grids, *options)
 
-    def open(self, name):
-        file = h5py.File(self.folder / name)
-        self.addCleanup(file.close)
-        return file
-
     def test_datasets_have_dimensions_units_and_names(self):
         self.study("-o", "study.h5")
         file = self.open("study.h5")
-        self.assertEqual(set(file), set(LAYOUT))
-        for name, (dimensions, units) in LAYOUT.items():
-            with self.subTest(name):
-                dataset = file[name]
-                self.assertEqual(dataset.shape, tuple(len(file[d]) for d in dimensions))
-                if name not in dimensions:
-                    self.assertEqual([[scale.name for scale in dim.values()] for dim in dataset.dims],
-                                     [["/" + d] for d in dimensions])
-                self.assertEqual(dataset.attrs["units"], units)
-                self.assertTrue(dataset.attrs["long_name"])
+        self.assert_layout(file, LAYOUT)
         self.assertEqual((file.attrs["format"], file.attrs["schema_version"]), ("eigentrail-accuracy", 1))
         self.assertEqual(file.attrs["scene"], BLADE)
         self.assertLess(file.attrs["reference_correction"], 1e-28)

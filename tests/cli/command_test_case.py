@@ -4,6 +4,7 @@ import csv
 import io
 import math
 
+import h5py
 import numpy as np
 
 from program import ProgramTest
@@ -32,6 +33,24 @@ class CommandTest(ProgramTest):
     def eval_at(self, file, places):
         """Eigenvalues, places x modes."""
         return np.array([s for _, _, s in self.eval_rows(file, places)]).reshape(len(places), -1)
+
+    def open(self, name):
+        file = h5py.File(self.folder / name)
+        self.addCleanup(file.close)
+        return file
+
+    def assert_layout(self, file, layout):
+        """`layout` has dimensions and units of every dataset by name."""
+        self.assertEqual(set(file), set(layout))
+        for name, (dimensions, units) in layout.items():
+            with self.subTest(name):
+                dataset = file[name]
+                self.assertEqual(dataset.shape, tuple(len(file[d]) for d in dimensions))
+                if name not in dimensions:
+                    self.assertEqual([[scale.name for scale in dim.values()] for dim in dataset.dims],
+                                     [["/" + d] for d in dimensions])
+                self.assertEqual(dataset.attrs["units"], units)
+                self.assertTrue(dataset.attrs["long_name"])
 
     def assert_within(self, actual, expected, tolerance, reference=0.0):
         bound = tolerance * np.maximum(np.abs(expected), reference)
