@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace eigentrail {
 namespace {
@@ -10,107 +9,109 @@ namespace {
 /// Terms that fall more slowly than this are taken to fall like this.
 constexpr double slowest_decay = 0.8;
 
-/// Series coefficients in the unit of t: column k times length^k.
-ComplexMatrix in_unit_length(const ComplexMatrix& series, double length) {
-  ComplexMatrix scaled = series;
-  double power = 1.0;
-  for (Eigen::Index k = 0; k < scaled.cols(); ++k, power *= length) scaled.col(k) *= power;
-  return scaled;
-}
-
 }  // namespace
 
 HermiteInterpolant::HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right)
-    : from_left_(length, left, right), from_right_(-length, right, left) {}
-
-HermiteInterpolant::Terms::Terms(double length, const ComplexMatrix& near, const ComplexMatrix& far)
-    : value(near.rows(), near.cols()), slope(near.rows(), near.cols()) {
-  const ComplexMatrix l = in_unit_length(near, length);
-  const ComplexMatrix r = in_unit_length(far, length);
-  const Eigen::Index nodes = near.cols();  // at each end
-  // Row by row in the number of near nodes i: F(i, j) = F(i-1, j) - F(i, j-1), the ends lying 1 apart in t.
-  std::vector<ComplexVector> above;  // F(i-1, j) by j
-  above.emplace_back();
-  for (Eigen::Index j = 1; j <= nodes; ++j) above.emplace_back(r.col(j - 1));
-  for (Eigen::Index i = 1; i <= nodes; ++i) {
-    std::vector<ComplexVector> row{l.col(i - 1)};
-    for (Eigen::Index j = 1; j <= nodes; ++j) {
-      row.emplace_back(above[static_cast<std::size_t>(j)] - row[static_cast<std::size_t>(j - 1)]);
-    }
-    value.col(i - 1) = row[static_cast<std::size_t>(i - 1)];
-    slope.col(i - 1) = row[static_cast<std::size_t>(i)];
-    above = std::move(row);
+    : left_value_(left.rows(), left.cols()),
+      right_value_(left.rows(), left.cols()),
+      slope_(left.rows(), left.cols()) {
+  const Eigen::Index nodes = left.cols();  // at each end
+  // Coefficients in the unit of t: column k times length^k.
+  ComplexMatrix table(left.rows(), nodes + 1);  // F(i, j) in column j, row by row in i
+  double power = 1.0;
+  for (Eigen::Index j = 1; j <= nodes; ++j, power *= length) table.col(j) = right.col(j - 1) * power;
+  right_value_.col(0) = table.col(1);
+  power = 1.0;
+  for (Eigen::Index i = 1; i <= nodes; ++i, power *= length) {
+    // F(i, j) = F(i-1, j) - F(i, j-1), the ends lying 1 apart in t.
+    table.col(0) = left.col(i - 1) * power;
+    for (Eigen::Index j = 1; j <= nodes; ++j) table.col(j) -= table.col(j - 1);
+    left_value_.col(i - 1) = table.col(i - 1);
+    slope_.col(i - 1) = table.col(i);
+    if (i < nodes) right_value_.col(i) = table.col(i + 1);
   }
 }
 
-ComplexVector HermiteInterpolant::operator()(Complex t) const {
-  const bool left = t.real() <= 0.5;
-  const Terms& terms = left ? from_left_ : from_right_;
-  const Complex u = left ? t : 1.0 - t;
-  const Complex bubble = u * (u - 1.0);
-  ComplexVector value = ComplexVector::Zero(terms.value.rows());
-  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k)
-    value = value * bubble + terms.value.col(k) + terms.slope.col(k) * u;
+template <class Scalar>
+ComplexVector HermiteInterpolant::evaluate(Scalar t) const {
+  const bool left = std::real(t) <= 0.5;
+  const ComplexMatrix& values = near_values(left);
+  const Scalar u = left ? t : 1.0 - t;
+  const Scalar along = left ? u : -u;  // the slopes change their sign
+  const Scalar bubble = u * (u - 1.0);
+  ComplexVector value = ComplexVector::Zero(size());
+  for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k)
+    value = value * bubble + values.col(k) + slope_.col(k) * along;
   return value;
+}
+
+ComplexVector HermiteInterpolant::operator()(double t) const {
+  return evaluate(t);
+}
+
+ComplexVector HermiteInterpolant::operator()(Complex t) const {
+  return evaluate(t);
 }
 
 ComplexVector HermiteInterpolant::slope(double t) const {
   const bool left = t <= 0.5;
-  const Terms& terms = left ? from_left_ : from_right_;
+  const ComplexMatrix& values = near_values(left);
   const double u = left ? t : 1.0 - t;
+  const double du = left ? 1.0 : -1.0;
   const double bubble = u * (u - 1.0);
-  ComplexVector value = ComplexVector::Zero(terms.value.rows());
+  ComplexVector value = ComplexVector::Zero(size());
   ComplexVector derivative = value;
-  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k) {
-    derivative = derivative * bubble + value * (2.0 * u - 1.0) + terms.slope.col(k);
-    value = value * bubble + terms.value.col(k) + terms.slope.col(k) * u;
+  for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k) {
+    derivative = derivative * bubble + value * (du * (2.0 * u - 1.0)) + slope_.col(k);
+    value = value * bubble + values.col(k) + slope_.col(k) * (du * u);
   }
-  return left ? derivative : ComplexVector(-derivative);
+  return derivative;
 }
 
 ComplexMatrix HermiteInterpolant::series(double t0, int order) const {
   const bool left = t0 <= 0.5;
-  const Terms& terms = left ? from_left_ : from_right_;
+  const ComplexMatrix& values = near_values(left);
   const double u = left ? t0 : 1.0 - t0;
   const double du = left ? 1.0 : -1.0;
   // (u + du x) (u + du x - 1) and u + du x as polynomials in x multiply the Horner scheme of `operator()`.
   const double bubble[] = {u * (u - 1.0), du * (2.0 * u - 1.0), 1.0};
-  ComplexMatrix value = ComplexMatrix::Zero(terms.value.rows(), order + 1);
-  for (Eigen::Index k = terms.value.cols() - 1; k >= 0; --k) {
+  ComplexMatrix value = ComplexMatrix::Zero(size(), order + 1);
+  for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k) {
     for (Eigen::Index j = order; j >= 0; --j) {
       value.col(j) *= bubble[0];
       if (j > 0) value.col(j) += bubble[1] * value.col(j - 1);
       if (j > 1) value.col(j) += bubble[2] * value.col(j - 2);
     }
-    value.col(0) += terms.value.col(k) + terms.slope.col(k) * u;
-    if (order > 0) value.col(1) += terms.slope.col(k) * du;
+    value.col(0) += values.col(k) + slope_.col(k) * (du * u);
+    if (order > 0) value.col(1) += slope_.col(k);
   }
   return value;
 }
 
 double HermiteInterpolant::term(Eigen::Index function, Eigen::Index k) const {
-  const double size = std::max(std::abs(from_left_.value(function, k)),
-                               std::abs(from_left_.value(function, k) + from_left_.slope(function, k)));
+  const double size =
+      std::max(std::abs(left_value_(function, k)), std::abs(left_value_(function, k) + slope_(function, k)));
   return size * std::pow(0.25, static_cast<double>(k));  // the largest |t (t - 1)|^k
 }
 
 double HermiteInterpolant::last_share(Eigen::Index function, Complex t) const {
   const bool left = t.real() <= 0.5;
-  const Terms& terms = left ? from_left_ : from_right_;
+  const ComplexMatrix& values = near_values(left);
   const Complex u = left ? t : 1.0 - t;
+  const Complex along = left ? u : -u;
   double power = 1.0;
   double last = 0.0;
   double largest = 0.0;
-  for (Eigen::Index k = 0; k < terms.value.cols(); ++k, power *= std::abs(u * (u - 1.0))) {
-    last = power * std::abs(terms.value(function, k) + terms.slope(function, k) * u);
+  for (Eigen::Index k = 0; k < slope_.cols(); ++k, power *= std::abs(u * (u - 1.0))) {
+    last = power * std::abs(values(function, k) + slope_(function, k) * along);
     largest = std::max(largest, last);
   }
   return largest > 0.0 ? last / largest : 0.0;
 }
 
 Vector HermiteInterpolant::error_without_last() const {
-  const Eigen::Index q = from_left_.value.cols() - 1;
-  Vector error(from_left_.value.rows());
+  const Eigen::Index q = slope_.cols() - 1;
+  Vector error(size());
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     const double last = term(i, q);
     const double before = term(i, q - 1);

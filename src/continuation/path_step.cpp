@@ -64,50 +64,63 @@ class Differences {
   explicit Differences(const ComplexVector& roots)
       : scale_(coinciding * roots.cwiseAbs().maxCoeff()),
         start_(roots),
-        unclear_(Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(roots.size(), roots.size(),
-                                                                              false)) {}
+        unclear_(static_cast<std::size_t>(roots.size() * roots.size()), false) {}
 
   /// Whether none changes by more than a part of itself. Those that vanish all along do not count.
   bool are_resolved(const std::array<const ComplexVector*, 3>& sets) const {
-    return (changes(sets) <= 1.0 || magnitudes(sets) <= scale_).all();
+    return all_pairs([&](Eigen::Index i, Eigen::Index j) {
+      const auto vanishes = [&](const ComplexVector* roots) {
+        return std::abs((*roots)[i] - (*roots)[j]) <= scale_;
+      };
+      return change(sets, i, j) <= 1.0 || std::all_of(sets.begin(), sets.end(), vanishes);
+    });
   }
 
   /// The piece is taken as it is.
-  void accept(const std::array<const ComplexVector*, 3>& sets) { unclear_ = unclear_ || changes(sets) > 1.0; }
+  void accept(const std::array<const ComplexVector*, 3>& sets) {
+    all_pairs([&](Eigen::Index i, Eigen::Index j) {
+      if (change(sets, i, j) > 1.0) unclear_[at(i, j)] = true;
+      return true;
+    });
+  }
 
   /// Whether no two that are distinct at both ends were unclear on the way.
   bool were_told_apart(const ComplexVector& end) const {
-    return !(unclear_ && between(start_) > scale_ && between(end) > scale_).any();
+    return all_pairs([&](Eigen::Index i, Eigen::Index j) {
+      return !(unclear_[at(i, j)] && std::abs(start_[i] - start_[j]) > scale_ &&
+               std::abs(end[i] - end[j]) > scale_);
+    });
   }
 
  private:
   static constexpr double coinciding = 1e-12;
 
-  static Eigen::ArrayXXd between(const ComplexVector& roots) {
-    return (roots.rowwise().replicate(roots.size()) - roots.transpose().colwise().replicate(roots.size()))
-        .cwiseAbs();
+  std::size_t at(Eigen::Index i, Eigen::Index j) const {
+    return static_cast<std::size_t>(i * start_.size() + j);
   }
-  static ComplexMatrix signed_differences(const ComplexVector& roots) {
-    return roots.rowwise().replicate(roots.size()) - roots.transpose().colwise().replicate(roots.size());
+  template <class Condition>
+  bool all_pairs(const Condition& holds) const {
+    for (Eigen::Index i = 0; i < start_.size(); ++i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        if (!holds(i, j)) return false;
+      }
+    }
+    return true;
   }
-  static Eigen::ArrayXXd magnitudes(const std::array<const ComplexVector*, 3>& sets) {
-    return between(*sets[0]).max(between(*sets[1])).max(between(*sets[2]));
-  }
-  /// Largest change in units of what is allowed; 0 on the diagonal.
-  static Eigen::ArrayXXd changes(const std::array<const ComplexVector*, 3>& sets) {
-    const ComplexMatrix first = signed_differences(*sets[0]);
-    const ComplexMatrix second = signed_differences(*sets[1]);
-    const ComplexMatrix third = signed_differences(*sets[2]);
-    const Eigen::ArrayXXd least =
-        first.cwiseAbs().array().min(second.cwiseAbs().array()).min(third.cwiseAbs().array());
-    const Eigen::ArrayXXd change =
-        (second - first).cwiseAbs().array().max((third - second).cwiseAbs().array());
-    return (change > 0.0).select(change / (largest_change * least).max(1e-300), 0.0);
+  /// Largest change of a difference in units of what is allowed.
+  static double change(const std::array<const ComplexVector*, 3>& sets, Eigen::Index i, Eigen::Index j) {
+    const auto difference = [&](std::size_t k) { return (*sets[k])[i] - (*sets[k])[j]; };
+    const Complex first = difference(0);
+    const Complex second = difference(1);
+    const Complex third = difference(2);
+    const double least = std::min({std::abs(first), std::abs(second), std::abs(third)});
+    const double change = std::max(std::abs(second - first), std::abs(third - second));
+    return change > 0.0 ? change / std::max(largest_change * least, 1e-300) : 0.0;
   }
 
   double scale_;
   ComplexVector start_;
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> unclear_;
+  std::vector<bool> unclear_;
 };
 
 /// p(t) - p on a step, as seen from the nearer end: accurate relatively to the distance from the value there,
@@ -183,9 +196,13 @@ Complex chart_value(Complex s, Chart chart) {
 
 ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
                            double to, bool* told_apart) {
-  const HermiteInterpolant functions(length, block.left, block.right);
+  return follow_roots(HermiteInterpolant(length, block.left, block.right), roots, from, to, told_apart);
+}
+
+ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
+                           double to, bool* told_apart) {
   if (told_apart != nullptr) *told_apart = true;
-  if (block.size() == 1) return block_roots(functions(to));
+  if (functions.size() == 1) return functions(to);
   Differences differences(roots);
   ComplexVector current = roots;
   double t = from;

@@ -42,4 +42,12 @@ DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_
   return block;
 }
 
+HermiteInterpolant functions_on_step(const PathNode& left, const PathNode& right, std::size_t index,
+                                     double length) {
+  const Track& a = left.tracks[index];
+  if (a.size() <= 2) return {length, a.functions, right.tracks[index].functions};
+  const DenseBlock block = block_on_step(left, right, index);
+  return {length, block.left, block.right};
+}
+
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
 // A block at both ends of a step in one basis, so that its series can be interpolated between them.
 #pragma once
 
+#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 
@@ -15,5 +16,9 @@ void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vecto
 /// The functions of a track on the step between two points, with all coefficients of its series; without
 /// modes.
 DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_t track);
+
+/// The same as functions of t on the step of that length.
+HermiteInterpolant functions_on_step(const PathNode& left, const PathNode& right, std::size_t track,
+                                     double length);
 
 }  // namespace eigentrail

@@ -32,7 +32,7 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
 }
 
 StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
-    : block_(block_on_step(left, right, index)), length_(length) {
+    : functions_(functions_on_step(left, right, index, length)) {
   double position = 0.0;
   ComplexVector roots = departing_roots(left.tracks[index], length, position);
   known_.emplace(position, std::move(roots));
@@ -42,7 +42,8 @@ const ComplexVector& StrandSampler::operator()(double t) {
   const auto above = known_.upper_bound(t);
   const auto nearest = above == known_.begin() ? above : std::prev(above);
   if (nearest->first == t) return nearest->second;
-  return known_.emplace(t, follow_roots(block_, length_, nearest->second, nearest->first, t)).first->second;
+  if (functions_.size() == 1) return single_ = functions_(t);
+  return known_.emplace(t, follow_roots(functions_, nearest->second, nearest->first, t)).first->second;
 }
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {

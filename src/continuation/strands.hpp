@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 
@@ -21,12 +22,13 @@ class StrandSampler {
   /// `index` is the track's, the same at both ends.
   StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
+  /// Valid until the next call.
   const ComplexVector& operator()(double t);
 
  private:
-  DenseBlock block_;
-  double length_;
+  HermiteInterpolant functions_;
   std::map<double, ComplexVector> known_;  ///< by t
+  ComplexVector single_;                   ///< the root of a track that has one, at the last t
 };
 
 /// A departure farther than this share of a step is looked at again nearer by.

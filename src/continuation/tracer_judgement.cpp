@@ -47,8 +47,7 @@ Tracer::Trouble Tracer::judge(double h, const PathNode& next, double& error) {
 
 double Tracer::track_error(double h, const PathNode& next, std::size_t i) const {
   const Track& track = node_.tracks[i];
-  const DenseBlock block = block_on_step(node_, next, i);
-  const HermiteInterpolant step(h, block.left, block.right);
+  const HermiteInterpolant step = functions_on_step(node_, next, i, h);
   const Vector errors = (step.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
   double worst = 0.0;
   for (const double t : {0.0, 0.5, 1.0}) {

@@ -32,8 +32,8 @@ void Tracer::label_arrival(double h, PathNode& next) const {
     if (right.size() == 1) continue;
     double from = 0.0;
     const ComplexVector start = departing_roots(left, h, from);
-    const DenseBlock block = block_on_step(node_, next, i);
-    right.roots = in_order_of(follow_roots(block, h, start, from, 1.0, &right.told_apart), right.roots);
+    const HermiteInterpolant functions = functions_on_step(node_, next, i, h);
+    right.roots = in_order_of(follow_roots(functions, start, from, 1.0, &right.told_apart), right.roots);
   }
 }
 
@@ -44,12 +44,12 @@ void Tracer::label_departure(double h, PathNode& next, const std::vector<bool>& 
     Track& track = next.tracks[i];
     track.departure.reset();
     if (!coincide[i]) continue;
-    const DenseBlock block = block_on_step(node_, next, i);
+    const HermiteInterpolant functions = functions_on_step(node_, next, i, h);
     const double distance = glimpse * h;
     double from = 0.0;
     const ComplexVector start = departing_roots(node_.tracks[i], h, from);
-    const ComplexVector before = follow_roots(block, h, start, from, 1.0 - glimpse, &track.told_apart);
-    const ComplexVector earlier = follow_roots(block, h, before, 1.0 - glimpse, 1.0 - 2.0 * glimpse);
+    const ComplexVector before = follow_roots(functions, start, from, 1.0 - glimpse, &track.told_apart);
+    const ComplexVector earlier = follow_roots(functions, before, 1.0 - glimpse, 1.0 - 2.0 * glimpse);
     // Straight on through a crossing. At an exceptional point no order is the right one; this one is as good.
     const ComplexVector expected = before + 2.0 * (before - earlier);
     track.roots = in_order_of(before, track.roots);

@@ -21,8 +21,12 @@ class HermiteInterpolant {
   /// step of signed length `length`, not zero.
   HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right);
 
+  /// Number of functions.
+  Eigen::Index size() const { return slope_.rows(); }
+
   /// Values of all functions at t; outside [0, 1] it extrapolates, off the real axis it continues
   /// analytically.
+  ComplexVector operator()(double t) const;
   ComplexVector operator()(Complex t) const;
 
   /// Derivatives with respect to t.
@@ -42,14 +46,16 @@ class HermiteInterpolant {
  private:
   double term(Eigen::Index function, Eigen::Index k) const;
 
-  /// The expansion as seen from one end: relative accuracy there also where a function vanishes at that end.
-  struct Terms {
-    Terms(double length, const ComplexMatrix& near, const ComplexMatrix& far);
-    ComplexMatrix value;  ///< column k: F(k+1, k), the value of term k at the near end
-    ComplexMatrix slope;  ///< column k: F(k+1, k+1)
-  };
+  template <class Scalar>
+  ComplexVector evaluate(Scalar t) const;
 
-  Terms from_left_, from_right_;
+  /// The expansion as seen from the nearer end, in the distance u from it: relative accuracy there also where
+  /// a function vanishes at that end. Seen from the right end the divided differences over i nodes there and
+  /// j at the left are (-1)^(i+j-1) F(j, i).
+  const ComplexMatrix& near_values(bool left) const { return left ? left_value_ : right_value_; }
+
+  /// Column k: F(k+1, k) and F(k, k+1), the values of term k at both ends, and F(k+1, k+1).
+  ComplexMatrix left_value_, right_value_, slope_;
 };
 
 }  // namespace eigentrail

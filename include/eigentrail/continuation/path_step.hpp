@@ -8,6 +8,8 @@
 
 namespace eigentrail {
 
+class HermiteInterpolant;
+
 /// A block on a step: its smooth functions as series at both ends, and the modes its eigenvalues belong to.
 struct DenseBlock {
   Chart chart = Chart::finite;
@@ -29,6 +31,10 @@ struct PathStep {
 /// `from` give the order. `left`, `right` as in DenseBlock. `told_apart`, when given, says whether any two
 /// that are distinct at both ends were told apart all the way.
 ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
+                           double to, bool* told_apart = nullptr);
+
+/// The same with the block's functions on the step at hand.
+ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
                            double to, bool* told_apart = nullptr);
 
 /// Eigenvalues of all modes at t in [0, 1]; NaN where a mode does not exist on the step. `at_left` and
