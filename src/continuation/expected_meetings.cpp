@@ -17,6 +17,8 @@ constexpr double looked_into = 0.1;
 constexpr double beside = 0.05;
 constexpr double smallest_piece = 1e-8;     ///< of a step
 constexpr double coinciding_share = 1e-12;  ///< of the size of a block: closer eigenvalues are one
+/// Of an interval: roots that are not computed, because there are none, lie farther outside by this.
+constexpr double margin = 0.02;
 
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
   return std::any_of(strand.members.begin(), strand.members.end(),
@@ -28,9 +30,10 @@ bool stands_for_a_mode(const Track& track, const Strand& strand) {
 /// seen.
 class RootsOnStep {
  public:
-  /// Closer than `coinciding` throughout, the two are one.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double coinciding)
-      : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding) {}
+  /// Closer than `coinciding` throughout, the two are one. Roots farther off the axis than `off_axis` are not
+  /// asked for.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double coinciding, double off_axis)
+      : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding), off_axis_(off_axis) {}
 
   std::vector<Complex> find() {
     search(0.0, 1.0);
@@ -91,15 +94,17 @@ class RootsOnStep {
       search(middle, end);
       return;
     }
+    const double farthest = std::min(0.5, off_axis_ / length);
+    if (chebyshev_has_no_root_in(coefficients, {0.5, 0.5 + beside + margin, farthest + margin})) return;
     for (const Complex root : chebyshev_roots(coefficients)) {
       const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
-      if (on_piece && std::abs(root.imag()) <= 0.5) roots_.push_back(begin + root * length);
+      if (on_piece && std::abs(root.imag()) <= farthest) roots_.push_back(begin + root * length);
     }
   }
 
   StrandSampler& sampler_;
   int a_, b_;
-  double coinciding_;
+  double coinciding_, off_axis_;
   std::vector<Complex> roots_;
 };
 
@@ -137,11 +142,11 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
 double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
                      double position) {
   if (left.tracks[track].size() != 2) return INFINITY;
-  const DenseBlock block = block_on_step(left, right, track);
-  const HermiteInterpolant gap(length, block.left.row(1), block.right.row(1));
-  const double slope = std::abs(gap.slope(position / length)[0] / length);
+  constexpr Eigen::Index gap = 1;  // of the functions
+  const HermiteInterpolant functions = functions_on_step(left, right, track, length);
+  const double slope = std::abs(functions.slope(position / length)[gap] / length);
   // Where it does not vanish the root lies beside the axis.
-  return (gap.error_without_last()[0] + std::abs(gap(position / length)[0])) / slope;
+  return (functions.error_without_last()[gap] + std::abs(functions(position / length)[gap])) / slope;
 }
 
 }  // namespace
@@ -160,11 +165,10 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          coinciding_share * track.pair.Lambda.norm());
+                          coinciding_share * track.pair.Lambda.norm(), looked_into);
         std::vector<double> found;
         for (const Complex t : roots.find()) {
-          if (t.real() > first && std::abs(t.imag()) <= looked_into)
-            add_position(std::min(t.real(), 1.0) * length, found);
+          if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
         add_near_left_end(track, strands[a].members, strands[b].members, length, found);
         for (const double position : found) {
@@ -191,20 +195,65 @@ ComplexVector strand_series(const Track& track, const Strand& strand) {
   return part.empty() ? ComplexVector() : mean_series(part);
 }
 
-ComplexVector gap_at(const PathNode& node, const Strand& a, const Strand& b) {
+/// A strand's mean at one end, and a bound of how far it moves within some reach of it.
+struct MovingMean {
+  MovingMean(const Track& track, const Strand& strand, double reach) : series(strand_series(track, strand)) {
+    double power = 1.0;
+    for (Eigen::Index k = 1; k < series.size(); ++k) moves += std::abs(series[k]) * (power *= reach);
+  }
+
+  ComplexVector series;  ///< empty when it cannot be told
+  double moves = 0.0;
+};
+
+/// Whether the square of their distance certainly has no root within reach, all its coefficients bounded by
+/// those of the factors: (|d| + m)^2 - |d|^2 < |d|^2 where m < (sqrt 2 - 1) |d|.
+bool stay_apart(const MovingMean& a, const MovingMean& b) {
+  constexpr double share = 0.41;
+  if (a.series.size() == 0 || b.series.size() == 0) return false;
+  return a.moves + b.moves < share * std::abs(a.series[0] - b.series[0]);
+}
+
+/// A strand as seen from both ends of the step.
+struct SeenStrand {
+  Strand strand;
+  MovingMean left, right;
+};
+
+ComplexVector gap_at(const PathNode& node, const Strand& a, const MovingMean& mean_a, const Strand& b,
+                     const MovingMean& mean_b) {
   if (a.track == b.track) return gap_of(node.tracks[a.track], a.members, b.members);
-  const ComplexVector first = strand_series(node.tracks[a.track], a);
-  const ComplexVector second = strand_series(node.tracks[b.track], b);
-  return first.size() == 0 || second.size() == 0 ? ComplexVector() : gap_series(first, second);
+  if (mean_a.series.size() == 0 || mean_b.series.size() == 0) return {};
+  return gap_series(mean_a.series, mean_b.series);
 }
 
 /// Roots of an interpolant where its last term is a larger share than this are its own, not the function's.
 constexpr double told_by_series = 0.05;
 
+/// How far from the ends of a step of that length roots of gaps are looked for.
+double reach_of(double length, double width) {
+  return std::abs(length) + 2.0 * width;
+}
+
+/// What lies outside these shares of the step is left out when it is located; beside a short step far ones
+/// are told poorly, and the next, longer steps look back.
+constexpr double off_the_ends = 0.1;
+double behind_the_step(double off_axis) {
+  return std::max(off_the_ends, 0.2 * off_axis);
+}
+
+/// Where roots off the axis by up to `off_axis` (in steps) are of interest, in shares of the step; a little
+/// larger, for the rounding of roots.
+Rectangle surroundings(double off_axis) {
+  const double from = -behind_the_step(off_axis) - margin;
+  const double to = 1.0 + off_the_ends + margin;
+  return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin};
+}
+
 /// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
-  const double reach = std::abs(length) + 2.0 * width;
+  const double reach = reach_of(length, width);
   if (left.size() == 0 && right.size() == 0) return {};
   if (left.size() == 0 || right.size() == 0) {
     const ComplexVector& gap = left.size() == 0 ? right : left;
@@ -216,6 +265,10 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   if (has_no_root_within(left, reach) && has_no_root_within(right, reach)) return {};
   const HermiteInterpolant gap(length, left.transpose(), right.transpose());
   const int degree = 2 * static_cast<int>(left.size()) - 1;
+  const double widest = (1.0 + told_by_series) * width / std::abs(length);
+  Rectangle looked_at = surroundings(widest);
+  looked_at.center -= 0.5;
+  if (has_no_root_in(gap.series(0.5, degree).row(0).transpose(), looked_at)) return {};
   std::vector<Complex> roots =
       chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
   std::erase_if(roots, [&](Complex t) {
@@ -230,8 +283,8 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
 
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width) {
-  constexpr double off_the_ends = 0.1;  // estimates: what lies outside is left out when it is located
   constexpr double on_axis = 1e-3;
+  const double widest = 1.1 * width;  // what is wider is left out when it is located
   std::vector<ExpectedMeeting> meetings;
   const auto expect = [&](const Strand& a, const Strand& b, Complex position,
                           const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
@@ -239,15 +292,14 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     const double off_axis = std::abs(position.imag());
     // Nearer ones within a block have a point of their own.
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
-    // Beside a short step far ones are told poorly: the next, longer steps look back.
-    const double behind = std::max(off_the_ends, 0.2 * off_axis / std::abs(length));
+    const double behind = behind_the_step(off_axis / std::abs(length));
     const auto mirrors = [&](const ExpectedMeeting& other) {
       return other.a.track == a.track && other.b.track == b.track && other.a.members == a.members &&
              other.b.members == b.members &&
              std::abs(other.position - std::conj(position)) <= 1e-6 * off_axis;
     };
     if (std::any_of(meetings.begin(), meetings.end(), mirrors)) return;
-    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= 1.1 * width)
+    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= widest)
       meetings.push_back({a, b, position, at_left, at_right});
   };
   std::vector<Strand> strands;
@@ -266,20 +318,29 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          coinciding_share * track.pair.Lambda.norm());
+                          coinciding_share * track.pair.Lambda.norm(), widest / std::abs(length));
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }
       }
     }
   }
-  for (std::size_t a = 0; a < strands.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      if (left.tracks[strands[a].track].pair.chart != left.tracks[strands[b].track].pair.chart) continue;
-      const ComplexVector at_left = gap_at(left, strands[b], strands[a]);
-      const ComplexVector at_right = gap_at(right, strands[b], strands[a]);
+  const double reach = reach_of(length, width);
+  std::vector<SeenStrand> seen;
+  for (Strand& strand : strands) {
+    MovingMean from(left.tracks[strand.track], strand, reach);
+    MovingMean to(right.tracks[strand.track], strand, reach);
+    seen.push_back({std::move(strand), std::move(from), std::move(to)});
+  }
+  for (const auto& [a, left_a, right_a] : seen) {
+    for (const auto& [b, left_b, right_b] : seen) {
+      if (&b == &a) break;
+      if (left.tracks[a.track].pair.chart != left.tracks[b.track].pair.chart) continue;
+      if (a.track != b.track && stay_apart(left_a, left_b) && stay_apart(right_a, right_b)) continue;
+      const ComplexVector at_left = gap_at(left, b, left_b, a, left_a);
+      const ComplexVector at_right = gap_at(right, b, right_b, a, right_a);
       for (const Complex root : gap_roots(at_left, at_right, length, width))
-        expect(strands[b], strands[a], root, at_left, at_right);
+        expect(b, a, root, at_left, at_right);
     }
   }
   return meetings;

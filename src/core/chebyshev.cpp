@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/lapack.hpp"
 
@@ -90,6 +91,61 @@ bool has_no_root_within(const ComplexVector& coefficients, double radius) {
   for (Eigen::Index k = 1; k < coefficients.size(); ++k)
     others += std::abs(coefficients[k]) * (power *= radius);
   return std::abs(coefficients[0]) > others;
+}
+
+namespace {
+
+/// Coefficients about another point, by Horner's scheme.
+ComplexVector shifted(ComplexVector coefficients, Complex to) {
+  for (Eigen::Index begin = 0; begin + 1 < coefficients.size(); ++begin) {
+    for (Eigen::Index k = coefficients.size() - 1; k-- > begin;) coefficients[k] += to * coefficients[k + 1];
+  }
+  return coefficients;
+}
+
+/// `patience` is the number of discs that may still be tried.
+bool excludes_roots(const ComplexVector& coefficients, const Rectangle& rectangle, int& patience) {
+  if (--patience < 0) return false;
+  const double radius = std::hypot(rectangle.half_width, rectangle.half_height);
+  if (has_no_root_within(shifted(coefficients, rectangle.center), radius)) return true;
+  // Halves, across the longer side.
+  const bool wide = rectangle.half_width > rectangle.half_height;
+  Rectangle half = rectangle;
+  (wide ? half.half_width : half.half_height) *= 0.5;
+  const Complex offset = wide ? Complex(half.half_width) : Complex(0.0, half.half_height);
+  for (const Complex center : {rectangle.center - offset, rectangle.center + offset}) {
+    half.center = center;
+    if (!excludes_roots(coefficients, half, patience)) return false;
+  }
+  return true;
+}
+
+/// Coefficients in powers of u of sum_k c_k T_k(u).
+ComplexVector in_powers(const ComplexVector& chebyshev) {
+  const Eigen::Index n = chebyshev.size();
+  ComplexVector powers = ComplexVector::Zero(n);
+  Vector before = Vector::Zero(n);
+  Vector here = Vector::Unit(n, 0);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    powers += chebyshev[k] * here;
+    // T_1 = u T_0, T_k+1 = 2 u T_k - T_k-1
+    Vector next = -before;
+    next.tail(n - 1) += (k == 0 ? 1.0 : 2.0) * here.head(n - 1);
+    before = std::exchange(here, std::move(next));
+  }
+  return powers;
+}
+
+}  // namespace
+
+bool has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle) {
+  int patience = 40;
+  return excludes_roots(coefficients, rectangle, patience);
+}
+
+bool chebyshev_has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle) {
+  return has_no_root_in(in_powers(coefficients), {2.0 * rectangle.center - 1.0, 2.0 * rectangle.half_width,
+                                                  2.0 * rectangle.half_height});
 }
 
 }  // namespace eigentrail

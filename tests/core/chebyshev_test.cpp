@@ -166,5 +166,42 @@ TEST(HasNoRootWithin, IsOnTheSafeSide) {
   EXPECT_FALSE(has_no_root_within(ComplexVector::Zero(3), 0.1));
 }
 
+/// Whether the root lies in the rectangle.
+bool is_inside(Complex root, const Rectangle& rectangle) {
+  const Complex offset = root - rectangle.center;
+  return std::abs(offset.real()) <= rectangle.half_width && std::abs(offset.imag()) <= rectangle.half_height;
+}
+
+TEST(HasNoRootIn, SeesPastRootsBesideALongRectangle) {
+  const Rectangle step{0.5, 0.5, 0.1};
+  const std::vector<Complex> roots{Complex(0.5, 0.3), Complex(0.2, -0.4), Complex(-0.3, 0.05)};
+  EXPECT_TRUE(has_no_root_in(coefficients(roots), step));
+  EXPECT_FALSE(has_no_root_within(coefficients(roots), 1.0)) << "one disc does not tell";
+}
+
+TEST(HasNoRootIn, NeverLeavesOutARoot) {
+  const Rectangle step{0.5, 0.6, 0.2};
+  int left_out = 0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const Complex root(-0.5 + 0.1 * i, -0.5 + 0.05 * j);
+      const std::vector<Complex> roots{root, Complex(1.4, 0.4), Complex(-0.6, -0.3), Complex(0.1, 2.0)};
+      const auto f = [&](double t) { return polynomial(roots, t); };
+      const bool by_powers = has_no_root_in(coefficients(roots), step);
+      const bool by_chebyshev = chebyshev_has_no_root_in(chebyshev_coefficients(f, 9), step);
+      EXPECT_EQ(by_powers, by_chebyshev) << root;
+      EXPECT_FALSE(by_powers && is_inside(root, step)) << root;
+      left_out += by_powers;
+    }
+  }
+  EXPECT_GT(left_out, 200) << "of 441, 324 of them outside";
+}
+
+TEST(HasNoRootIn, TellsNothingOfWhatVanishesOrIsNotFinite) {
+  const Rectangle step{0.5, 0.5, 0.1};
+  EXPECT_FALSE(has_no_root_in(ComplexVector::Zero(4), step));
+  EXPECT_FALSE(has_no_root_in(ComplexVector{{std::numeric_limits<double>::quiet_NaN(), 1.0}}, step));
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -24,4 +24,18 @@ std::vector<Complex> polynomial_roots(const ComplexVector& coefficients);
 /// there.
 bool has_no_root_within(const ComplexVector& coefficients, double radius);
 
+/// A rectangle of the complex plane with sides along the axes.
+struct Rectangle {
+  Complex center;
+  double half_width = 0.0, half_height = 0.0;
+};
+
+/// The same on a rectangle, seen from the centers of discs that cover it. O(n^2) for each of them; a few
+/// dozen are tried.
+bool has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle);
+
+/// The same of sum_k c_k T_k(2t - 1), of a degree that is small enough for its powers: 20 or so. Where roots
+/// are looked for near [0, 1] only it saves the colleague matrix.
+bool chebyshev_has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle);
+
 }  // namespace eigentrail
