@@ -28,8 +28,7 @@ std::vector<Complex> roots_of(const Track& track, const std::vector<int>& member
 }
 
 PathNode with_tracks(const PathNode& node, const std::vector<std::size_t>& tracks) {
-  PathNode base = node;
-  base.tracks.clear();
+  PathNode base{node.p, node.path, {}, node.linearization, node.basis, node.pencil};
   for (const std::size_t i : tracks) base.tracks.push_back(node.tracks[i]);
   return base;
 }
