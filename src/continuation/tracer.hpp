@@ -88,6 +88,13 @@ class Tracer {
   // tracer_events.cpp: special points.
   void find_events(double h, const PathNode& next);
   void add_event(Event event);
+  /// A point beside the path's own ones.
+  struct Probe {
+    PathPoint point;
+    PathNode node;
+  };
+  /// `basis` is the tangent basis of a point nearby.
+  std::optional<Probe> probe(const Prediction& prediction, const Matrix& basis);
   std::optional<PathNode> probe(const PathNode& base, double h);
 
   // tracer_meetings.cpp: eigenvalues of one block that meet.
@@ -143,24 +150,21 @@ class Tracer {
     bool pair = false;
     Sought sought = Sought::zero;
   };
-  /// A mode at a point beside an event.
-  struct Closer {
-    PathPoint point;
-    PathNode node;         ///< of the mode's track only
+  /// A mode at a point beside an event, whose node has the mode's track only.
+  struct Closer : Probe {
     Complex root;          ///< of its chart, upper member of a pair
     ComplexVector series;  ///< of that; empty where the root is not simple
     double gap = 0.0;      ///< to the next one in the block
   };
   Vector excitation(const PathNode& node) const;
   void find_zeros(double h, const PathNode& next);
-  void watch(double h, const PathNode& next, const Member& member, StepCriteria& step, double last, double t);
-  bool compute_closer(const Prediction& prediction, Closer& closer);
-  bool probe_alone(Complex expected, std::size_t track, double distance, Closer& closer);
-  std::optional<Closer> look_closer(double h, const PathNode& next, const Member& member, const Aim& aim,
+  void watch(double h, const Member& member, StepCriteria& step, double last, double t);
+  std::optional<Probe> probe_alone(Complex expected, std::size_t track, double distance);
+  std::optional<Closer> look_closer(double h, StepCriteria& step, const Member& member, const Aim& aim,
                                     double distance);
-  bool locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t);
+  bool locate(double h, StepCriteria& step, const Member& member, const Aim& aim, double t);
   void note_unlocated(int mode, double p);
-  void finish(double h, const PathNode& next, const Closer& closer, const Vector& g, double offset,
+  void finish(double h, StepCriteria& step, const Closer& closer, const Vector& g, double offset,
               double distance, const Member& member, const Aim& aim, int retrackings);
 
   // tracer_sensitivity.cpp: what an event keeps of its eigenvector and of the other parameters.

@@ -79,20 +79,26 @@ Tracer::Watch::Seen Tracer::Watch::next(double value) {
 /// The criteria of one eigenvalue on a step.
 class Tracer::StepCriteria {
  public:
-  StepCriteria(const Tracer& tracer, double h, const PathNode& next, std::size_t track)
-      : track_(tracer.node_.tracks[track]),
-        roots_(tracer.node_, next, track, h),
-        excitation_(h, tracer.excitation(tracer.node_).cast<Complex>().transpose(),
-                    tracer.excitation(next).cast<Complex>().transpose()) {
+  StepCriteria(const PathNode& left, const PathNode& next, std::size_t track, double h,
+               const HermiteInterpolant& excitation)
+      : track_(left.tracks[track]), roots_(left, next, track, h), excitation_(excitation) {
     departing_roots(track_, h, begin_);
   }
 
   double begin() const { return std::max(begin_, 0.0); }
+  /// The root of the track's chart at t, moved into the step.
+  Complex member_near(std::size_t member, double t) {
+    return roots_(std::clamp(t, begin_, 1.0))[static_cast<Eigen::Index>(member)];
+  }
   Complex root(std::size_t member, double t) {
     return upper(roots_(t)[static_cast<Eigen::Index>(member)], track_.pair.chart);
   }
+  double value(const Criterion& criterion, Complex root, double t) const {
+    const bool is_excited = criterion.kind == EventKind::resonance;
+    return criterion_value(criterion, root, track_.pair.chart, is_excited ? excitation_(t)[0].real() : 0.0);
+  }
   double value(const Criterion& criterion, std::size_t member, double t) {
-    return criterion_value(criterion, root(member, t), track_.pair.chart, excitation_(t)[0].real());
+    return value(criterion, root(member, t), t);
   }
   /// What rounding leaves of a value: of eigenvalues that coincide at the left end it is half their digits.
   double noise() const {
@@ -130,7 +136,7 @@ class Tracer::StepCriteria {
  private:
   const Track& track_;
   StrandSampler roots_;
-  HermiteInterpolant excitation_;
+  const HermiteInterpolant& excitation_;
   double begin_ = 0.0;
 };
 
@@ -140,9 +146,11 @@ Vector Tracer::excitation(const PathNode& node) const {
 }
 
 void Tracer::find_zeros(double h, const PathNode& next) {
+  const HermiteInterpolant frequency(h, excitation(node_).cast<Complex>().transpose(),
+                                     excitation(next).cast<Complex>().transpose());
   for (std::size_t i = 0; i < next.tracks.size(); ++i) {
     const Track& track = node_.tracks[i];
-    StepCriteria step(*this, h, next, i);
+    StepCriteria step(node_, next, i, h, frequency);
     // Where eigenvalues coincide they are known to half their digits only.
     const double end = next.tracks[i].departure ? 1.0 - 1e-7 : 1.0;
     double last = step.begin();
@@ -150,7 +158,7 @@ void Tracer::find_zeros(double h, const PathNode& next) {
       const double t = std::max(step.begin(), end * k / samples_per_step);
       if (k > 0 && t <= last) continue;
       for (std::size_t member = 0; member < track.modes.size(); ++member) {
-        if (track.modes[member] >= 0) watch(h, next, {i, member}, step, last, t);
+        if (track.modes[member] >= 0) watch(h, {i, member}, step, last, t);
       }
       last = t;
     }
@@ -158,8 +166,7 @@ void Tracer::find_zeros(double h, const PathNode& next) {
 }
 
 /// Looks at all criteria of a mode at one sample of the step, and for what lies between it and the last one.
-void Tracer::watch(double h, const PathNode& next, const Member& member, StepCriteria& step, double last,
-                   double t) {
+void Tracer::watch(double h, const Member& member, StepCriteria& step, double last, double t) {
   const Track& track = node_.tracks[member.track];
   const int mode = track.modes[member.index];
   const Complex s = step.root(member.index, t);
@@ -174,7 +181,7 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
       watch = {};
       continue;
     }
-    const double value = step.value(criterion, member.index, t);
+    const double value = step.value(criterion, s, t);
     const double scale = criterion.asks_for_extrema() ? 1.0 : size;
     // Undamped modes stay on the axis but for rounding.
     if (!criterion.asks_for_extrema() && std::abs(value) <= std::max(vanishing * scale, step.noise())) {
@@ -190,13 +197,13 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
     if (is_kink) continue;
     if (seen == Watch::Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = step.sign_change(criterion, member.index, last, t, before);
-      if (!locate(h, next, member, {criterion, pair, Sought::zero}, guess) && !criterion.asks_for_pairs())
+      if (!locate(h, step, member, {criterion, pair, Sought::zero}, guess) && !criterion.asks_for_pairs())
         note_unlocated(mode, evaluate_series(node_.path.parameters, guess * h)[problem_.traced]);
     } else if (seen == Watch::Seen::extremum && criterion.asks_for_extrema()) {
       // Told from the error of the dense output by what it changes over half a step.
       constexpr double half_a_step = 0.125 * samples_per_step * samples_per_step;
       if (half_a_step * std::abs(watch.bend()) > options_.tolerance) {
-        locate(h, next, member, {criterion, pair, Sought::extremum},
+        locate(h, step, member, {criterion, pair, Sought::extremum},
                step.extremum(criterion, member.index, last));
       }
     } else if (seen == Watch::Seen::extremum && before * watch.bend() > 0.0) {
@@ -204,7 +211,7 @@ void Tracer::watch(double h, const PathNode& next, const Member& member, StepCri
       constexpr double near = 10.0;
       const double doubt = near * options_.tolerance * size + 0.5 * std::abs(before - watch.top());
       if (watch.top() * before <= 0.0 || std::abs(watch.top()) <= doubt)
-        locate(h, next, member, {criterion, pair, Sought::dip}, step.extremum(criterion, member.index, last));
+        locate(h, step, member, {criterion, pair, Sought::dip}, step.extremum(criterion, member.index, last));
     }
   }
 }
@@ -215,21 +222,11 @@ void Tracer::note_unlocated(int mode, double p) {
                           at_parameter(p) + " on the dense output; the place could not be located");
 }
 
-/// The point and its series.
-bool Tracer::compute_closer(const Prediction& prediction, Closer& closer) {
-  closer.point = compute_point(problem_, prediction, node_.basis.T[0], result_.counts);
-  if (closer.point.status != PointStatus::computed) return false;
-  std::optional<PathNode> node = differentiate_point(problem_, closer.point, result_.counts);
-  if (!node) return false;
-  closer.node = std::move(*node);
-  return true;
-}
-
 /// One eigenvalue of a block without the others, where it is far enough from them to be found alone.
-bool Tracer::probe_alone(Complex expected, std::size_t track, double distance, Closer& closer) {
+std::optional<Tracer::Probe> Tracer::probe_alone(Complex expected, std::size_t track, double distance) {
   constexpr double apart = 1e-3;  // of its size
   constexpr double nearer = 0.1;  // than the next one
-  if (node_.tracks[track].size() == 1) return false;
+  if (node_.tracks[track].size() == 1) return std::nullopt;
   Prediction prediction = predict(with_tracks(node_, {track}), distance);
   const ComplexVector roots = pair_eigenvalues(prediction.pairs.front());
   Eigen::Index nearest = 0;
@@ -239,34 +236,30 @@ bool Tracer::probe_alone(Complex expected, std::size_t track, double distance, C
   for (Eigen::Index j = 0; j < roots.size(); ++j) {
     if (j != nearest) gap = std::min(gap, std::abs(roots[j] - root));
   }
-  if (!(gap > apart * std::abs(root))) return false;
+  if (!(gap > apart * std::abs(root))) return std::nullopt;
   prediction.pairs.front() = part_of(prediction.pairs.front(), roots, {static_cast<int>(nearest)});
-  return compute_closer(prediction, closer) &&
-         std::abs(closer.node.tracks.front().roots[0] - root) <= nearer * gap;
+  std::optional<Probe> there = probe(prediction, node_.basis.T[0]);
+  if (there && !(std::abs(there->node.tracks.front().roots[0] - root) <= nearer * gap)) there.reset();
+  return there;
 }
 
 /// The eigenvalue of a member of a block as a series at a point near a step, and the point.
-std::optional<Tracer::Closer> Tracer::look_closer(double h, const PathNode& next, const Member& member,
+std::optional<Tracer::Closer> Tracer::look_closer(double h, StepCriteria& step, const Member& member,
                                                   const Aim& aim, double distance) {
-  Closer closer;
-  StrandSampler roots(node_, next, member.track, h);
-  double begin = 0.0;
-  departing_roots(node_.tracks[member.track], h, begin);
-  const Complex expected =
-      roots(std::clamp(distance / h, begin, 1.0))[static_cast<Eigen::Index>(member.index)];
-  if (!probe_alone(expected, member.track, distance, closer) &&
-      !compute_closer(predict(with_tracks(node_, {member.track}), distance), closer))
-    return std::nullopt;
-  const Track& there = closer.node.tracks.front();
+  const Complex expected = step.member_near(member.index, distance / h);
+  std::optional<Probe> beside = probe_alone(expected, member.track, distance);
+  if (!beside) beside = probe(predict(with_tracks(node_, {member.track}), distance), node_.basis.T[0]);
+  if (!beside) return std::nullopt;
+  const Track& there = beside->node.tracks.front();
   const Chart chart = there.pair.chart;
   Eigen::Index nearest = 0;
   (there.roots.array() - expected).abs().minCoeff(&nearest);
   Complex s = there.roots[nearest];
   ComplexVector series = root_series(there.functions, s);
   if (const auto single =
-          separate(problem_, closer.node, there, {static_cast<int>(nearest)}, result_.counts)) {
+          separate(problem_, beside->node, there, {static_cast<int>(nearest)}, result_.counts)) {
     series = single->functions.row(0).transpose();
-    series[0] += eigenvalue_remainder(PencilAtPoint(closer.node.pencil, chart), single->pair);
+    series[0] += eigenvalue_remainder(PencilAtPoint(beside->node.pencil, chart), single->pair);
     s = series[0];
   }
   if (aim.criterion.kind == EventKind::flutter && aim.pair && there.pair.is_real && there.size() == 2) {
@@ -278,22 +271,20 @@ std::optional<Tracer::Closer> Tracer::look_closer(double h, const PathNode& next
     s = std::conj(s);
     series = series.conjugate().eval();
   }
-  closer.root = s;
-  closer.series = series;
-  closer.gap = there.roots.size() > 1 ? least_gap(there.roots) : INFINITY;
-  return closer;
+  const double gap = there.roots.size() > 1 ? least_gap(there.roots) : INFINITY;
+  return Closer{std::move(*beside), s, std::move(series), gap};
 }
 
 /// Newton's method for a zero or an extremum, on the series of the mode tracked anew at every guess. False
 /// where it does not converge.
-bool Tracer::locate(double h, const PathNode& next, const Member& member, const Aim& aim, double t) {
+bool Tracer::locate(double h, StepCriteria& step, const Member& member, const Aim& aim, double t) {
   const double reference = problem_.reference(node_.tracks[member.track].pair.chart);
   const double resolution = (aim.sought == Sought::zero ? 1e-12 : 1e-10) * coordinate_range();
   double distance = t * h;
   double last_move = 0.0;
   double last_step = INFINITY;
   for (int i = 1; i <= most_retrackings; ++i) {
-    const std::optional<Closer> closer = look_closer(h, next, member, aim, distance);
+    const std::optional<Closer> closer = look_closer(h, step, member, aim, distance);
     if (!closer) return false;
     const ComplexVector& series = closer->series;
     const bool meets = series.size() < 2 || closer->gap <= 1e-7 * last_move;
@@ -327,14 +318,14 @@ bool Tracer::locate(double h, const PathNode& next, const Member& member, const 
     // What lies behind the last point was seen from there.
     constexpr double beside = 0.05;
     if (aim.sought == Sought::zero && !(share > -beside && share <= 1.0 + beside)) return true;
-    finish(h, next, *closer, g, move, distance, member, aim, i);
+    finish(h, step, *closer, g, move, distance, member, aim, i);
     return true;
   }
   return false;
 }
 
 /// What a zero or an extremum that has been located means.
-void Tracer::finish(double h, const PathNode& next, const Closer& closer, const Vector& g, double offset,
+void Tracer::finish(double h, StepCriteria& step, const Closer& closer, const Vector& g, double offset,
                     double distance, const Member& member, const Aim& aim, int retrackings) {
   if (aim.sought == Sought::zero) return record_zero(closer, g, offset, member, aim, retrackings);
   double value = 0.0;
@@ -353,7 +344,7 @@ void Tracer::finish(double h, const PathNode& next, const Closer& closer, const 
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
     for (const double side : {-half, half})
-      locate(h, next, member, {aim.criterion, aim.pair, Sought::zero}, (distance + offset + side) / h);
+      locate(h, step, member, {aim.criterion, aim.pair, Sought::zero}, (distance + offset + side) / h);
   }
 }
 

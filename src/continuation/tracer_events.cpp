@@ -39,11 +39,19 @@ void Tracer::add_event(Event event) {
   if (!known) result_.events.push_back(std::move(event));
 }
 
+std::optional<Tracer::Probe> Tracer::probe(const Prediction& prediction, const Matrix& basis) {
+  PathPoint point = compute_point(problem_, prediction, basis, result_.counts);
+  if (point.status != PointStatus::computed) return std::nullopt;
+  std::optional<PathNode> node = differentiate_point(problem_, point, result_.counts);
+  if (!node) return std::nullopt;
+  return Probe{std::move(point), std::move(*node)};
+}
+
 /// The tracks of `base` followed to a distance from it.
 std::optional<PathNode> Tracer::probe(const PathNode& base, double h) {
-  const PathPoint point = compute_point(problem_, predict(base, h), base.basis.T[0], result_.counts);
-  if (point.status != PointStatus::computed) return std::nullopt;
-  return differentiate_point(problem_, point, result_.counts);
+  std::optional<Probe> there = probe(predict(base, h), base.basis.T[0]);
+  if (!there) return std::nullopt;
+  return std::move(there->node);
 }
 
 }  // namespace eigentrail

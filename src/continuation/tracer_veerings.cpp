@@ -178,11 +178,9 @@ std::optional<PathNode> Tracer::joined_at(const PathNode& apart, double distance
   // A real one beside a pair brings the conjugate along: these do not veer.
   if (joined.size() != a.size() + b.size()) return std::nullopt;
   prediction.pairs = {std::move(joined)};
-  const PathPoint point = compute_point(problem_, prediction, apart.basis.T[0], result_.counts);
-  if (point.status != PointStatus::computed) return std::nullopt;
-  std::optional<PathNode> node = differentiate_point(problem_, point, result_.counts);
-  if (!node || has_jumped(apart, node->tracks.front(), distance)) return std::nullopt;
-  return node;
+  std::optional<Probe> there = probe(prediction, apart.basis.T[0]);
+  if (!there || has_jumped(apart, there->node.tracks.front(), distance)) return std::nullopt;
+  return std::move(there->node);
 }
 
 void Tracer::find_veerings(double h, const PathNode& next) {
