@@ -72,6 +72,23 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
   return errors.norm() * std::min(1.0 / std::max(reciprocal, 1e-300), worst_condition);
 }
 
+namespace {
+
+/// The nearest column of every row, if that is one assignment and no other is as short; empty otherwise.
+std::vector<int> nearest_of_all(const Matrix& cost) {
+  std::vector<int> assignment;
+  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+    Eigen::Index nearest = 0;
+    const double least = cost.row(i).minCoeff(&nearest);
+    const bool is_taken = std::find(assignment.begin(), assignment.end(), nearest) != assignment.end();
+    if (is_taken || (cost.row(i).array() <= least).count() != 1) return {};
+    assignment.push_back(static_cast<int>(nearest));
+  }
+  return assignment;
+}
+
+}  // namespace
+
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to) {
   const Eigen::Index k = from.size();
   if (k == 1) return to;
@@ -85,7 +102,8 @@ ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to) {
     for (Eigen::Index j = 0; j < k; ++j) cost(i, j) = std::abs(from[i] - to[j]);
   }
   ComplexVector ordered(k);
-  const std::vector<int> assignment = optimal_assignment(cost);
+  std::vector<int> assignment = nearest_of_all(cost);
+  if (assignment.empty()) assignment = optimal_assignment(cost);
   for (Eigen::Index i = 0; i < k; ++i) ordered[i] = to[assignment[static_cast<std::size_t>(i)]];
   return ordered;
 }
