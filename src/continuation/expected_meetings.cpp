@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "continuation/meetings.hpp"
 #include "continuation/shared_basis.hpp"
@@ -36,7 +37,7 @@ class RootsOnStep {
       : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding), off_axis_(off_axis) {}
 
   std::vector<Complex> find() {
-    search(0.0, 1.0);
+    if (!of_two_has_none()) search(0.0, 1.0);
     return roots_;
   }
 
@@ -59,6 +60,22 @@ class RootsOnStep {
   Complex distance(double t) {
     const ComplexVector& roots = sampler_(t);
     return roots[a_] - roots[b_];
+  }
+
+  /// Where a piece of that length is looked at for roots.
+  Rectangle looked_at(double length) const {
+    return {0.5, 0.5 + beside + margin, farthest_off_axis(length) + margin};
+  }
+  double farthest_off_axis(double length) const { return std::min(0.5, off_axis_ / length); }
+
+  /// The gap of a block of two is one of its functions, which need not be sampled to tell that it has no
+  /// root.
+  bool of_two_has_none() const {
+    const HermiteInterpolant& functions = sampler_.functions();
+    if (functions.size() != 2) return false;
+    Rectangle step = looked_at(1.0);
+    const double middle = std::exchange(step.center, 0.0).real();
+    return has_no_root_in(functions.series(middle, functions.degree()).row(1).transpose(), step);
   }
 
   /// Far apart for what they move on the piece.
@@ -94,11 +111,11 @@ class RootsOnStep {
       search(middle, end);
       return;
     }
-    const double farthest = std::min(0.5, off_axis_ / length);
-    if (chebyshev_has_no_root_in(coefficients, {0.5, 0.5 + beside + margin, farthest + margin})) return;
+    if (chebyshev_has_no_root_in(coefficients, looked_at(length))) return;
     for (const Complex root : chebyshev_roots(coefficients)) {
       const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
-      if (on_piece && std::abs(root.imag()) <= farthest) roots_.push_back(begin + root * length);
+      if (on_piece && std::abs(root.imag()) <= farthest_off_axis(length))
+        roots_.push_back(begin + root * length);
     }
   }
 
@@ -264,13 +281,12 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   }
   if (has_no_root_within(left, reach) && has_no_root_within(right, reach)) return {};
   const HermiteInterpolant gap(length, left.transpose(), right.transpose());
-  const int degree = 2 * static_cast<int>(left.size()) - 1;
   const double widest = (1.0 + told_by_series) * width / std::abs(length);
-  Rectangle looked_at = surroundings(widest);
-  looked_at.center -= 0.5;
-  if (has_no_root_in(gap.series(0.5, degree).row(0).transpose(), looked_at)) return {};
+  Rectangle step = surroundings(widest);
+  const double middle = std::exchange(step.center, 0.0).real();
+  if (has_no_root_in(gap.series(middle, gap.degree()).row(0).transpose(), step)) return {};
   std::vector<Complex> roots =
-      chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, degree));
+      chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, gap.degree()));
   std::erase_if(roots, [&](Complex t) {
     const double share = gap.last_share(0, t);
     return share > told_by_series || std::abs(t.imag() * length) > (1.0 + share) * width;

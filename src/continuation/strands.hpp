@@ -22,6 +22,9 @@ class StrandSampler {
   /// `index` is the track's, the same at both ends.
   StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
+  /// Smooth functions of the track on the step.
+  const HermiteInterpolant& functions() const { return functions_; }
+
   /// Valid until the next call.
   const ComplexVector& operator()(double t);
 

@@ -24,6 +24,9 @@ class HermiteInterpolant {
   /// Number of functions.
   Eigen::Index size() const { return slope_.rows(); }
 
+  /// 2q+1: the order from which on `series` has nothing to add.
+  int degree() const { return 2 * static_cast<int>(slope_.cols()) - 1; }
+
   /// Values of all functions at t; outside [0, 1] it extrapolates, off the real axis it continues
   /// analytically.
   ComplexVector operator()(double t) const;
