@@ -237,6 +237,17 @@ struct SeenStrand {
   MovingMean left, right;
 };
 
+std::vector<SeenStrand> seen_from_both_ends(std::vector<Strand> strands, const PathNode& left,
+                                            const PathNode& right, double reach) {
+  std::vector<SeenStrand> seen;
+  for (Strand& strand : strands) {
+    MovingMean from(left.tracks[strand.track], strand, reach);
+    MovingMean to(right.tracks[strand.track], strand, reach);
+    seen.push_back({std::move(strand), std::move(from), std::move(to)});
+  }
+  return seen;
+}
+
 ComplexVector gap_at(const PathNode& node, const Strand& a, const MovingMean& mean_a, const Strand& b,
                      const MovingMean& mean_b) {
   if (a.track == b.track) return gap_of(node.tracks[a.track], a.members, b.members);
@@ -341,13 +352,8 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       }
     }
   }
-  const double reach = reach_of(length, width);
-  std::vector<SeenStrand> seen;
-  for (Strand& strand : strands) {
-    MovingMean from(left.tracks[strand.track], strand, reach);
-    MovingMean to(right.tracks[strand.track], strand, reach);
-    seen.push_back({std::move(strand), std::move(from), std::move(to)});
-  }
+  const std::vector<SeenStrand> seen =
+      seen_from_both_ends(std::move(strands), left, right, reach_of(length, width));
   for (const auto& [a, left_a, right_a] : seen) {
     for (const auto& [b, left_b, right_b] : seen) {
       if (&b == &a) break;

@@ -201,6 +201,10 @@ TEST(InOrderOf, TakesTheLeastTotalDistanceNotTheNearest) {
   EXPECT_EQ(ordered[1], Complex(0.9));
   const ComplexVector turned{{three[2], three[0], three[1]}};
   EXPECT_EQ(in_order_of(three, turned), three);
+  // Two of three are nearest to the same one.
+  const ComplexVector contested{{Complex(5.0), Complex(0.9), Complex(1.8)}};
+  EXPECT_EQ(in_order_of(ComplexVector{{Complex(0.0), Complex(1.0), Complex(5.1)}}, contested),
+            (ComplexVector{{Complex(0.9), Complex(1.8), Complex(5.0)}}));
 }
 
 TEST(LeastGap, IsThatOfTheClosestTwo) {
