@@ -1,6 +1,5 @@
 #include "eigentrail/continuation/certificate.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +14,8 @@ namespace {
 constexpr int max_depth = 6;  ///< a step is halved up to this often
 /// Where the tube is only too long its bound falls with its length; where modes meet it does not.
 constexpr double falling = 0.75;
-constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
+constexpr int power_iterations = 3;       ///< of a norm estimate, which approaches from below:
+constexpr int further_iterations = 1;     ///< from the direction that another sample found
 constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
 constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
@@ -46,17 +46,24 @@ class Tube {
 
  private:
   struct State {
-    Matrix M, C, K;
+    std::shared_ptr<const StepPencil::Sample> sample;
+    const Matrix& M;  ///< of the chart
+    const Matrix& C;
+    const Matrix& K;
     ComplexMatrix Z, Lambda;
   };
 
   State state(double t) const {
-    const StepPencil::Sample& sample = pencil_.at(t);
-    const Vector& w = sample.weights;
+    const auto sample = pencil_.at(t);
+    const Vector& w = sample->weights;
     const auto count = static_cast<Eigen::Index>(left_Z_.size());
-    State state{sample.M, sample.C, sample.K, ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
+    const bool finite = chart_ == Chart::finite;
+    State state{sample,
+                finite ? sample->M : sample->K,
+                sample->C,
+                finite ? sample->K : sample->M,
+                ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
                 ComplexMatrix::Zero(W_.cols(), W_.cols())};
-    if (chart_ == Chart::reciprocal) std::swap(state.M, state.K);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       state.Z += w[i] * left_Z_[at] + w[count + i] * right_Z_[at];
@@ -67,26 +74,35 @@ class Tube {
 
   /// Jacobian with respect to (vec Z, vec Lambda / scale).
   ComplexMatrix jacobian(const State& s, double scale) const {
+    return W_.cols() == 1 ? jacobian_of_mode(s, scale) : jacobian_of_block(s, scale);
+  }
+
+  ComplexMatrix jacobian_of_mode(const State& s, double scale) const {
+    const Eigen::Index n = s.Z.rows();
+    const Complex mu = s.Lambda(0, 0);
+    const Complex square = mu * mu;
+    ComplexMatrix J(n + 1, n + 1);
+    J.topLeftCorner(n, n).real() = square.real() * s.M + mu.real() * s.C + s.K;
+    J.topLeftCorner(n, n).imag() = square.imag() * s.M + mu.imag() * s.C;
+    J.topRightCorner(n, 1) = scale * (2.0 * mu * multiply(s.M, s.Z) + multiply(s.C, s.Z));
+    J.bottomLeftCorner(1, n) = W_.topRows(n).adjoint();
+    J(n, n) = 0.0;  // W1 = 0
+    return J;
+  }
+
+  ComplexMatrix jacobian_of_block(const State& s, double scale) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
     const ComplexMatrix W0 = W_.topRows(n);
     const ComplexMatrix W1 = W_.bottomRows(n);
-    const ComplexMatrix MZ = s.M * s.Z;
+    const ComplexMatrix MZ = multiply(s.M, s.Z);
     ComplexMatrix J(n * k + k * k, n * k + k * k);
-    if (k == 1) {
-      const Complex mu = s.Lambda(0, 0);
-      J.topLeftCorner(n, n).real() = (mu * mu).real() * s.M + mu.real() * s.C + s.K;
-      J.topLeftCorner(n, n).imag() = (mu * mu).imag() * s.M + mu.imag() * s.C;
-      J.topRightCorner(n, 1) = scale * (2.0 * mu * MZ + s.C * s.Z);
-      J.bottomLeftCorner(1, n) = W0.adjoint() + mu * W1.adjoint();
-      J.bottomRightCorner(1, 1) = scale * (W1.adjoint() * s.Z);
-      return J;
-    }
     const ComplexMatrix I = ComplexMatrix::Identity(k, k);
     const ComplexMatrix Lt = s.Lambda.transpose();
     J.topLeftCorner(n * k, n * k) = kronecker(Lt * Lt, s.M.cast<Complex>()) +
                                     kronecker(Lt, s.C.cast<Complex>()) + kronecker(I, s.K.cast<Complex>());
-    J.topRightCorner(n * k, k * k) = scale * (kronecker(Lt, MZ) + kronecker(I, MZ * s.Lambda + s.C * s.Z));
+    J.topRightCorner(n * k, k * k) =
+        scale * (kronecker(Lt, MZ) + kronecker(I, MZ * s.Lambda + multiply(s.C, s.Z)));
     J.bottomLeftCorner(k * k, n * k) = kronecker(I, W0.adjoint()) + kronecker(Lt, W1.adjoint());
     J.bottomRightCorner(k * k, k * k) = scale * kronecker(I, W1.adjoint() * s.Z);
     return J;
@@ -95,7 +111,8 @@ class Tube {
   ComplexVector residual(const State& s) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
-    const ComplexMatrix R = (s.M * s.Z * s.Lambda + s.C * s.Z) * s.Lambda + s.K * s.Z;
+    const ComplexMatrix slope = multiply(s.M, s.Z) * s.Lambda + multiply(s.C, s.Z);
+    const ComplexMatrix R = slope * s.Lambda + multiply(s.K, s.Z);
     const ComplexMatrix N = W_.topRows(n).adjoint() * s.Z + W_.bottomRows(n).adjoint() * (s.Z * s.Lambda) -
                             ComplexMatrix::Identity(k, k);
     ComplexVector F(n * k + k * k);
@@ -117,17 +134,25 @@ class Tube {
     const double size = std::max(centre.Lambda.norm(), 1e-300);
     const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
     const ComplexMatrix J = jacobian(centre, scale);
-    const Eigen::PartialPivLU<ComplexMatrix> lu(J);
+    const ComplexLu lu(J);
     ++counts_.certificate_factorizations;
-    double Y = lu.solve(residual(centre)).norm();
-    const std::array<double, 4> samples{begin, 0.5 * (begin + middle), 0.5 * (middle + end), end};
-    for (const double t : samples) {
-      const State s = state(t);
+    // The ends differ most from the middle; the direction that grows most is about the same everywhere.
+    const std::array<double, 4> samples{begin, end, 0.5 * (begin + middle), 0.5 * (middle + end)};
+    ComplexMatrix F(J.rows(), 1 + static_cast<Eigen::Index>(samples.size()));
+    F.col(0) = residual(centre);
+    ComplexVector direction = start_vector(J.cols());
+    int iterations = power_iterations;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const State s = state(samples[i]);
+      F.col(1 + static_cast<Eigen::Index>(i)) = residual(s);
       const ComplexMatrix change = jacobian(s, scale) - J;
-      Y = std::max(Y, lu.solve(residual(s)).norm());
-      Z1 = std::max(Z1, norm_of_solved(lu, change));
-      if (!(Z1 < 1.0) || !std::isfinite(Y)) return false;
+      Z1 = std::max(Z1, norm_of_solved(lu, change, iterations, direction));
+      if (!(Z1 < 1.0)) return false;
+      iterations = further_iterations;
     }
+    lu.solve_in_place(F);
+    const double Y = F.colwise().norm().maxCoeff();
+    if (!std::isfinite(Y)) return false;
     const double Z2 = curvature_safety * curvature(centre, scale, lu);
     const double room = 1.0 - Z1;
     return room * room > 2.0 * Z2 * Y;
@@ -135,34 +160,49 @@ class Tube {
 
   /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
   /// below.
-  double curvature(const State& s, double scale, const Eigen::PartialPivLU<ComplexMatrix>& lu) const {
+  double curvature(const State& s, double scale, const ComplexLu& lu) const {
     const double mu = s.Lambda.norm();
     const double equations =
         2.0 * ((2.0 * s.M.norm() * mu + s.C.norm()) * scale + s.M.norm() * s.Z.norm() * scale * scale);
     const double normalization = 2.0 * W_.bottomRows(s.Z.rows()).norm() * scale;
     const Eigen::Index rows = s.Z.size();
-    ComplexMatrix weights = ComplexMatrix::Zero(lu.rows(), lu.rows());
-    weights.diagonal().head(rows).setConstant(equations);
-    weights.diagonal().tail(lu.rows() - rows).setConstant(normalization);
-    return norm_of_solved(lu, weights);
+    Vector weights(lu.size());
+    weights.head(rows).setConstant(equations);
+    weights.tail(lu.size() - rows).setConstant(normalization);
+    ComplexVector direction = start_vector(lu.size());
+    return norm_of_solved(lu, Diagonal{weights}, power_iterations, direction);
   }
 
-  /// |J^-1 A| by power iteration.
-  static double norm_of_solved(const Eigen::PartialPivLU<ComplexMatrix>& lu, const ComplexMatrix& A) {
-    const Eigen::Index size = A.cols();
+  /// A real diagonal matrix, as a factor of vectors.
+  struct Diagonal {
+    const Vector& entries;
+    const Diagonal& adjoint() const { return *this; }
+    friend auto operator*(const Diagonal& D, const ComplexVector& v) { return D.entries.cwiseProduct(v); }
+  };
+
+  /// Without symmetry.
+  static ComplexVector start_vector(Eigen::Index size) {
     ComplexVector v(size);
-    // A fixed start without symmetry.
     for (Eigen::Index i = 0; i < size; ++i) v[i] = {1.0, std::sin(1.0 + 2.3 * static_cast<double>(i))};
+    return v;
+  }
+
+  /// |J^-1 A| by power iteration from a direction v, which it improves.
+  template <class Operator>
+  static double norm_of_solved(const ComplexLu& lu, const Operator& A, int iterations, ComplexVector& v) {
     double norm = 0.0;
-    for (int i = 0; i < power_iterations; ++i) {
-      const double length = v.norm();
-      if (!(length > 0.0)) return 0.0;
-      v /= length;
-      const ComplexVector w = lu.solve(A * v);
+    ComplexVector w(v.size());
+    for (int i = 0; i < iterations; ++i) {
+      v.normalize();
+      w.noalias() = A * v;
+      lu.solve_in_place(w);
       norm = std::max(norm, w.norm());
-      const ComplexVector back = lu.adjoint().solve(w);
-      v = A.adjoint() * back;
-      norm = std::max(norm, std::sqrt(v.norm()));
+      lu.solve_adjoint_in_place(w);
+      ComplexVector next = A.adjoint() * w;
+      const double length = next.norm();
+      if (!(length > 0.0)) return norm_safety * norm;
+      norm = std::max(norm, std::sqrt(length));
+      v = std::move(next);
     }
     return norm_safety * norm;
   }
@@ -221,11 +261,12 @@ StepPencil::Sample StepPencil::sample(double t) const {
   return {std::move(weights), std::move(M), std::move(C), std::move(K)};
 }
 
-const StepPencil::Sample& StepPencil::at(double t) const {
+std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
+  const std::lock_guard lock(mutex_);
   const auto known = samples_.find(t);
   if (known != samples_.end()) return known->second;
   if (samples_.size() >= most_samples) samples_.clear();
-  return samples_.emplace(t, sample(t)).first->second;
+  return samples_.emplace(t, std::make_shared<const Sample>(sample(t))).first->second;
 }
 
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,

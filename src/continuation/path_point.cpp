@@ -81,11 +81,52 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
 }
 
 /// Series of V = T Z.
-std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, const std::vector<ComplexMatrix>& Z) {
+std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, std::vector<ComplexMatrix> Z) {
   if (basis.is_identity) return Z;
   std::vector<ComplexMatrix> T;
   for (const Matrix& coefficient : basis.T) T.emplace_back(coefficient.cast<Complex>());
   return multiply_series(T, Z, Z.size());
+}
+
+/// Corrects the predicted pairs (Z in physical coordinates) at a reduced point, all at once or one by one.
+void correct_modes(const PathProblem& problem, const std::vector<InvariantPair>& predicted, PathPoint& point,
+                   RunCounts& counts) {
+  const StageTimer timer(counts.modes_seconds);
+  std::vector<InvariantPair> starts = predicted;
+  if (!point.basis.is_identity) {
+    const Matrix projection = point.basis.T[0].transpose();
+    for (InvariantPair& start : starts) start.Z = multiply(projection, start.Z);
+  }
+  const PencilAtPoint finite(point.pencil, Chart::finite);
+  if (problem.all_at_once && is_complete(starts, point.pencil.size())) {
+    point.all = correct_all(finite, starts, problem.reference(Chart::finite), problem.corrector, counts.modes,
+                            point.pairs);
+    if (point.all) return;
+  }
+  const PencilAtPoint reciprocal(point.pencil, Chart::reciprocal);
+  point.pairs.resize(starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const PencilAtPoint& pencil = starts[i].chart == Chart::finite ? finite : reciprocal;
+    point.pairs[i] =
+        correct_pair(pencil, starts[i], problem.reference(starts[i].chart), problem.corrector, counts.modes);
+    if (point.pairs[i].status != PairStatus::converged) {
+      point.status = PointStatus::mode_lost;
+      point.lost_track = static_cast<int>(i);
+      point.message = "the corrector did not converge";
+      return;
+    }
+  }
+}
+
+/// A track of a corrected pair and its series in reduced coordinates.
+Track make_track(const PathNode& node, InvariantPair pair, PairSeries series) {
+  Track track;
+  track.pair = std::move(pair);
+  track.functions = block_functions(series.Lambda);
+  track.roots = pair_eigenvalues(track.pair);
+  track.modes.assign(static_cast<std::size_t>(track.size()), Track::no_mode);
+  track.series = {physical_series(node.basis, std::move(series.Z)), std::move(series.Lambda)};
+  return track;
 }
 
 bool is_finite(const Track& track) {
@@ -161,33 +202,15 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
     point.message = "the number of independent constraints changed";
     return point;
   }
-  const StageTimer timer(counts.modes_seconds);
-  for (std::size_t i = 0; i < prediction.pairs.size(); ++i) {
-    InvariantPair start = prediction.pairs[i];
-    if (!point.basis.is_identity) start.Z = point.basis.T[0].transpose().cast<Complex>() * start.Z;
-    const PencilAtPoint pencil(point.pencil, start.chart);
-    point.pairs.push_back(
-        correct_pair(pencil, start, problem.reference(start.chart), problem.corrector, counts.modes));
-    if (point.pairs.back().status != PairStatus::converged) {
-      point.status = PointStatus::mode_lost;
-      point.lost_track = static_cast<int>(i);
-      point.message = "the corrector did not converge";
-      return point;
-    }
-  }
+  correct_modes(problem, prediction.pairs, point, counts);
   return point;
 }
 
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
                           RunCounts& counts) {
-  Track track;
-  track.pair = std::move(pair);
-  PairSeries series = differentiate_pair(node.pencil, track.pair, problem.order + 1, counts.modes);
-  track.functions = block_functions(series.Lambda);
-  track.roots = pair_eigenvalues(track.pair);
-  track.modes.assign(static_cast<std::size_t>(track.size()), Track::no_mode);
-  track.series = {physical_series(node.basis, series.Z), std::move(series.Lambda)};
-  return track;
+  PairSeries series = differentiate_pair(node.pencil, pair, problem.order + 1, counts.modes,
+                                         problem.corrector.series_accuracy);
+  return make_track(node, std::move(pair), std::move(series));
 }
 
 namespace {
@@ -201,10 +224,16 @@ std::optional<PathNode> differentiate_along(const PathProblem& problem, const Pa
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
   node.pencil = reduce(node.linearization, node.basis, order);
-  for (const InvariantPair& pair : point.pairs) {
-    node.tracks.push_back(differentiate_track(problem, node, pair, counts));
-    if (!is_finite(node.tracks.back())) return std::nullopt;
+  if (point.all) {
+    std::vector<PairSeries> series =
+        differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy, counts.modes);
+    for (std::size_t i = 0; i < point.pairs.size(); ++i)
+      node.tracks.push_back(make_track(node, point.pairs[i], std::move(series[i])));
+  } else {
+    for (const InvariantPair& pair : point.pairs)
+      node.tracks.push_back(differentiate_track(problem, node, pair, counts));
   }
+  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
   return node;
 }
 

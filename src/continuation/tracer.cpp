@@ -14,6 +14,7 @@ namespace {
 constexpr double smallest_step = 1e-11;     ///< of the range
 constexpr double uncertified_step = 1e-6;   ///< of the range: shorter ones are taken without certificate
 constexpr double uncertified_error = 30.0;  ///< shortens a step without certificate as much as this error
+constexpr double series_share = 1e-5;       ///< accuracy of the coefficients of a series / tolerance
 constexpr double large_block_step = 0.05;   ///< of the range: longest step with a block of three or more
 
 }  // namespace
@@ -25,6 +26,7 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
     problem_.parameters[model.description().parameters.index(name).value()] = value;
   problem_.order = options.order;
   problem_.basis = basis;
+  problem_.corrector.series_accuracy = std::max(series_share * options.tolerance, 1e-15);
   criteria_ = criteria_of(options.events);
   result_.counts.evaluations = model.new_counts();
   direction_ = options.to > options.from ? 1.0 : -1.0;

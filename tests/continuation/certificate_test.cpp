@@ -231,7 +231,7 @@ TEST(StepPencil, HasTheEigenvaluesOfThePathBetweenItsPoints) {
   const Setting setting = scene_setting("rotating_mass");
   RunCounts counts;
   for (const double t : {0.0, 0.3, 0.5, 1.0}) {
-    const StepPencil::Sample& m = pencil.at(t);
+    const StepPencil::Sample m = *pencil.at(t);
     std::vector<Complex> expected;
     for (const InvariantPair& pair : point_from_guess(setting.problem(), 100.0 - 10.0 * t, counts).pairs) {
       expected.push_back(pair.eigenvalue());

@@ -10,13 +10,15 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <mutex>
 
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
 
 /// The pencil between two neighbouring points, in the reduced coordinates of the left one. Costs no model
-/// evaluation. Keeps what it has computed: not for use by several threads at once.
+/// evaluation. Keeps what it has computed; safe to use by several threads at once.
 class StepPencil {
  public:
   /// `length` is the step in the path's coordinate; both points must outlive the object.
@@ -27,8 +29,8 @@ class StepPencil {
     Vector weights;  ///< of the coefficients at both ends, left, then right
     Matrix M, C, K;
   };
-  /// At t in [0, 1]; refers to what is valid until the next call.
-  const Sample& at(double t) const;
+  /// At t in [0, 1].
+  std::shared_ptr<const Sample> at(double t) const;
 
   const PathNode& left() const { return left_; }
 
@@ -40,7 +42,9 @@ class StepPencil {
   double length_;
   Eigen::Index count_;  ///< coefficients at each end
   ReducedPencil right_;
-  mutable std::map<double, Sample> samples_;  ///< by t: every block of a step looks at the same places
+  mutable std::mutex mutex_;
+  /// By t: every block of a step looks at the same places.
+  mutable std::map<double, std::shared_ptr<const Sample>> samples_;
 };
 
 /// Whether the tube closes on the whole step from `left` to `right`, the same block at both ends. `gap` is

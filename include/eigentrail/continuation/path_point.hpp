@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/modes/invariant_pair.hpp"
+#include "eigentrail/modes/all_pairs.hpp"
 #include "eigentrail/steady/path_plane.hpp"
 
 namespace eigentrail {
@@ -90,9 +90,10 @@ struct PathProblem {
   int traced = 0;          ///< index of the traced parameter
   Vector parameters = {};  ///< declared values; the traced entry is replaced at each point
   Structure structure = {};
-  int order = 3;         ///< of the dense output; series have one coefficient more, for its error
-  double s_ref = 1.0;    ///< magnitude below which an eigenvalue counts as zero, 1/s
-  double s_max = 1e300;  ///< magnitude above which it counts as infinite
+  int order = 3;             ///< of the dense output; series have one coefficient more, for its error
+  double s_ref = 1.0;        ///< magnitude below which an eigenvalue counts as zero, 1/s
+  double s_max = 1e300;      ///< magnitude above which it counts as infinite
+  bool all_at_once = false;  ///< all modes by matrix products, where every one of them is followed
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
@@ -135,6 +136,7 @@ struct PathPoint {
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
   std::vector<InvariantPair> pairs;
+  std::shared_ptr<const AllPairs> all;  ///< where the pairs were corrected all at once
 
   /// V = T Z of a pair.
   ComplexMatrix shapes(std::size_t pair) const;

@@ -13,12 +13,12 @@
 // for the factors belonging to the prediction.
 #pragma once
 
-#include <Eigen/LU>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "eigentrail/reduction/reduced_pencil.hpp"
+#include "eigentrail/core/complex_lu.hpp"
+#include "eigentrail/modes/pencil_at_point.hpp"
 
 namespace eigentrail {
 
@@ -26,6 +26,7 @@ struct CorrectorOptions {
   double tolerance = 1e-14;           ///< relative size of the last correction, > 0
   double refactor_contraction = 0.1;  ///< a slower contraction of the corrections factors anew, 0 < . < 1
   int max_iterations = 30;            ///< >= 1
+  double series_accuracy = 1e-15;     ///< of every coefficient of the series of a single mode, relative
 };
 
 /// Work done on modes, summed over a run.
@@ -33,32 +34,8 @@ struct ModeCounts {
   std::uint64_t factorizations = 0;  ///< complex LU of size n + k
   std::uint64_t iterations = 0;      ///< Newton corrections
   std::uint64_t solves = 0;          ///< back-substitutions, all purposes
-};
-
-/// Which function of the parameter is followed. Near an infinite eigenvalue (singular mass) mu = 1/s is
-/// smooth: it is an eigenvalue of the pencil with M and K exchanged.
-enum class Chart { finite, reciprocal };
-
-constexpr Chart other(Chart chart) {
-  return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
-}
-
-/// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
-struct PencilAtPoint {
-  const Matrix& M;
-  const Matrix& C;
-  const Matrix& K;
-  double norm_M, norm_C, norm_K;  ///< Frobenius
-
-  explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
-  explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;  ///< referred to, not copied
-
-  Eigen::Index size() const { return M.rows(); }
-  ComplexMatrix matrix(Complex mu) const;
-  /// M Z Lambda^2 + C Z Lambda + K Z.
-  ComplexMatrix residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
-  /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors.
-  double magnitude(double mu) const;
+  std::uint64_t modal_bases = 0;     ///< inverses of size 2n that serve all modes at once (all_pairs.hpp)
+  std::uint64_t modal_solves = 0;    ///< solutions for all modes with them
 };
 
 /// LU factors of the linearized equations at a pair.
@@ -76,9 +53,17 @@ class PairFactorization {
   double sensitivity() const;
 
  private:
-  Matrix M_, C_;
-  ComplexMatrix U_, T_, T2_, Z_, W_;  ///< Lambda = U T U^H; Z U; W U
-  std::vector<Eigen::PartialPivLU<ComplexMatrix>> columns_;
+  /// What the columns of a block of more than one need of each other: Lambda = U T U^H; Z U; W U.
+  struct Coupling {
+    Matrix M, C;
+    ComplexMatrix U, T, T2, Z, W1;
+  };
+
+  void solve_block(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
+                   ComplexMatrix& dLambda) const;
+
+  std::optional<Coupling> coupling_;
+  std::vector<ComplexLu> columns_;
   double slope_scale_, border_scale_;
 };
 
@@ -93,7 +78,7 @@ struct InvariantPair {
   ComplexMatrix W;              ///< 2n x k, normalization
   double backward_error = 0.0;  ///< |residual| / (magnitude |Z|)
   double condition = 0.0;       ///< relative condition number of the block, w.r.t. max(|mu|, reference)
-  std::optional<PairFactorization> factors;
+  std::optional<PairFactorization> factors;  ///< absent where all pairs were corrected at once
 
   Eigen::Index size() const { return Lambda.rows(); }
   /// s of a block of one in the finite chart.
@@ -110,6 +95,10 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
 
+/// The pair's factors, or new ones at the pair, kept in `own`, where it has none.
+const PairFactorization& factors_of(const PencilAtPoint& pencil, const InvariantPair& pair,
+                                    std::optional<PairFactorization>& own);
+
 /// What rounding has left of the eigenvalue of a block of one: the Newton correction with its residual formed
 /// in extended precision. Tells the real part of an eigenvalue on the imaginary axis, where it is small, to
 /// its own digits.
@@ -123,7 +112,8 @@ struct PairSeries {
 
 /// Sensitivities of any order: coefficient j of the equations formed with Z_j = Lambda_j = 0 is the right
 /// side (Eq. 35 for one mode and j = 1).
+/// `accuracy` is that of every coefficient of a single mode; a block gets what rounding leaves.
 PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& pair, int order,
-                              ModeCounts& counts);
+                              ModeCounts& counts, double accuracy = 1e-15);
 
 }  // namespace eigentrail

@@ -1,0 +1,38 @@
+// The quadratic pencil at one point of the path, as the correctors see it.
+#pragma once
+
+#include "eigentrail/reduction/reduced_pencil.hpp"
+
+namespace eigentrail {
+
+/// Which function of the parameter is followed. Near an infinite eigenvalue (singular mass) mu = 1/s is
+/// smooth: it is an eigenvalue of the pencil with M and K exchanged.
+enum class Chart { finite, reciprocal };
+
+constexpr Chart other(Chart chart) {
+  return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
+}
+
+/// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
+struct PencilAtPoint {
+  const Matrix& M;
+  const Matrix& C;
+  const Matrix& K;
+  double norm_M, norm_C, norm_K;  ///< Frobenius
+
+  explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
+  explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;  ///< referred to, not copied
+
+  Eigen::Index size() const { return M.rows(); }
+  bool is_undamped() const { return norm_C == 0.0; }  ///< C vanishes
+  ComplexMatrix matrix(Complex mu) const;
+  /// M Z Lambda^2 + C Z Lambda + K Z.
+  ComplexMatrix residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
+  /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors.
+  double magnitude(double mu) const;
+};
+
+/// B Z for a real matrix and few complex columns.
+ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z);
+
+}  // namespace eigentrail

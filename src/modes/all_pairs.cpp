@@ -1,0 +1,318 @@
+#include "eigentrail/modes/all_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_refactorizations = 4;
+
+/// Columns of `Z` times the blocks of `Lambda`, pair by pair.
+void times_blocks(const PairSet& pairs, const ComplexMatrix& Lambda, ComplexMatrix& Z) {
+  for (const PairSet::Place& place : pairs.places) {
+    auto columns = Z.middleCols(place.first, place.size);
+    if (place.size == 1) {
+      columns *= Lambda(0, place.first);
+    } else {
+      columns = (columns * pairs.block(Lambda, place)).eval();
+    }
+  }
+}
+
+ComplexMatrix with_blocks(const PairSet& pairs, ComplexMatrix Z, const ComplexMatrix& Lambda) {
+  times_blocks(pairs, Lambda, Z);
+  return Z;
+}
+
+/// Products of blocks, pair by pair.
+ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, const ComplexMatrix& B) {
+  ComplexMatrix product = ComplexMatrix::Zero(A.rows(), A.cols());
+  for (const PairSet::Place& place : pairs.places) {
+    product.block(0, place.first, place.size, place.size) = pairs.block(A, place) * pairs.block(B, place);
+  }
+  return product;
+}
+
+ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
+  ComplexMatrix slope = with_blocks(pairs, multiply_many(pencil.M, pairs.Z), pairs.Lambda);
+  if (!pencil.is_undamped()) slope += multiply_many(pencil.C, pairs.Z);
+  times_blocks(pairs, pairs.Lambda, slope);
+  return slope + multiply_many(pencil.K, pairs.Z);
+}
+
+/// What W0^H Z + W1^H Z Lambda lacks to the identity, pair by pair.
+ComplexMatrix normalization_defect(const PairSet& pairs) {
+  const Eigen::Index n = pairs.Z.rows();
+  ComplexMatrix defect = ComplexMatrix::Zero(pairs.Lambda.rows(), pairs.Lambda.cols());
+  for (const PairSet::Place& place : pairs.places) {
+    const auto Z = pairs.Z.middleCols(place.first, place.size);
+    const auto W = pairs.W.middleCols(place.first, place.size);
+    auto block = defect.block(0, place.first, place.size, place.size);
+    block.setIdentity();
+    block -= W.topRows(n).adjoint() * Z;
+    if (place.size > 1) block -= (W.bottomRows(n).adjoint() * Z) * pairs.block(pairs.Lambda, place);
+  }
+  return defect;
+}
+
+void make_real(const PairSet& pairs, ComplexMatrix& Z, ComplexMatrix& Lambda) {
+  for (const PairSet::Place& place : pairs.places) {
+    if (!place.is_real) continue;
+    Z.middleCols(place.first, place.size).imag().setZero();
+    Lambda.middleCols(place.first, place.size).imag().setZero();
+  }
+}
+
+PairSet side_by_side(const std::vector<InvariantPair>& starts, double reference) {
+  PairSet set;
+  Eigen::Index columns = 0, largest = 1;
+  for (const InvariantPair& start : starts) {
+    set.places.push_back({columns, start.size(), start.is_real});
+    columns += start.size();
+    largest = std::max(largest, start.size());
+  }
+  const Eigen::Index n = starts.front().Z.rows();
+  set.Z.resize(n, columns);
+  set.W.resize(2 * n, columns);
+  set.Lambda = ComplexMatrix::Zero(largest, columns);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    ComplexMatrix Z = starts[i].Z;
+    ComplexMatrix Lambda = starts[i].Lambda;
+    ComplexMatrix W;
+    normalize_pair(Z, Lambda, W, reference);
+    const PairSet::Place& place = set.places[i];
+    set.Z.middleCols(place.first, place.size) = Z;
+    set.W.middleCols(place.first, place.size) = W;
+    set.Lambda.block(0, place.first, place.size, place.size) = Lambda;
+  }
+  return set;
+}
+
+/// Largest relative change of a pair, as in the corrector of a single one.
+double largest_change(const PairSet& pairs, const ComplexMatrix& dZ, const ComplexMatrix& dLambda,
+                      double reference) {
+  double largest = 0.0;
+  for (const PairSet::Place& place : pairs.places) {
+    const double of_Z =
+        dZ.middleCols(place.first, place.size).norm() / pairs.Z.middleCols(place.first, place.size).norm();
+    const double of_Lambda =
+        pairs.block(dLambda, place).norm() / std::max(pairs.block(pairs.Lambda, place).norm(), reference);
+    const double change = std::max(of_Z, of_Lambda);
+    if (!std::isfinite(change)) return change;
+    largest = std::max(largest, change);
+  }
+  return largest;
+}
+
+/// Chord-Newton on all pairs; the basis is that of the pairs it ends with, about.
+bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options, PairSet& pairs,
+            std::optional<ModalBasis>& basis, ModeCounts& counts) {
+  const auto factor = [&] {
+    basis = ModalBasis::from(pencil, pairs);
+    ++counts.modal_bases;
+    return basis.has_value();
+  };
+  if (!factor()) return false;
+  double last = INFINITY;
+  int refactorizations = 0;
+  ComplexMatrix dZ, dLambda;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    basis->solve(pairs, -residual(pencil, pairs), normalization_defect(pairs), dZ, dLambda);
+    counts.modal_solves += 1;
+    counts.iterations += pairs.places.size();
+    make_real(pairs, dZ, dLambda);
+    pairs.Z += dZ;
+    pairs.Lambda += dLambda;
+    const double size = largest_change(pairs, dZ, dLambda, reference);
+    if (!std::isfinite(size)) return false;
+    const double contraction = size / last;
+    if (size <= options.tolerance || (contraction > 0.5 && size < 1e-10) ||
+        (std::isfinite(last) && contraction < options.refactor_contraction &&
+         size * contraction <= 0.1 * options.tolerance))
+      return true;
+    if (contraction > options.refactor_contraction) {
+      if (contraction > 2.0 || ++refactorizations > most_refactorizations || !factor()) return false;
+    }
+    last = size;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index n) {
+  Eigen::Index columns = 0;
+  for (const InvariantPair& pair : pairs) {
+    if (pair.chart != Chart::finite) return false;
+    columns += pair.size() * (pair.is_real ? 1 : 2);
+  }
+  return columns == 2 * n;
+}
+
+std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
+                                            const std::vector<InvariantPair>& starts, double reference,
+                                            const CorrectorOptions& options, ModeCounts& counts,
+                                            std::vector<InvariantPair>& corrected) {
+  PairSet pairs = side_by_side(starts, reference);
+  if (!pairs.Z.allFinite() || !pairs.Lambda.allFinite()) return nullptr;
+  std::optional<ModalBasis> basis;
+  if (!newton(pencil, reference, options, pairs, basis, counts)) return nullptr;
+  basis = ModalBasis::from(pencil, pairs);
+  ++counts.modal_bases;
+  if (!basis) return nullptr;
+  const ComplexMatrix R = residual(pencil, pairs);
+  corrected.clear();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const PairSet::Place& place = pairs.places[i];
+    InvariantPair pair;
+    pair.status = PairStatus::converged;
+    pair.is_real = place.is_real;
+    pair.Z = pairs.Z.middleCols(place.first, place.size);
+    pair.Lambda = pairs.block(pairs.Lambda, place);
+    pair.W = pairs.W.middleCols(place.first, place.size);
+    const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(place.size));
+    const double scale = pencil.magnitude(size) * pair.Z.norm();
+    pair.backward_error = scale > 0.0 ? R.middleCols(place.first, place.size).norm() / scale : 0.0;
+    pair.condition = basis->sensitivity(place) * scale / std::max(size, reference);
+    corrected.push_back(std::move(pair));
+  }
+  return std::make_shared<const AllPairs>(AllPairs{std::move(pairs), std::move(*basis)});
+}
+
+namespace {
+
+/// Coefficients of products of series of all pairs, filled order by order; as for a single mode.
+class AllEquations {
+ public:
+  std::vector<ComplexMatrix> Z, Lambda;
+
+  AllEquations(const ReducedPencil& pencil, const PairSet& pairs, int order)
+      : pencil_(pencil),
+        pairs_(pairs),
+        undamped_(
+            std::all_of(pencil.C.begin(), pencil.C.end(), [](const Matrix& C) { return C.isZero(0.0); })) {
+    const auto count = static_cast<std::size_t>(order) + 1;
+    const ComplexMatrix none_Z = ComplexMatrix::Zero(pairs.Z.rows(), pairs.Z.cols());
+    const ComplexMatrix none_L = ComplexMatrix::Zero(pairs.Lambda.rows(), pairs.Lambda.cols());
+    Z.assign(count, none_Z);
+    Lambda.assign(count, none_L);
+    MZ_.assign(count, none_Z);
+    CZ_.assign(count, none_Z);
+    square_.assign(count, none_L);
+    Z[0] = pairs.Z;
+    Lambda[0] = pairs.Lambda;
+    update(0);
+  }
+
+  /// Coefficient j of the residuals and of the normalizations with Z_j = Lambda_j = 0.
+  void known_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) {
+    MZ_[j] = product(pencil_.M, j);
+    if (!undamped_) CZ_[j] = product(pencil_.C, j);
+    residual = product(pencil_.K, j);
+    ComplexMatrix inner = ComplexMatrix::Zero(square_[0].rows(), square_[0].cols());
+    for (std::size_t i = 1; i < j; ++i) inner += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
+    residual += with_blocks(pairs_, MZ_[j], square_[0]) + with_blocks(pairs_, MZ_[0], inner);
+    if (!undamped_) residual += with_blocks(pairs_, CZ_[j], Lambda[0]);
+    for (std::size_t i = 1; i < j; ++i) {
+      residual += with_blocks(pairs_, MZ_[j - i], square_[i]);
+      if (!undamped_) residual += with_blocks(pairs_, CZ_[j - i], Lambda[i]);
+    }
+    defect = ComplexMatrix::Zero(inner.rows(), inner.cols());
+    const Eigen::Index n = pairs_.Z.rows();
+    for (const PairSet::Place& place : pairs_.places) {
+      if (place.size == 1) continue;
+      const auto W1 = pairs_.W.bottomRows(n).middleCols(place.first, place.size);
+      auto block = defect.block(0, place.first, place.size, place.size);
+      for (std::size_t i = 1; i < j; ++i) {
+        block +=
+            W1.adjoint() * (Z[i].middleCols(place.first, place.size) * pairs_.block(Lambda[j - i], place));
+      }
+    }
+  }
+
+  /// What Z_j and Lambda_j add to them.
+  void unknown_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) const {
+    const PencilAtPoint pencil(pencil_);
+    ComplexMatrix slope = with_blocks(pairs_, multiply_many(pencil.M, Z[j]), Lambda[0]);
+    slope += with_blocks(pairs_, MZ_[0], Lambda[j]);
+    if (!undamped_) slope += multiply_many(pencil.C, Z[j]);
+    residual += with_blocks(pairs_, slope, Lambda[0]) + multiply_many(pencil.K, Z[j]);
+    ComplexMatrix by_value = MZ_[0];
+    times_blocks(pairs_, Lambda[0], by_value);
+    if (!undamped_) by_value += CZ_[0];
+    residual += with_blocks(pairs_, by_value, Lambda[j]);
+    const Eigen::Index n = pairs_.Z.rows();
+    for (const PairSet::Place& place : pairs_.places) {
+      const auto X = Z[j].middleCols(place.first, place.size);
+      const auto W = pairs_.W.middleCols(place.first, place.size);
+      auto block = defect.block(0, place.first, place.size, place.size);
+      block += W.topRows(n).adjoint() * X;
+      if (place.size == 1) continue;
+      block += W.bottomRows(n).adjoint() *
+               (X * pairs_.block(Lambda[0], place) +
+                Z[0].middleCols(place.first, place.size) * pairs_.block(Lambda[j], place));
+    }
+  }
+
+  /// Takes the coefficients j into the products, after known_terms(j).
+  void update(std::size_t j) {
+    MZ_[j] += multiply_many(pencil_.M[0], Z[j]);
+    if (!undamped_) CZ_[j] += multiply_many(pencil_.C[0], Z[j]);
+    for (std::size_t i = 0; i <= j; ++i) square_[j] += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
+  }
+
+ private:
+  /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
+  ComplexMatrix product(const MatrixSeries& B, std::size_t j) const {
+    ComplexMatrix sum = ComplexMatrix::Zero(Z[0].rows(), Z[0].cols());
+    for (std::size_t i = 1; i <= j && i < B.size(); ++i) sum += multiply_many(B[i], Z[j - i]);
+    return sum;
+  }
+
+  const ReducedPencil& pencil_;
+  const PairSet& pairs_;
+  bool undamped_;
+  std::vector<ComplexMatrix> MZ_, CZ_, square_;
+};
+
+}  // namespace
+
+std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const AllPairs& all, int order,
+                                          double accuracy, ModeCounts& counts) {
+  const PairSet& pairs = all.set;
+  AllEquations series(pencil, pairs, order);
+  // The basis is that of the corrected pairs: one solution is exact to rounding, and a second one corrects
+  // it.
+  const int solutions = all.basis.rounding() <= accuracy ? 1 : 2;
+  ComplexMatrix residual, defect, dZ, dLambda;
+  for (std::size_t j = 1; j < series.Z.size(); ++j) {
+    series.known_terms(j, residual, defect);
+    for (int i = 0; i < solutions; ++i) {
+      if (i == 0) {
+        all.basis.solve(pairs, -residual, -defect, dZ, dLambda);
+      } else {
+        ComplexMatrix rest = residual;
+        ComplexMatrix rest_of_norm = defect;
+        series.unknown_terms(j, rest, rest_of_norm);
+        all.basis.solve(pairs, -rest, -rest_of_norm, dZ, dLambda);
+      }
+      counts.modal_solves += 1;
+      make_real(pairs, dZ, dLambda);
+      series.Z[j] += dZ;
+      series.Lambda[j] += dLambda;
+    }
+    series.update(j);
+  }
+  std::vector<PairSeries> result(pairs.places.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const PairSet::Place& place = pairs.places[i];
+    for (std::size_t j = 0; j < series.Z.size(); ++j) {
+      result[i].Z.emplace_back(series.Z[j].middleCols(place.first, place.size));
+      result[i].Lambda.emplace_back(pairs.block(series.Lambda[j], place));
+    }
+  }
+  return result;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,200 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "eigentrail/modes/all_pairs.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double least_rcond = 1e-9;  ///< of M and of the modal basis
+
+/// Solves D X - X L = G for small square D and L.
+ComplexMatrix solve_sylvester(const ComplexMatrix& D, const ComplexMatrix& L, const ComplexMatrix& G) {
+  const Eigen::Index m = D.rows();
+  const Eigen::Index k = L.rows();
+  ComplexMatrix system = ComplexMatrix::Zero(m * k, m * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    system.block(j * m, j * m, m, m) = D;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      for (Eigen::Index l = 0; l < m; ++l) system(j * m + l, i * m + l) -= L(i, j);
+    }
+  }
+  return system.partialPivLu().solve(G.reshaped()).reshaped(m, k);
+}
+
+}  // namespace
+
+ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
+  const Eigen::Index m = Z.cols();
+  Matrix parts(Z.rows(), 2 * m);
+  parts.leftCols(m) = Z.real();
+  parts.rightCols(m) = Z.imag();
+  Matrix product(B.rows(), 2 * m);
+  product.noalias() = B * parts;
+  ComplexMatrix result(B.rows(), m);
+  result.real() = product.leftCols(m);
+  result.imag() = product.rightCols(m);
+  return result;
+}
+
+std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const PairSet& pairs) {
+  const Eigen::Index n = pencil.size();
+  const Eigen::Index columns = pairs.Z.cols();
+  ModalBasis basis;
+  basis.conjugate_.assign(static_cast<std::size_t>(columns), -1);
+  basis.real_row_.assign(static_cast<std::size_t>(columns), 0);
+  Eigen::Index rows = columns;
+  for (const PairSet::Place& place : pairs.places) {
+    if (place.is_real) continue;
+    for (Eigen::Index i = 0; i < place.size; ++i)
+      basis.conjugate_[static_cast<std::size_t>(place.first + i)] = rows++;
+  }
+  if (rows != 2 * n) return std::nullopt;
+
+  double gamma = 0.0;
+  for (const PairSet::Place& place : pairs.places)
+    gamma = std::max(gamma, pairs.block(pairs.Lambda, place).norm());
+  if (!(gamma > 0.0) || !std::isfinite(gamma)) return std::nullopt;
+  Matrix V(2 * n, 2 * n);
+  Eigen::Index row = 0;
+  basis.s_.assign(static_cast<std::size_t>(rows), std::numeric_limits<double>::quiet_NaN());
+  for (const PairSet::Place& place : pairs.places) {
+    const auto Z = pairs.Z.middleCols(place.first, place.size);
+    const ComplexMatrix ZL = Z * pairs.block(pairs.Lambda, place) / gamma;
+    for (Eigen::Index i = 0; i < place.size; ++i) {
+      const auto column = static_cast<std::size_t>(place.first + i);
+      basis.real_row_[column] = row;
+      V.col(row) << Z.col(i).real(), ZL.col(i).real();
+      ++row;
+      if (place.is_real) continue;
+      V.col(row) << Z.col(i).imag(), ZL.col(i).imag();
+      ++row;
+    }
+    if (place.size > 1) continue;
+    const auto column = static_cast<std::size_t>(place.first);
+    basis.s_[column] = pairs.Lambda(0, place.first);
+    if (!place.is_real)
+      basis.s_[static_cast<std::size_t>(basis.conjugate_[column])] = std::conj(basis.s_[column]);
+  }
+  const Eigen::PartialPivLU<Matrix> mass(pencil.M);
+  const Eigen::PartialPivLU<Matrix> lu(V);
+  const double rcond = lu.rcond();
+  if (!(rcond > least_rcond) || !(mass.rcond() > least_rcond)) return std::nullopt;
+  basis.rounding_ = 10.0 * std::numeric_limits<double>::epsilon() / rcond;
+  Matrix load = Matrix::Zero(2 * n, n);
+  load.bottomRows(n) = mass.inverse() / gamma;
+  basis.left_ = lu.solve(load);
+  basis.right_ = V.topRows(n);
+
+  basis.divisors_ = ComplexMatrix::Zero(rows, columns);
+  for (Eigen::Index b = 0; b < columns; ++b) {
+    for (Eigen::Index a = 0; a < rows; ++a) {
+      const Complex difference =
+          basis.s_[static_cast<std::size_t>(b)] - basis.s_[static_cast<std::size_t>(a)];
+      if (a != b && difference == difference) basis.divisors_(a, b) = 1.0 / difference;
+    }
+  }
+  return basis;
+}
+
+ComplexMatrix ModalBasis::coordinates(const ComplexMatrix& R) const {
+  const ComplexMatrix g = multiply_many(left_, R);
+  ComplexMatrix G(g.rows(), g.cols());
+  for (std::size_t i = 0; i < real_row_.size(); ++i) {
+    const Eigen::Index row = real_row_[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (conjugate_[i] < 0) {
+      G.row(column) = g.row(row);
+      continue;
+    }
+    // Re z and Im z from z and its conjugate.
+    G.row(column) = 0.5 * (g.row(row) - Complex(0.0, 1.0) * g.row(row + 1));
+    G.row(conjugate_[i]) = 0.5 * (g.row(row) + Complex(0.0, 1.0) * g.row(row + 1));
+  }
+  return G;
+}
+
+ComplexMatrix ModalBasis::vectors(const ComplexMatrix& U) const {
+  ComplexMatrix u(U.rows(), U.cols());
+  for (std::size_t i = 0; i < real_row_.size(); ++i) {
+    const Eigen::Index row = real_row_[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (conjugate_[i] < 0) {
+      u.row(row) = U.row(column);
+      continue;
+    }
+    u.row(row) = U.row(column) + U.row(conjugate_[i]);
+    u.row(row + 1) = Complex(0.0, 1.0) * (U.row(column) - U.row(conjugate_[i]));
+  }
+  return multiply_many(right_, u);
+}
+
+/// G becomes U.
+void ModalBasis::divide(const PairSet& pairs, ComplexMatrix& G) const {
+  const auto rows_of = [&](const PairSet::Place& place, bool conjugate) {
+    return conjugate ? conjugate_[static_cast<std::size_t>(place.first)] : place.first;
+  };
+  const auto block_of = [&](const PairSet::Place& place, bool conjugate) -> ComplexMatrix {
+    const ComplexMatrix L = pairs.block(pairs.Lambda, place);
+    return conjugate ? L.conjugate() : L;
+  };
+  // Beside blocks of more than one.
+  std::vector<std::tuple<Eigen::Index, Eigen::Index, ComplexMatrix>> solved;
+  for (const PairSet::Place& b : pairs.places) {
+    for (const PairSet::Place& a : pairs.places) {
+      if (a.size == 1 && b.size == 1) continue;
+      for (const bool conjugate : {false, true}) {
+        if ((conjugate && a.is_real) || (!conjugate && a.first == b.first)) continue;
+        const ComplexMatrix part = G.block(rows_of(a, conjugate), b.first, a.size, b.size);
+        solved.emplace_back(rows_of(a, conjugate), b.first,
+                            solve_sylvester(block_of(a, conjugate), block_of(b, false), -part));
+      }
+    }
+  }
+  G = G.cwiseProduct(divisors_);
+  for (const auto& [row, column, U] : solved) G.block(row, column, U.rows(), U.cols()) = U;
+}
+
+void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const ComplexMatrix& N,
+                       ComplexMatrix& dZ, ComplexMatrix& dLambda) const {
+  const Eigen::Index n = R.rows();
+  ComplexMatrix G = coordinates(R);
+  dLambda = ComplexMatrix::Zero(N.rows(), N.cols());
+  for (const PairSet::Place& place : pairs.places) {
+    dLambda.block(0, place.first, place.size, place.size) =
+        G.block(place.first, place.first, place.size, place.size);
+  }
+  divide(pairs, G);
+  dZ = vectors(G);
+  // What is left open is a change of basis within a pair, which its normalization settles.
+  for (const PairSet::Place& place : pairs.places) {
+    auto X = dZ.middleCols(place.first, place.size);
+    const auto Z = pairs.Z.middleCols(place.first, place.size);
+    const auto W = pairs.W.middleCols(place.first, place.size);
+    auto dL = dLambda.block(0, place.first, place.size, place.size);
+    if (place.size == 1) {
+      X += Z * (N(0, place.first) - W.col(0).head(n).dot(X.col(0)));
+      continue;
+    }
+    const ComplexMatrix L = pairs.block(pairs.Lambda, place);
+    const ComplexMatrix XL = X * L + Z * dL;
+    const ComplexMatrix S =
+        pairs.block(N, place) - W.topRows(n).adjoint() * X - W.bottomRows(n).adjoint() * XL;
+    X += Z * S;
+    dL += L * S - S * L;
+  }
+}
+
+double ModalBasis::sensitivity(const PairSet::Place& place) const {
+  double square = 0.0;
+  for (Eigen::Index i = 0; i < place.size; ++i) {
+    const Eigen::Index row = real_row_[static_cast<std::size_t>(place.first + i)];
+    square += place.is_real ? left_.row(row).squaredNorm()
+                            : 0.25 * (left_.row(row).squaredNorm() + left_.row(row + 1).squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,102 @@
+// The linearized equations of an invariant pair, one bordered system per column of its Schur form.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/modes/invariant_pair.hpp"
+
+namespace eigentrail {
+
+PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexMatrix& Z,
+                                     const ComplexMatrix& Lambda, const ComplexMatrix& W) {
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  ComplexMatrix T = Lambda;
+  ComplexMatrix ZU = Z;
+  ComplexMatrix WU = W;
+  if (k > 1) {
+    const Eigen::ComplexSchur<ComplexMatrix> schur(Lambda);
+    T = schur.matrixT().triangularView<Eigen::Upper>();
+    ZU = Z * schur.matrixU();
+    WU = W * schur.matrixU();
+    coupling_ = {pencil.M, pencil.C, schur.matrixU(), T, T * T, ZU, WU.bottomRows(n)};
+  }
+  const ComplexMatrix MZ = multiply(pencil.M, ZU);
+  const ComplexMatrix CZ = multiply(pencil.C, ZU);
+  const ComplexMatrix WZ = WU.bottomRows(n).adjoint() * ZU;
+  // The border gets the size of the terms of P, not of their sum, which vanishes at an eigenvalue when n = 1.
+  const double terms = pencil.magnitude(T.diagonal().cwiseAbs().maxCoeff());
+  // Where every term vanishes (a zero eigenvalue without stiffness) the matrices themselves give the scale.
+  const double whole = pencil.norm_M + pencil.norm_C + pencil.norm_K;
+  const double size = std::max((terms > 0.0 ? terms : whole) / std::sqrt(static_cast<double>(n)), 1e-300);
+  const double slope = (2.0 * MZ * T + CZ).norm();
+  slope_scale_ = slope > 0.0 ? size / slope : size;
+  border_scale_ = size;
+  columns_.reserve(static_cast<std::size_t>(k));
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Complex t = T(j, j);
+    ComplexMatrix B(n + k, n + k);
+    B.topLeftCorner(n, n) = pencil.matrix(t);
+    B.topRightCorner(n, k) = slope_scale_ * (MZ * (T + t * ComplexMatrix::Identity(k, k)) + CZ);
+    B.bottomLeftCorner(k, n) = border_scale_ * (WU.topRows(n).adjoint() + t * WU.bottomRows(n).adjoint());
+    B.bottomRightCorner(k, k) = border_scale_ * slope_scale_ * WZ;
+    columns_.emplace_back(std::move(B));
+  }
+}
+
+void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
+                              ComplexMatrix& dLambda) const {
+  if (coupling_) return solve_block(R, N, dZ, dLambda);
+  const Eigen::Index n = R.rows();
+  ComplexVector b(n + 1);
+  b.head(n) = R.col(0);
+  b[n] = border_scale_ * N(0, 0);
+  columns_.front().solve_in_place(b);
+  dZ = b.head(n);
+  dLambda.resize(1, 1);
+  dLambda(0, 0) = slope_scale_ * b[n];
+}
+
+void PairFactorization::solve_block(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
+                                    ComplexMatrix& dLambda) const {
+  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
+  const Eigen::Index n = R.rows();
+  const Eigen::Index k = R.cols();
+  const ComplexMatrix right = R * U;
+  const ComplexMatrix unit = U.adjoint() * N * U;
+  ComplexMatrix X(n, k), Y(k, k);
+  ComplexVector b(n + k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    b.head(n) = right.col(j);
+    b.tail(k) = unit.col(j);
+    if (j > 0) {
+      // What the columns before contribute to this one through the triangle of T.
+      const auto t = T.col(j).head(j);
+      const ComplexVector Xt = X.leftCols(j) * t;
+      b.head(n) -= multiply(M, X.leftCols(j) * T2.col(j).head(j) + Z * (Y.leftCols(j) * t)) + multiply(C, Xt);
+      b.tail(k) -= W1.adjoint() * Xt;
+    }
+    b.tail(k) *= border_scale_;
+    columns_[static_cast<std::size_t>(j)].solve_in_place(b);
+    X.col(j) = b.head(n);
+    Y.col(j) = slope_scale_ * b.tail(k);
+  }
+  dZ = X * U.adjoint();
+  dLambda = U * Y * U.adjoint();
+}
+
+double PairFactorization::sensitivity() const {
+  const auto k = static_cast<Eigen::Index>(columns_.size());
+  const Eigen::Index n = columns_.front().size() - k;
+  double square = 0.0;
+  for (const ComplexLu& lu : columns_) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      ComplexVector y = ComplexVector::Unit(n + k, n + i);
+      lu.solve_adjoint_in_place(y);
+      square += y.head(n).squaredNorm();
+    }
+  }
+  return slope_scale_ * std::sqrt(square);
+}
+
+}  // namespace eigentrail

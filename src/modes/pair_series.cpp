@@ -1,0 +1,243 @@
+// Power series of invariant pairs along the path.
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/modes/invariant_pair.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int max_refinements = 40;
+constexpr double stagnation = 1e-11;
+constexpr double rounding = 1e-15;
+
+/// Corrects an approximate solution until its corrections stop shrinking or what is left of the error is
+/// below `accuracy`; `correct` returns the size of one correction relative to the solution.
+template <class Correct>
+void refine(double accuracy, Correct&& correct) {
+  double last = INFINITY;
+  for (int i = 0; i < max_refinements; ++i) {
+    const double size = correct();
+    // The first solution is a correction of relative size one, and with factors from a distant prediction the
+    // next may not be much smaller: corrections that do not halve end the refinement only at the level of
+    // rounding.
+    if (!(size > rounding) || (size > 0.5 * last && size < stagnation)) return;
+    // Every correction leaves an error that is smaller by about the same factor.
+    if (std::isfinite(last) && size < 0.1 * last && size * size < accuracy * last) return;
+    last = size;
+  }
+}
+
+void make_real(ComplexMatrix& Z) {
+  Z.imag().setZero();
+}
+
+double size_of(const ComplexMatrix& Lambda) {
+  const double size = Lambda.norm();
+  return size > 0.0 ? size : 1.0;
+}
+
+/// Coefficients of products of matrix series, filled order by order.
+class SeriesEquations {
+ public:
+  SeriesEquations(const ReducedPencil& pencil, const InvariantPair& pair, int order)
+      : M_(pair.chart == Chart::finite ? pencil.M : pencil.K),
+        C_(pencil.C),
+        K_(pair.chart == Chart::finite ? pencil.K : pencil.M),
+        W0_(pair.W.topRows(pair.Z.rows())),
+        W1_(pair.W.bottomRows(pair.Z.rows())) {
+    const ComplexMatrix none_Z = ComplexMatrix::Zero(pair.Z.rows(), pair.Z.cols());
+    const ComplexMatrix none_L = ComplexMatrix::Zero(pair.size(), pair.size());
+    const auto count = static_cast<std::size_t>(order) + 1;
+    Z.assign(count, none_Z);
+    Lambda.assign(count, none_L);
+    MZ_.assign(count, none_Z);
+    CZ_.assign(count, none_Z);
+    Lambda2_.assign(count, none_L);
+    Z[0] = pair.Z;
+    Lambda[0] = pair.Lambda;
+    update(0);
+  }
+
+  /// Coefficient j of the residual and of the normalization with Z_j = Lambda_j = 0: the right side,
+  /// negative.
+  void known_terms(int j, ComplexMatrix& residual, ComplexMatrix& defect) const {
+    residual = product(K_, j);
+    defect = ComplexMatrix::Zero(Lambda[0].rows(), Lambda[0].cols());
+    ComplexMatrix square = defect;
+    for (int i = 1; i < j; ++i) square += Lambda[at(i)] * Lambda[at(j - i)];
+    residual += product(M_, j) * Lambda2_[0] + product(C_, j) * Lambda[0] + MZ_[0] * square;
+    for (int i = 1; i < j; ++i) {
+      residual += MZ_[at(j - i)] * Lambda2_[at(i)] + CZ_[at(j - i)] * Lambda[at(i)];
+      defect += W1_.adjoint() * (Z[at(i)] * Lambda[at(j - i)]);
+    }
+  }
+
+  /// What Z_j and Lambda_j add to them.
+  void unknown_terms(int j, ComplexMatrix& residual, ComplexMatrix& defect) const {
+    const ComplexMatrix& X = Z[at(j)];
+    const ComplexMatrix& Y = Lambda[at(j)];
+    residual += (multiply(M_[0], X) * Lambda[0] + multiply(C_[0], X)) * Lambda[0] + multiply(K_[0], X) +
+                MZ_[0] * (Lambda[0] * Y + Y * Lambda[0]) + CZ_[0] * Y;
+    defect += W0_.adjoint() * X + W1_.adjoint() * (X * Lambda[0] + Z[0] * Y);
+  }
+
+  /// Takes the coefficients j of Z and Lambda into the products.
+  void update(int j) {
+    MZ_[at(j)] = product(M_, j) + multiply(M_[0], Z[at(j)]);
+    CZ_[at(j)] = product(C_, j) + multiply(C_[0], Z[at(j)]);
+    for (int i = 0; i <= j; ++i) Lambda2_[at(j)] += Lambda[at(i)] * Lambda[at(j - i)];
+  }
+
+  std::vector<ComplexMatrix> Z, Lambda;
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
+  ComplexMatrix product(const MatrixSeries& B, int j) const {
+    ComplexMatrix sum = ComplexMatrix::Zero(Z[0].rows(), Z[0].cols());
+    for (int i = 1; i <= j && i < static_cast<int>(B.size()); ++i) sum += multiply(B[at(i)], Z[at(j - i)]);
+    return sum;
+  }
+
+  const MatrixSeries &M_, &C_, &K_;
+  ComplexMatrix W0_, W1_;
+  std::vector<ComplexMatrix> MZ_, CZ_, Lambda2_;
+};
+
+/// The same of a single mode, of which every product is a vector.
+class ModeEquations {
+ public:
+  ComplexMatrix Z;   ///< n x (order + 1)
+  ComplexVector mu;  ///< order + 1
+
+  ModeEquations(const ReducedPencil& pencil, const InvariantPair& mode, int order)
+      : Z(ComplexMatrix::Zero(mode.Z.rows(), order + 1)),
+        mu(ComplexVector::Zero(order + 1)),
+        M_(mode.chart == Chart::finite ? pencil.M : pencil.K),
+        C_(pencil.C),
+        K_(mode.chart == Chart::finite ? pencil.K : pencil.M),
+        undamped_(std::all_of(C_.begin(), C_.end(), [](const Matrix& C) { return C.isZero(0.0); })),
+        P_(PencilAtPoint(pencil, mode.chart).matrix(mode.eigenvalue())),
+        W0_(mode.W.topRows(mode.Z.rows())),
+        MZ_(Z),
+        CZ_(Z),
+        square_(mu) {
+    Z.col(0) = mode.Z;
+    mu[0] = mode.eigenvalue();
+    update(0);
+    slope_ = 2.0 * mu[0] * MZ_.col(0) + CZ_.col(0);
+  }
+
+  /// Coefficient j of the residual with Z_j = mu_j = 0.
+  ComplexVector known_terms(Eigen::Index j) {
+    MZ_.col(j) = product(M_, j);
+    if (!undamped_) CZ_.col(j) = product(C_, j);
+    Complex square = 0.0;
+    for (Eigen::Index i = 1; i < j; ++i) square += mu[i] * mu[j - i];
+    ComplexVector residual =
+        product(K_, j) + square_[0] * MZ_.col(j) + mu[0] * CZ_.col(j) + square * MZ_.col(0);
+    for (Eigen::Index i = 1; i < j; ++i) residual += square_[i] * MZ_.col(j - i) + mu[i] * CZ_.col(j - i);
+    return residual;
+  }
+
+  /// What Z_j and mu_j add to it and to the normalization.
+  void unknown_terms(Eigen::Index j, ComplexMatrix& residual, ComplexMatrix& defect) const {
+    residual.noalias() += P_ * Z.col(j);
+    residual += mu[j] * slope_;
+    defect(0, 0) = W0_.dot(Z.col(j));
+  }
+
+  /// Takes the coefficients j into the products, after known_terms(j).
+  void update(Eigen::Index j) {
+    MZ_.col(j) += multiply(M_[0], Z.col(j));
+    if (!undamped_) CZ_.col(j) += multiply(C_[0], Z.col(j));
+    for (Eigen::Index i = 0; i <= j; ++i) square_[j] += mu[i] * mu[j - i];
+  }
+
+ private:
+  /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
+  ComplexVector product(const MatrixSeries& B, Eigen::Index j) const {
+    ComplexVector sum = ComplexVector::Zero(Z.rows());
+    for (Eigen::Index i = 1; i <= j && i < static_cast<Eigen::Index>(B.size()); ++i)
+      sum += multiply(B[static_cast<std::size_t>(i)], Z.col(j - i));
+    return sum;
+  }
+
+  const MatrixSeries &M_, &C_, &K_;
+  bool undamped_;
+  ComplexMatrix P_;  ///< the pencil at the eigenvalue
+  ComplexVector W0_, slope_;
+
+  ComplexMatrix MZ_, CZ_;
+  ComplexVector square_;
+};
+
+PairSeries differentiate_mode(const ReducedPencil& pencil, const InvariantPair& mode,
+                              const PairFactorization& factors, int order, ModeCounts& counts,
+                              double accuracy) {
+  ModeEquations series(pencil, mode, order);
+  const double size = size_of(mode.Lambda);
+  ComplexMatrix residual, dZ, dmu, defect = ComplexMatrix::Zero(1, 1);
+  for (Eigen::Index j = 1; j <= order; ++j) {
+    const ComplexVector known = series.known_terms(j);
+    refine(accuracy, [&] {
+      residual = known;
+      series.unknown_terms(j, residual, defect);
+      factors.solve(-residual, -defect, dZ, dmu);
+      ++counts.solves;
+      if (mode.is_real) {
+        make_real(dZ);
+        make_real(dmu);
+      }
+      series.Z.col(j) += dZ;
+      series.mu[j] += dmu(0, 0);
+      const double total = series.Z.col(j).norm() * size + std::abs(series.mu[j]);
+      return total > 0.0 ? (dZ.norm() * size + std::abs(dmu(0, 0))) / total : 0.0;
+    });
+    series.update(j);
+  }
+  PairSeries result;
+  for (Eigen::Index j = 0; j <= order; ++j) {
+    result.Z.emplace_back(series.Z.col(j));
+    result.Lambda.emplace_back(ComplexMatrix::Constant(1, 1, series.mu[j]));
+  }
+  return result;
+}
+
+}  // namespace
+
+PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& pair, int order,
+                              ModeCounts& counts, double accuracy) {
+  std::optional<PairFactorization> own;
+  const PairFactorization& factors = factors_of(PencilAtPoint(pencil, pair.chart), pair, own);
+  if (own) counts.factorizations += static_cast<std::uint64_t>(pair.size());
+  if (pair.size() == 1) return differentiate_mode(pencil, pair, factors, order, counts, accuracy);
+  SeriesEquations series(pencil, pair, order);
+  const double size = size_of(pair.Lambda);
+  ComplexMatrix known_residual, known_defect, dZ, dLambda;
+  for (int j = 1; j <= order; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    series.known_terms(j, known_residual, known_defect);
+    refine(0.0, [&] {
+      ComplexMatrix residual = known_residual;
+      ComplexMatrix defect = known_defect;
+      series.unknown_terms(j, residual, defect);
+      factors.solve(-residual, -defect, dZ, dLambda);
+      counts.solves += static_cast<std::uint64_t>(pair.size());
+      if (pair.is_real) {
+        make_real(dZ);
+        make_real(dLambda);
+      }
+      series.Z[at] += dZ;
+      series.Lambda[at] += dLambda;
+      const double total = series.Z[at].norm() * size + series.Lambda[at].norm();
+      return total > 0.0 ? (dZ.norm() * size + dLambda.norm()) / total : 0.0;
+    });
+    series.update(j);
+  }
+  return {std::move(series.Z), std::move(series.Lambda)};
+}
+
+}  // namespace eigentrail
