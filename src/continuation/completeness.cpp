@@ -1,9 +1,12 @@
 #include "continuation/completeness.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/modes/matching.hpp"
 
@@ -13,6 +16,9 @@ namespace {
 constexpr double checksum_tolerance = 1e-7;  ///< of the sum of magnitudes
 constexpr double singular = 1e-9;            ///< reciprocal condition below which M or K is left out
 constexpr double same = 1e-4;                ///< relative distance of a track from its eigenvalue
+constexpr double largest_backward_error = 1e-8;
+constexpr double shared_distance = 1e-8;  ///< relative, of eigenvalues that two tracks have in common
+constexpr double shared_angle = 0.03;     ///< of a vector with the space of the other track
 
 /// All eigenvalues that the tracks stand for, conjugates included.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
@@ -30,7 +36,7 @@ std::vector<Complex> all_eigenvalues(const PathNode& node) {
 bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::vector<Complex>& all,
                 Chart chart, double reference) {
   const Eigen::PartialPivLU<Matrix> lu(M);
-  if (!(lu.rcond() > singular)) return true;
+  if (!(reciprocal_condition(lu) > singular)) return true;
   Complex sum = 0.0;
   Complex squares = 0.0;
   double magnitude = reference;
@@ -61,8 +67,7 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem) {
                     problem.reference(Chart::reciprocal));
 }
 
-std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
-                                        bool& doubled) {
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref) {
   std::vector<Complex> tracked;
   for (const Track& track : node.tracks) {
     for (Eigen::Index i = 0; i < track.size(); ++i) {
@@ -83,21 +88,53 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
     }
   }
   std::vector<bool> taken(spectrum.modes.size(), false);
-  doubled = false;
   const std::vector<int> assignment = optimal_assignment(cost);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const int j = assignment[i];
-    if (j >= static_cast<int>(taken.size()) || cost(static_cast<Eigen::Index>(i), j) > same) {
-      doubled = true;
-    } else {
+    if (j < static_cast<int>(taken.size()) && cost(static_cast<Eigen::Index>(i), j) <= same)
       taken[static_cast<std::size_t>(j)] = true;
-    }
   }
   std::vector<StartingMode> missing;
   for (std::size_t j = 0; j < taken.size(); ++j) {
     if (!taken[j]) missing.push_back(spectrum.modes[j]);
   }
   return missing;
+}
+
+namespace {
+
+/// Vector of a root of a track, of unit length.
+ComplexVector vector_of(const Track& track, Eigen::Index root) {
+  if (track.size() == 1) return track.pair.Z.col(0).normalized();
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
+  Eigen::Index nearest = 0;
+  (solver.eigenvalues().array() - track.roots[root]).abs().minCoeff(&nearest);
+  return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
+}
+
+bool share_eigenpair(const Track& a, const Track& b, double reference) {
+  if (a.pair.chart != b.pair.chart) return false;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    const double scale = std::max(std::abs(a.roots[i]), reference);
+    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > shared_distance * scale) continue;
+    const ComplexVector z = vector_of(a, i);
+    const ComplexVector outside = z - b.pair.Z * b.pair.Z.colPivHouseholderQr().solve(z);
+    if (outside.norm() < shared_angle) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& track = node.tracks[i];
+    if (track.pair.backward_error > largest_backward_error) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (share_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart))) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace eigentrail

@@ -12,9 +12,12 @@ namespace eigentrail {
 /// modes, not exchanged ones. Cost O(n^3), real.
 bool checksum_holds(const PathNode& node, const PathProblem& problem);
 
-/// What a full spectrum has that the tracks lack: modes to be added. `doubled` receives whether two tracks
-/// share one eigenvalue.
-std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
-                                        bool& doubled);
+/// What a full spectrum has that the tracks lack: modes to be added.
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref);
+
+/// Whether a track has left the spectrum, by its backward error, or two have the same eigenpair: eigenvalues
+/// within 1e-8, and a vector of one in the space of the other. Cost O(n) for every two tracks with such
+/// eigenvalues.
+bool has_doubtful_track(const PathNode& node, const PathProblem& problem);
 
 }  // namespace eigentrail

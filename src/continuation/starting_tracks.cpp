@@ -59,7 +59,9 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
     group.roots = Eigen::Map<ComplexVector>(roots.data(), static_cast<Eigen::Index>(roots.size()));
     if (roots.size() == 1) {
       group.pair.is_real = roots[0].imag() == 0.0;
-      group.pair.Z = modes[members.front()].z;
+      const StartingMode& mode = modes[members.front()];
+      group.pair.Z =
+          mode.z.size() > 0 ? mode.z : eigenvector_near(pencil.M[0], pencil.C[0], pencil.K[0], mode.s, s_ref);
       group.pair.Lambda = group.roots;
       if (group.pair.is_real) group.pair.Z.imag().setZero();
     } else {

@@ -269,7 +269,6 @@ class Tracer {
   std::vector<Criterion> criteria_;
   std::map<std::pair<int, std::size_t>, Watch> watches_;  ///< per mode and criterion
   std::vector<Event> no_veerings_;  ///< looked at, and none: too wide, or nothing to be told
-  double next_checkpoint_ = 0.0;
   int merges_at_node_ = 0;
   double largest_position_ = 0.0;  ///< |x| on the path so far
   double turned_step_ =

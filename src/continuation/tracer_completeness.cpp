@@ -10,31 +10,26 @@ namespace eigentrail {
 namespace {
 
 constexpr std::size_t most_notes = 20;
-constexpr int checkpoints = 8;  ///< full spectra on the range when not all modes are followed
 
 }  // namespace
 
-/// Checks that no mode is lost or followed twice, and adds what is missing at the point.
+/// Checks that no mode is lost or followed twice, and adds what is missing at the point where all are
+/// followed.
 void Tracer::complete(PathNode& node) {
   const StageTimer timer(result_.counts.matching_seconds);
   // Where eigenvalues meet they are known to half their digits; the next point is looked at again.
   const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
                                    [](const Track& track) { return track.departure.has_value(); });
   if (meeting) return;
-  const double travelled = std::abs(node.p - options_.from) / range();
-  const bool at_checkpoint = travelled >= next_checkpoint_;
-  if (follows_all_ ? checksum_holds(node, problem_) : !at_checkpoint) return;
-  if (at_checkpoint) next_checkpoint_ = travelled + 1.0 / checkpoints;
-  const Spectrum spectrum = compute_spectrum(node.pencil.M[0], node.pencil.C[0], node.pencil.K[0]);
-  ++result_.counts.spectra;
-  if (spectrum.status != SpectrumStatus::complete) return;
-  bool doubled = false;
-  std::vector<StartingMode> missing = missing_modes(node, spectrum, problem_.s_ref, doubled);
-  if (doubled && result_.notes.size() < most_notes) {
+  if (has_doubtful_track(node, problem_) && result_.notes.size() < most_notes) {
     result_.notes.push_back("at " + at_parameter(node.p) +
                             " two tracks share an eigenvalue, or one has left the spectrum; see verify");
   }
-  if (!follows_all_ || missing.empty()) return;
+  if (!follows_all_ || checksum_holds(node, problem_)) return;
+  const Spectrum spectrum = compute_spectrum(node.pencil.M[0], node.pencil.C[0], node.pencil.K[0]);
+  ++result_.counts.spectra;
+  if (spectrum.status != SpectrumStatus::complete) return;
+  std::vector<StartingMode> missing = missing_modes(node, spectrum, problem_.s_ref);
   // Eigenvalues on their way in from infinity are added when they have arrived.
   std::erase_if(missing, [&](const StartingMode& mode) { return std::abs(mode.s) > 0.1 * problem_.s_max; });
   const auto groups = starting_groups(node.pencil, missing, static_cast<int>(missing.size()), problem_.s_ref);

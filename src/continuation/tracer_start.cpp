@@ -11,6 +11,7 @@ namespace eigentrail {
 namespace {
 
 constexpr double reference_share = 1e-3;  ///< s_ref / median |s| at the start
+constexpr double few_share = 4.0;         ///< freedoms per mode above which modes are few
 constexpr double infinity_share = 1e4;    ///< s_max / largest |s| at the start
 /// A start that moves by more than this, relatively, was no eigenvalue of its own.
 constexpr double largest_drift = 1e-2;
@@ -42,7 +43,10 @@ bool Tracer::start() {
 /// infinite.
 std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPencil& pencil) {
   const StageTimer timer(result_.counts.modes_seconds);
-  Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  // Vectors of a few modes are cheaper one by one.
+  const bool few = options_.modes && few_share * *options_.modes < static_cast<double>(pencil.size());
+  Spectrum spectrum = few ? compute_eigenvalues(pencil.M[0], pencil.C[0], pencil.K[0])
+                          : compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
   ++result_.counts.spectra;
   result_.n_infinite = spectrum.n_infinite;
   result_.n_available = static_cast<int>(spectrum.modes.size());

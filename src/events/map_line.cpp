@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/reciprocal_condition.hpp"
 #include "eigentrail/events/stability_map.hpp"
 
 namespace eigentrail {
@@ -41,7 +42,7 @@ EigenvalueCount eigenvalues_on_step(const RecordedPath& path, std::size_t step, 
 int expected_eigenvalues(const ReducedPencil& pencil) {
   constexpr double singular = 1e-12;
   const Matrix& M = pencil.M[0];
-  return M.partialPivLu().rcond() > singular ? 2 * static_cast<int>(M.rows()) : 0;
+  return reciprocal_condition(M.partialPivLu()) > singular ? 2 * static_cast<int>(M.rows()) : 0;
 }
 
 /// Whether steps have as many eigenvalues as their ends must have (`expected` per node), or, where that is

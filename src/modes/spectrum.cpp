@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/lapack.hpp"
+#include "core/reciprocal_condition.hpp"
 
 namespace eigentrail {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 /// |beta| below this fraction of |alpha| is an infinite eigenvalue of the scaled pencil.
 constexpr double infinite = 1e-13;
 constexpr double singular_pivot = 1e-15;
+/// Reciprocal condition of M above which its inverse costs the eigenvalues no digits that matter: they are
+/// corrected.
+constexpr double well_conditioned = 1e-4;
 
 struct Scaling {
   double gamma = 1.0;  ///< s = gamma mu
@@ -78,12 +82,69 @@ void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Mat
   b.bottomRightCorner(n, n) = M;
 }
 
-}  // namespace
+/// All eigenvalues mu = alpha / beta of a scaled pencil as LAPACK has them, conjugates next to each other.
+struct Homogeneous {
+  explicit Homogeneous(Eigen::Index count)
+      : alpha_real(count), alpha_imag(count), beta(Vector::Ones(count)) {}
 
-Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
-  const Eigen::Index n = M.rows();
+  bool converged = false;
+  Vector alpha_real, alpha_imag, beta;
+  Matrix vectors = {};  ///< in LAPACK's real storage; empty: none
+};
+
+Homogeneous by_qz(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
+  Matrix a, b;
+  linearize(M, C, K, a, b);
+  Homogeneous all(a.rows());
+  if (with_vectors) all.vectors.resize(a.rows(), a.rows());
+  const auto size = static_cast<lapack_int>(a.rows());
+  const lapack_int info =
+      LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', with_vectors ? 'V' : 'N', size, a.data(), size, b.data(), size,
+                    all.alpha_real.data(), all.alpha_imag.data(), all.beta.data(), nullptr, 1,
+                    with_vectors ? all.vectors.data() : nullptr, size);
+  all.converged = info == 0;
+  return all;
+}
+
+/// Eigenvalues alone, by QR of the companion form with M inverted.
+Homogeneous by_qr(const Eigen::PartialPivLU<Matrix>& M, const Matrix& C, const Matrix& K) {
+  const Eigen::Index n = C.rows();
+  Matrix a = Matrix::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -M.solve(K);
+  a.bottomRightCorner(n, n) = -M.solve(C);
+  Homogeneous all(2 * n);
+  const auto size = static_cast<lapack_int>(2 * n);
+  all.converged = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, all.alpha_real.data(),
+                                all.alpha_imag.data(), nullptr, 1, nullptr, 1) == 0;
+  return all;
+}
+
+Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const Eigen::PartialPivLU<Matrix> lu(M);
+  return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, C, K) : by_qz(M, C, K, false);
+}
+
+/// The finite modes by ascending |s|.
+void take_modes(const Homogeneous& all, Spectrum& spectrum) {
+  for (Eigen::Index j = 0; j < all.beta.size(); ++j) {
+    const Complex alpha(all.alpha_real[j], all.alpha_imag[j]);
+    if (std::abs(all.beta[j]) <= infinite * std::abs(alpha)) {
+      ++spectrum.n_infinite;
+    } else if (alpha.imag() >= 0.0) {
+      spectrum.modes.push_back({spectrum.scale * alpha / all.beta[j], {}});
+      if (all.vectors.size() > 0) spectrum.modes.back().z = right_vector(all.vectors, j, alpha.imag() > 0.0);
+    }
+  }
+  std::sort(spectrum.modes.begin(), spectrum.modes.end(), [](const StartingMode& p, const StartingMode& q) {
+    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
+           std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
+  });
+}
+
+Spectrum solve(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
   Spectrum spectrum;
-  if (n == 0) {
+  if (M.rows() == 0) {
     spectrum.status = SpectrumStatus::complete;
     return spectrum;
   }
@@ -96,30 +157,38 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
     spectrum.status = SpectrumStatus::singular_pencil;
     return spectrum;
   }
-  Matrix a, b;
-  linearize(scaled_M, scaled_C, scaled_K, a, b);
-  Vector alpha_real(2 * n), alpha_imag(2 * n), beta(2 * n);
-  Matrix vectors(2 * n, 2 * n);
-  const auto size = static_cast<lapack_int>(2 * n);
-  const lapack_int info =
-      LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, b.data(), size, alpha_real.data(),
-                    alpha_imag.data(), beta.data(), nullptr, 1, vectors.data(), size);
-  if (info != 0) return spectrum;
-  for (Eigen::Index j = 0; j < 2 * n; ++j) {
-    const Complex alpha(alpha_real[j], alpha_imag[j]);
-    if (std::abs(beta[j]) <= infinite * std::abs(alpha)) {
-      ++spectrum.n_infinite;
-    } else if (alpha_imag[j] >= 0.0) {
-      spectrum.modes.push_back(
-          {scaling.gamma * alpha / beta[j], right_vector(vectors, j, alpha_imag[j] > 0.0)});
-    }
-  }
-  std::sort(spectrum.modes.begin(), spectrum.modes.end(), [](const StartingMode& p, const StartingMode& q) {
-    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
-           std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
-  });
+  const Homogeneous all =
+      with_vectors ? by_qz(scaled_M, scaled_C, scaled_K, true) : eigenvalues_of(scaled_M, scaled_C, scaled_K);
+  if (!all.converged) return spectrum;
+  take_modes(all, spectrum);
   spectrum.status = SpectrumStatus::complete;
   return spectrum;
+}
+
+}  // namespace
+
+Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
+  return solve(M, C, K, true);
+}
+
+Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) {
+  return solve(M, C, K, false);
+}
+
+ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,
+                               double reference) {
+  constexpr int iterations = 4;
+  constexpr double offset = 1e-9;  // of |s|: the shift must not hit it
+  const Complex sigma = s + offset * std::max(std::abs(s), reference);
+  const Eigen::PartialPivLU<ComplexMatrix> lu((sigma * sigma) * M.cast<Complex>() +
+                                              sigma * C.cast<Complex>() + K.cast<Complex>());
+  ComplexVector z(M.rows());
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = std::sin(1.0 + 1.7 * static_cast<double>(i));
+  for (int i = 0; i < iterations; ++i) {
+    const ComplexVector slope = 2.0 * sigma * (M * z) + C * z;
+    z = lu.solve(slope).normalized();
+  }
+  return z;
 }
 
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,

@@ -44,6 +44,73 @@ TEST(Spectrum, VectorsSatisfyThePencil) {
   }
 }
 
+/// Eigenvalues with and without vectors, by whichever way they are computed.
+double difference_without_vectors(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const Spectrum with = compute_spectrum(M, C, K);
+  const Spectrum without = compute_eigenvalues(M, C, K);
+  EXPECT_EQ(without.status, with.status);
+  EXPECT_EQ(without.n_infinite, with.n_infinite);
+  EXPECT_EQ(without.modes.size(), with.modes.size());
+  for (const StartingMode& mode : without.modes) EXPECT_EQ(mode.z.size(), 0);
+  return matched_distance(with_conjugates(without), with_conjugates(with));
+}
+
+TEST(Eigenvalues, AreThoseOfTheSpectrum) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const ReducedPencil pencil = at(random_family(7, seed), 0.0);
+    EXPECT_LT(difference_without_vectors(pencil.M[0], pencil.C[0], pencil.K[0]), 1e-11);
+  }
+}
+
+TEST(Eigenvalues, AreThoseOfTheSpectrumWhereTheMassHasNoInverse) {
+  const ReducedPencil pencil = at(random_family(7, 2), 0.0);
+  Matrix M = pencil.M[0];
+  M.row(3).setZero();
+  M.col(3).setZero();
+  EXPECT_GT(compute_eigenvalues(M, pencil.C[0], pencil.K[0]).n_infinite, 0);
+  EXPECT_LT(difference_without_vectors(M, pencil.C[0], pencil.K[0]), 1e-10);
+  M(3, 3) = 1e-9;
+  EXPECT_EQ(compute_eigenvalues(M, pencil.C[0], pencil.K[0]).n_infinite, 0);
+}
+
+TEST(Eigenvalues, SingularPencilIsTold) {
+  Matrix K = Matrix::Identity(3, 3);
+  K(2, 2) = 0.0;
+  EXPECT_EQ(compute_eigenvalues(K, Matrix::Zero(3, 3), K).status, SpectrumStatus::singular_pencil);
+}
+
+TEST(EigenvectorNear, SatisfiesThePencilFromAnEigenvalueAlone) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const ReducedPencil pencil = at(random_family(9, seed), 0.0);
+    for (const StartingMode& mode : compute_eigenvalues(pencil.M[0], pencil.C[0], pencil.K[0]).modes) {
+      const ComplexVector z = eigenvector_near(pencil.M[0], pencil.C[0], pencil.K[0], mode.s, 1e-3);
+      const ComplexMatrix P = mode.s * mode.s * pencil.M[0].cast<Complex>() +
+                              mode.s * pencil.C[0].cast<Complex>() + pencil.K[0].cast<Complex>();
+      EXPECT_LT((P * z).norm(), 1e-8 * P.norm());
+      EXPECT_NEAR(z.norm(), 1.0, 1e-14);
+    }
+  }
+}
+
+TEST(EigenvectorNear, IsRealForRealEigenvalues) {
+  // s = -1 and s = -2 of the first freedom, beside a pair.
+  const Matrix M = Matrix::Identity(2, 2);
+  const Matrix C{{3.0, 0.0}, {0.0, 0.1}};
+  const Matrix K{{2.0, 0.0}, {0.3, 5.0}};
+  const ComplexVector z = eigenvector_near(M, C, K, -2.0, 1e-3);
+  EXPECT_TRUE(z.imag().isZero(0.0));
+  EXPECT_LT((4.0 * M * z - 2.0 * C * z + K * z).norm(), 1e-7);
+}
+
+TEST(EigenvectorNear, FindsTheVectorOfAVanishingEigenvalue) {
+  // A freedom with damping and no stiffness: s = 0 exactly.
+  const Matrix M = Matrix::Identity(2, 2);
+  const Matrix C{{0.5, 0.0}, {0.0, 0.1}};
+  const Matrix K{{4.0, -4.0}, {-4.0, 4.0}};
+  const ComplexVector z = eigenvector_near(M, C, K, 0.0, 1e-3);
+  EXPECT_LT((K * z).norm(), 1e-10);
+}
+
 TEST(Spectrum, IsSortedByMagnitude) {
   const ReducedPencil pencil = at(random_family(9, 4), 0.0);
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);

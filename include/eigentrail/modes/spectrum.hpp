@@ -9,7 +9,7 @@ namespace eigentrail {
 
 struct StartingMode {
   Complex s;        ///< Im s >= 0; a complex pair is represented by this member
-  ComplexVector z;  ///< unit length
+  ComplexVector z;  ///< unit length; empty where eigenvalues alone were asked for
 };
 
 enum class SpectrumStatus { complete, singular_pencil, not_converged };
@@ -25,6 +25,14 @@ struct [[nodiscard]] Spectrum {
 /// matrices have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60
 /// (2n)^3.
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
+
+/// The same without vectors, which are more than half of the work.
+Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
+
+/// Vector of the eigenvalue nearest to s, of unit length, by inverse iteration with P(sigma)^-1 P'(sigma),
+/// sigma a little beside s: good enough for the corrector where the next eigenvalue is not nearer than 1e-6
+/// |s|. Real where s is. `scale` is that of the spectrum. Cost one LU of size n.
+ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double scale);
 
 /// The block of the k eigenvalues nearest to `centre`, by inverse iteration with k vectors on the companion
 /// form: reliable also where single vectors coincide. `is_real` asks for a real block; the centre is then

@@ -1,0 +1,66 @@
+#include "continuation/least_magnitude.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace eigentrail {
+namespace {
+
+constexpr std::size_t intervals = 8;
+constexpr double accuracy = 1e-5;  ///< of the step
+
+/// Squared magnitude of the eigenvalues, for comparison only.
+class Magnitude {
+ public:
+  explicit Magnitude(const ComplexMatrix& functions) : functions_(functions), value_(functions.rows()) {}
+
+  double operator()(double t) {
+    value_ = functions_.col(functions_.cols() - 1);
+    for (Eigen::Index k = functions_.cols() - 2; k >= 0; --k) value_ = value_ * t + functions_.col(k);
+    // The mean of |tau +- sqrt(delta)|^2.
+    if (value_.size() == 2) return std::norm(value_[0]) + std::abs(value_[1]);
+    return value_.squaredNorm();
+  }
+
+ private:
+  const ComplexMatrix& functions_;
+  ComplexVector value_;
+};
+
+struct Place {
+  double t = 0.0, magnitude = std::numeric_limits<double>::infinity();
+};
+
+/// Downhill from a place, with steps that halve.
+Place refine(Magnitude& magnitude, Place best) {
+  for (double reach = 0.5 / intervals; reach > accuracy; reach *= 0.5) {
+    for (const double t : {std::max(best.t - reach, 0.0), std::min(best.t + reach, 1.0)}) {
+      if (const double there = magnitude(t); there < best.magnitude) best = {t, there};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double place_of_least_magnitude(const ComplexMatrix& functions) {
+  Magnitude magnitude(functions);
+  std::array<Place, intervals + 1> samples;
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    const double t = static_cast<double>(i) / intervals;
+    samples[i] = {t, magnitude(t)};
+  }
+  Place least;
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    const bool falls_to_left = i > 0 && samples[i - 1].magnitude < samples[i].magnitude;
+    const bool falls_to_right = i < intervals && samples[i + 1].magnitude < samples[i].magnitude;
+    if (falls_to_left || falls_to_right) continue;
+    const Place place = refine(magnitude, samples[i]);
+    if (place.magnitude < least.magnitude) least = place;
+  }
+  return least.t;
+}
+
+}  // namespace eigentrail

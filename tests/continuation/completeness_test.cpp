@@ -1,0 +1,73 @@
+#include "continuation/completeness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "eigentrail/modes/regroup.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+Setting family(const std::string& stiffness) {
+  return make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\n"
+      "M = [ [[1, 0, 0], [0, 1, 0], [0, 0, 1]] ]\nK = [ " +
+      stiffness + ", [[1, 0, 0], [0, 2, 0], [0, 0, 3]] ]\n");
+}
+
+struct Tracked {
+  explicit Tracked(const std::string& stiffness) : setting(family(stiffness)), problem(setting.problem()) {
+    node = differentiate_point(problem, point_from_guess(problem, 0.0, counts), counts).value();
+  }
+  bool is_doubtful() const { return has_doubtful_track(node, problem); }
+
+  Setting setting;
+  PathProblem problem;
+  RunCounts counts;
+  PathNode node;
+};
+
+const std::string coupled = "[[4, 1, 0], [1, 6, 1], [0, 1, 9]]";
+
+TEST(DoubtfulTrack, ModesOfTheirOwnAreNot) {
+  EXPECT_FALSE(Tracked(coupled).is_doubtful());
+}
+
+TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
+  Tracked tracked(coupled);
+  // The same vector in another phase.
+  tracked.node.tracks.push_back(tracked.node.tracks[1]);
+  tracked.node.tracks.back().pair.Z *= Complex(0.6, 0.8);
+  EXPECT_TRUE(tracked.is_doubtful());
+}
+
+TEST(DoubtfulTrack, OneEigenvalueWithTwoVectorsIsNot) {
+  EXPECT_FALSE(Tracked("[[4, 0, 0], [0, 4, 0], [0, 0, 9]]").is_doubtful());
+}
+
+TEST(DoubtfulTrack, MemberOfABlockIs) {
+  Tracked tracked(coupled);
+  std::vector<Track>& tracks = tracked.node.tracks;
+  const InvariantPair both = join_pairs({&tracks[0].pair, &tracks[1].pair}, false);
+  InvariantPair block =
+      correct_pair(PencilAtPoint(tracked.node.pencil), both, tracked.problem.s_ref, {}, tracked.counts.modes);
+  ASSERT_EQ(block.status, PairStatus::converged);
+  const Track joined = differentiate_track(tracked.problem, tracked.node, std::move(block), tracked.counts);
+  const Track single = tracks[1];
+  tracks = {tracks[2], joined};
+  EXPECT_FALSE(tracked.is_doubtful());
+  // Whichever of the two comes first.
+  tracks = {joined, single};
+  EXPECT_TRUE(tracked.is_doubtful());
+  tracks = {single, joined};
+  EXPECT_TRUE(tracked.is_doubtful());
+}
+
+TEST(DoubtfulTrack, OneThatSolvesThePencilNoLongerIs) {
+  Tracked tracked(coupled);
+  tracked.node.tracks[2].pair.backward_error = 1e-7;
+  EXPECT_TRUE(tracked.is_doubtful());
+}
+
+}  // namespace
+}  // namespace eigentrail::test
