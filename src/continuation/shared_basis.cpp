@@ -1,6 +1,7 @@
 #include "continuation/shared_basis.hpp"
 
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 
@@ -13,10 +14,23 @@ std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<C
   return result;
 }
 
+void fix_length(const ComplexVector& w, std::vector<ComplexMatrix>& Z) {
+  const auto count = static_cast<Eigen::Index>(Z.size());
+  ComplexVector length(count);
+  for (Eigen::Index i = 0; i < count; ++i) length[i] = w.dot(Z[static_cast<std::size_t>(i)].col(0));
+  const ComplexVector S = reciprocal_series(length);
+  for (Eigen::Index j = count - 1; j >= 0; --j) {
+    ComplexMatrix& sum = Z[static_cast<std::size_t>(j)];
+    sum *= S[0];
+    for (Eigen::Index i = 0; i < j; ++i) sum += S[j - i] * Z[static_cast<std::size_t>(i)];
+  }
+}
+
 /// Z S and S^-1 Lambda S with S = (W0^H Z + W1^H Z Lambda)^-1.
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda) {
   const std::size_t count = Z.size();
   const Eigen::Index n = Z[0].rows();
+  if (Z[0].cols() == 1) return fix_length(W.col(0).head(n), Z);
   const std::vector<ComplexMatrix> ZL = multiply_series(Z, Lambda, count);
   std::vector<ComplexMatrix> N(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -13,6 +13,9 @@ std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<C
 /// Fixes the basis of a block's series by W0^H Z + W1^H Z Lambda = I.
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda);
 
+/// The same for the series of a single vector: z / (w^H z).
+void fix_length(const ComplexVector& w, std::vector<ComplexMatrix>& Z);
+
 /// The functions of a track on the step between two points, with all coefficients of its series; without
 /// modes.
 DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_t track);

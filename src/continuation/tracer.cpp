@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "continuation/continued_mode.hpp"
 #include "continuation/regrouping.hpp"
 #include "core/matrix_series.hpp"
 
@@ -15,6 +16,7 @@ constexpr double smallest_step = 1e-11;     ///< of the range
 constexpr double uncertified_step = 1e-6;   ///< of the range: shorter ones are taken without certificate
 constexpr double uncertified_error = 30.0;  ///< shortens a step without certificate as much as this error
 constexpr double series_share = 1e-5;       ///< accuracy of the coefficients of a series / tolerance
+constexpr double passing_share = 0.1;       ///< error of a mode that is not corrected / tolerance
 constexpr double large_block_step = 0.05;   ///< of the range: longest step with a block of three or more
 
 }  // namespace
@@ -26,6 +28,8 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
     problem_.parameters[model.description().parameters.index(name).value()] = value;
   problem_.order = options.order;
   problem_.basis = basis;
+  problem_.threads = options.threads;
+  problem_.corrector.passing_error = passing_share * options.tolerance;
   problem_.corrector.series_accuracy = std::max(series_share * options.tolerance, 1e-15);
   criteria_ = criteria_of(options.events);
   result_.counts.evaluations = model.new_counts();
@@ -102,7 +106,11 @@ bool Tracer::advance(StepControl& control) {
   if (bridge_branch_point(h, trouble ? nullptr : &*next)) return true;
   if (!trouble) trouble = judge(h, *next, error);
   if (trouble) {
-    if (remedy(trouble, h, next)) return true;
+    if (remedy(trouble, h, next)) {
+      tried_ = std::move(next);
+      tried_step_ = plane_ ? 0.0 : h;
+      return true;
+    }
     if (trouble.kind == Trouble::Kind::uncertified && length <= uncertified_below_) {
       trouble = {};  // taken as it is, and marked
     } else {
@@ -146,14 +154,34 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
   return prediction;
 }
 
+Prediction Tracer::predict_all(double h) {
+  Prediction prediction = predict(node_, h);
+  for (Track& track : node_.tracks) {
+    if (track.strand == 0) track.strand = ++strands_;
+  }
+  // Where all modes are corrected at once none of them is spared.
+  if (!problem_.all_at_once && !plane_ && last_step_ != 0.0) {
+    for (std::size_t i = 0; i < node_.tracks.size(); ++i)
+      prediction.continued.push_back(continue_mode(previous_, node_, i, last_step_, h));
+  }
+  if (!tried_ || tried_step_ != h) return prediction;
+  for (const Track& track : node_.tracks) {
+    const auto found = std::find_if(tried_->tracks.begin(), tried_->tracks.end(),
+                                    [&](const Track& other) { return other.strand == track.strand; });
+    prediction.ready.push_back(found == tried_->tracks.end() ? nullptr : &*found);
+  }
+  return prediction;
+}
+
 Tracer::Trouble Tracer::attempt(double h, std::optional<PathNode>& next) {
-  const PathPoint point = compute_point(problem_, predict(node_, h), node_.basis.T[0], result_.counts);
+  const PathPoint point = compute_point(problem_, predict_all(h), node_.basis.T[0], result_.counts);
   if (point.status == PointStatus::no_equilibrium)
     return {Trouble::Kind::no_equilibrium, -1, INFINITY, point.message};
   if (point.status == PointStatus::mode_lost)
     return {Trouble::Kind::mode_lost, point.lost_track, INFINITY, point.message};
   next = differentiate_point(problem_, point, result_.counts);
   if (!next) return {Trouble::Kind::mode_lost, -1, INFINITY, "a series is not finite"};
+  for (std::size_t i = 0; i < node_.tracks.size(); ++i) next->tracks[i].strand = node_.tracks[i].strand;
   label_arrival(h, *next);
   return {};
 }
@@ -179,6 +207,9 @@ bool Tracer::accept(double h, PathNode next, double next_step) {
   result_.regroupings.parted += static_cast<int>(next.tracks.size() - std::min(before, next.tracks.size()));
   if (next.tracks.size() == before) join_limiting_modes(h, next, next_step);
   longest_step_ = std::max(std::abs(h), 0.85 * longest_step_);
+  previous_ = std::move(node_);
+  last_step_ = plane_ ? 0.0 : h;
+  tried_.reset();
   node_ = std::move(next);
   merges_at_node_ = 0;
   bridges_tried_ = 0;

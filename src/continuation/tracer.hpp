@@ -54,6 +54,8 @@ class Tracer {
   void follow();
   bool advance(StepControl& control);
   Prediction predict(const PathNode& base, double h) const;
+  /// The same from the node, with what the last step and the last attempt tell.
+  Prediction predict_all(double h);
   /// Computes and differentiates the point at distance h; the tracks' eigenvalues have their modes.
   Trouble attempt(double h, std::optional<PathNode>& next);
   bool accept(double h, PathNode next, double next_step);
@@ -70,6 +72,7 @@ class Tracer {
   Trouble check_path(double h, const PathNode& next) const;
   Trouble check_identity(const PathNode& next);
   Trouble certify(double h, const PathNode& next);
+  double gap_of(std::size_t track) const;
   /// Changes what is followed together so that the step may be tried again as it is.
   bool remedy(const Trouble& trouble, double h, const std::optional<PathNode>& next);
   std::vector<Partner> helpful_partners(double h, const PathNode& next, std::size_t track, double error,
@@ -252,6 +255,11 @@ class Tracer {
   TraceResult result_;
   double direction_ = 1.0;  ///< sign of steps in the path's coordinate
   PathNode node_;           ///< the last accepted point
+  PathNode previous_;       ///< the one before it
+  double last_step_ = 0.0;  ///< between the two, in the path's coordinate; 0: there is none in this one
+  std::optional<PathNode> tried_;  ///< what an attempt with other blocks found ...
+  double tried_step_ = 0.0;        ///< ... at this distance
+  std::uint64_t strands_ = 0;      ///< numbered so far
   std::optional<PathPlane> plane_;
   /// Where the steady equations are too near to singular to be solved; in the coordinate of `plane_`.
   std::optional<Bridge> bridge_;

@@ -1,12 +1,15 @@
 // Whether a step is taken, and what else may help where it is not.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "continuation/grouping_errors.hpp"
 #include "continuation/least_magnitude.hpp"
+#include "continuation/modal_certificate.hpp"
 #include "continuation/regrouping.hpp"
 #include "continuation/shared_basis.hpp"
 #include "continuation/tracer.hpp"
+#include "core/parallel.hpp"
 #include "eigentrail/continuation/certificate.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -164,27 +167,63 @@ Tracer::Trouble Tracer::check_identity(const PathNode& next) {
   return {};
 }
 
-Tracer::Trouble Tracer::certify(double h, const PathNode& next) {
-  const StepPencil pencil(node_, next, h);
-  Trouble trouble;
-  for (std::size_t i = 0; i < node_.tracks.size(); ++i) {
-    const Track& track = node_.tracks[i];
-    double gap = INFINITY;
-    for (const Complex root : track.roots) {
-      if (!track.pair.is_real) gap = std::min(gap, 2.0 * std::abs(root.imag()));
-      for (std::size_t j = 0; j < node_.tracks.size(); ++j) {
-        const Track& other = node_.tracks[j];
-        if (j == i || other.pair.chart != track.pair.chart) continue;
-        for (const Complex s : other.roots) gap = std::min(gap, std::abs(s - root));
-      }
-    }
-    certified_[i] = certify_step(pencil, track, next.tracks[i], gap, result_.counts);
-    if (certified_[i] || trouble) continue;
-    trouble = {Trouble::Kind::uncertified, static_cast<int>(i), INFINITY, "the certificate does not close"};
-    // On a longer step the others are not looked at: it will not be taken.
-    if (std::abs(h) > uncertified_below_) return trouble;
+namespace {
+
+/// Whether the tracks are a basis of the state space, all in the finite chart.
+bool all_in_basis(const PathNode& node) {
+  Eigen::Index columns = 0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.chart != Chart::finite) return false;
+    columns += track.size() * (track.pair.is_real ? 1 : 2);
   }
-  return trouble;
+  return columns == 2 * node.pencil.size();
+}
+
+}  // namespace
+
+Tracer::Trouble Tracer::certify(double h, const PathNode& next) {
+  const StageTimer timer(result_.counts.certificate_seconds);
+  const StepPencil pencil(node_, next, h);
+  if (problem_.all_at_once && all_in_basis(node_) && all_in_basis(next))
+    certified_ = certify_all(pencil, next, result_.counts);
+  // A step that is too long is given up at the first mode whose tube does not close; with several threads
+  // those behind it may have been looked at in vain.
+  const bool all_count = std::abs(h) <= uncertified_below_;
+  std::vector<RunCounts> own(node_.tracks.size());
+  std::vector<char> closed(certified_.begin(), certified_.end());
+  std::atomic<std::size_t> first_open{node_.tracks.size()};
+  const auto look = [&](std::size_t i) {
+    if (closed[i] != 0 || (!all_count && i > first_open)) return;
+    closed[i] = certify_step(pencil, node_.tracks[i], next.tracks[i], gap_of(i), own[i]) ? 1 : 0;
+    if (closed[i] != 0) return;
+    for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {
+    }
+  };
+  in_parallel(node_.tracks.size(), is_worth_sharing(own.size(), node_.pencil.size()) ? problem_.threads : 1,
+              look);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    certified_[i] = closed[i] != 0 && (all_count || i <= first_open);
+    if (all_count || i <= first_open)
+      result_.counts.certificate_factorizations += own[i].certificate_factorizations;
+  }
+  if (first_open == node_.tracks.size()) return {};
+  return {Trouble::Kind::uncertified, static_cast<int>(first_open), INFINITY,
+          "the certificate does not close"};
+}
+
+/// Distance of a track from the nearest other known eigenvalue of its chart.
+double Tracer::gap_of(std::size_t index) const {
+  const Track& track = node_.tracks[index];
+  double gap = INFINITY;
+  for (const Complex root : track.roots) {
+    if (!track.pair.is_real) gap = std::min(gap, 2.0 * std::abs(root.imag()));
+    for (std::size_t j = 0; j < node_.tracks.size(); ++j) {
+      const Track& other = node_.tracks[j];
+      if (j == index || other.pair.chart != track.pair.chart) continue;
+      for (const Complex s : other.roots) gap = std::min(gap, std::abs(s - root));
+    }
+  }
+  return gap;
 }
 
 bool Tracer::remedy(const Trouble& trouble, double h, const std::optional<PathNode>& next) {

@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "events/corners.hpp"
 #include "events/extremum_walk.hpp"
-#include "events/parallel.hpp"
 
 namespace eigentrail {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/parallel.hpp"
 #include "eigentrail/core/text.hpp"
-#include "events/parallel.hpp"
 #include "events/second_parameter.hpp"
 
 namespace eigentrail {

@@ -20,6 +20,16 @@ void make_real(ComplexMatrix& Z) {
 
 }  // namespace
 
+ModeCounts& ModeCounts::operator+=(const ModeCounts& other) {
+  factorizations += other.factorizations;
+  iterations += other.iterations;
+  solves += other.solves;
+  passed += other.passed;
+  modal_bases += other.modal_bases;
+  modal_solves += other.modal_solves;
+  return *this;
+}
+
 void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, double reference) {
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
@@ -50,7 +60,7 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
                   InvariantPair& pair, ModeCounts& counts) {
   const Eigen::Index k = pair.size();
   const auto factor = [&] {
-    pair.factors.emplace(pencil, pair.Z, pair.Lambda, pair.W);
+    pair.factors = std::make_shared<const PairFactorization>(pencil, pair.Z, pair.Lambda, pair.W);
     counts.factorizations += static_cast<std::uint64_t>(k);
   };
   factor();
@@ -90,6 +100,26 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
 
 }  // namespace
 
+std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  if (pair.factors) return pair.factors;
+  return std::make_shared<const PairFactorization>(pencil, pair.Z, pair.Lambda, pair.W);
+}
+
+namespace {
+
+/// What residuals of a pair are compared with: that of its eigenvalues' typical size.
+double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+  return pencil.magnitude(size) * pair.Z.norm();
+}
+
+}  // namespace
+
+double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  const double scale = residual_scale(pencil, pair);
+  return scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
+}
+
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts) {
   InvariantPair pair;
@@ -105,16 +135,10 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   pair.status = newton(pencil, reference, options, pair, counts);
   if (pair.status != PairStatus::converged) return pair;
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
-  const double scale = pencil.magnitude(size) * pair.Z.norm();
-  pair.backward_error = scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
-  pair.condition = pair.factors->sensitivity() * scale / std::max(size, reference);
+  pair.backward_error = backward_error(pencil, pair);
+  pair.condition = pair.factors->sensitivity() * residual_scale(pencil, pair) / std::max(size, reference);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());
   return pair;
-}
-
-const PairFactorization& factors_of(const PencilAtPoint& pencil, const InvariantPair& pair,
-                                    std::optional<PairFactorization>& own) {
-  return pair.factors ? *pair.factors : own.emplace(pencil, pair.Z, pair.Lambda, pair.W);
 }
 
 Complex eigenvalue_remainder(const PencilAtPoint& pencil, const InvariantPair& pair) {
@@ -126,8 +150,7 @@ Complex eigenvalue_remainder(const PencilAtPoint& pencil, const InvariantPair& p
   const LongVector residual = (times(pencil.M) * mu + times(pencil.C)) * mu + times(pencil.K);
   const ComplexMatrix defect = ComplexMatrix::Identity(1, 1) - normalization(pair.W, pair.Z, pair.Lambda);
   ComplexMatrix dZ, dLambda;
-  std::optional<PairFactorization> own;
-  factors_of(pencil, pair, own).solve(-residual.cast<Complex>(), defect, dZ, dLambda);
+  factors_of(pencil, pair)->solve(-residual.cast<Complex>(), defect, dZ, dLambda);
   return dLambda(0, 0);
 }
 

@@ -210,9 +210,9 @@ PairSeries differentiate_mode(const ReducedPencil& pencil, const InvariantPair& 
 
 PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& pair, int order,
                               ModeCounts& counts, double accuracy) {
-  std::optional<PairFactorization> own;
-  const PairFactorization& factors = factors_of(PencilAtPoint(pencil, pair.chart), pair, own);
-  if (own) counts.factorizations += static_cast<std::uint64_t>(pair.size());
+  const auto found = factors_of(PencilAtPoint(pencil, pair.chart), pair);
+  const PairFactorization& factors = *found;
+  if (!pair.factors) counts.factorizations += static_cast<std::uint64_t>(pair.size());
   if (pair.size() == 1) return differentiate_mode(pencil, pair, factors, order, counts, accuracy);
   SeriesEquations series(pencil, pair, order);
   const double size = size_of(pair.Lambda);

@@ -33,6 +33,8 @@ class StepPencil {
   std::shared_ptr<const Sample> at(double t) const;
 
   const PathNode& left() const { return left_; }
+  bool has_constant_mass() const { return left_.pencil.M.size() == 1 && right_.M.size() == 1; }
+  bool is_undamped() const;  ///< C vanishes on the whole step
 
  private:
   Sample sample(double t) const;

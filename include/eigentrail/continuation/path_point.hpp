@@ -32,7 +32,10 @@ struct Track {
   };
   std::optional<Departure> departure;
   bool told_apart = true;  ///< its roots were, all the way from the last point
-  std::vector<int> met;    ///< indices of the roots that meet at the point, or veer closely
+  /// The same number from point to point as long as it is followed as it is; 0: not yet numbered.
+  std::uint64_t strand = 0;
+  bool passed = false;   ///< stands as it was continued from the last step
+  std::vector<int> met;  ///< indices of the roots that meet at the point, or veer closely
 
   Eigen::Index size() const { return pair.size(); }
 };
@@ -59,6 +62,7 @@ struct RunCounts {
   std::uint64_t spectra = 0;                     ///< full spectra by QZ
   std::uint64_t event_factorizations = 0;        ///< as ModeCounts::factorizations, to locate special points
   std::uint64_t certificate_factorizations = 0;  ///< complex LU of size n + 1 (blocks: n k + k^2)
+  std::uint64_t certificate_bases = 0;           ///< inverses of size 2n that serve all modes at once
   double equilibrium_seconds = 0.0;              ///< solve and linearize
   double reduction_seconds = 0.0;
   double modes_seconds = 0.0;
@@ -93,6 +97,7 @@ struct PathProblem {
   int order = 3;             ///< of the dense output; series have one coefficient more, for its error
   double s_ref = 1.0;        ///< magnitude below which an eigenvalue counts as zero, 1/s
   double s_max = 1e300;      ///< magnitude above which it counts as infinite
+  int threads = 1;           ///< for the modes of a point, >= 1
   bool all_at_once = false;  ///< all modes by matrix products, where every one of them is followed
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
@@ -113,11 +118,21 @@ struct EquilibriumGuess {
   bool solved = false;  ///< an equilibrium of a neighbouring point, or its series; not the scene's own guess
 };
 
+/// A single mode as the dense output of the last step goes on, at the next point.
+struct ContinuedMode {
+  InvariantPair pair;  ///< Z in physical coordinates
+  PairSeries series;   ///< the same
+};
+
 /// Where the next point is expected.
 struct Prediction {
   double p = 0.0;
   EquilibriumGuess equilibrium;
-  std::vector<InvariantPair> pairs;     ///< Z in physical coordinates
+  std::vector<InvariantPair> pairs;  ///< Z in physical coordinates
+  /// Per pair another prediction, which may be good enough to stand; empty where there is none.
+  std::vector<std::optional<ContinuedMode>> continued = {};
+  /// Per pair its track where the same point was computed before, or null; empty where there is none.
+  std::vector<const Track*> ready = {};
   std::optional<PathPlane> plane = {};  ///< where p is not given but found: the plane that the point lies on
   std::optional<Path> known = {};       ///< the equilibrium's series, where it cannot be solved for
 };
@@ -136,11 +151,16 @@ struct PathPoint {
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
   std::vector<InvariantPair> pairs;
-  std::shared_ptr<const AllPairs> all;  ///< where the pairs were corrected all at once
+  std::shared_ptr<const AllPairs> all;                 ///< where the pairs were corrected all at once
+  std::vector<std::optional<PairSeries>> passed = {};  ///< of pairs that stand as they were continued
+  std::vector<const Track*> ready = {};                ///< as in Prediction
 
   /// V = T Z of a pair.
   ComplexMatrix shapes(std::size_t pair) const;
 };
+
+/// Whether that many modes of a pencil of size n are worth more than one thread.
+bool is_worth_sharing(std::size_t modes, Eigen::Index n);
 
 /// Parameters at p, in declared units.
 Vector parameters_at(const PathProblem& problem, double p);

@@ -38,6 +38,9 @@ struct TraceOptions {
 
   EventOptions events = {};  ///< of the scene's [events]
 
+  /// Threads that share the modes of a point, >= 1. Not an option of a scene: results do not depend on it.
+  int threads = 1;
+
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {

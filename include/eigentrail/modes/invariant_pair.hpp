@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct CorrectorOptions {
   double tolerance = 1e-14;           ///< relative size of the last correction, > 0
   double refactor_contraction = 0.1;  ///< a slower contraction of the corrections factors anew, 0 < . < 1
   int max_iterations = 30;            ///< >= 1
+  double passing_error = 0.0;         ///< relative error below which a continued mode is not corrected, >= 0
   double series_accuracy = 1e-15;     ///< of every coefficient of the series of a single mode, relative
 };
 
@@ -34,8 +36,11 @@ struct ModeCounts {
   std::uint64_t factorizations = 0;  ///< complex LU of size n + k
   std::uint64_t iterations = 0;      ///< Newton corrections
   std::uint64_t solves = 0;          ///< back-substitutions, all purposes
+  std::uint64_t passed = 0;          ///< modes that needed no correction
   std::uint64_t modal_bases = 0;     ///< inverses of size 2n that serve all modes at once (all_pairs.hpp)
   std::uint64_t modal_solves = 0;    ///< solutions for all modes with them
+
+  ModeCounts& operator+=(const ModeCounts& other);
 };
 
 /// LU factors of the linearized equations at a pair.
@@ -78,7 +83,7 @@ struct InvariantPair {
   ComplexMatrix W;              ///< 2n x k, normalization
   double backward_error = 0.0;  ///< |residual| / (magnitude |Z|)
   double condition = 0.0;       ///< relative condition number of the block, w.r.t. max(|mu|, reference)
-  std::optional<PairFactorization> factors;  ///< absent where all pairs were corrected at once
+  std::shared_ptr<const PairFactorization> factors;  ///< null where the pair was not corrected by itself
 
   Eigen::Index size() const { return Lambda.rows(); }
   /// s of a block of one in the finite chart.
@@ -95,9 +100,11 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
 
-/// The pair's factors, or new ones at the pair, kept in `own`, where it has none.
-const PairFactorization& factors_of(const PencilAtPoint& pencil, const InvariantPair& pair,
-                                    std::optional<PairFactorization>& own);
+/// The pair's factors, or new ones at the pair where it has none.
+std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair);
+
+/// |residual| / (magnitude |Z|) of a pair as it is.
+double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair);
 
 /// What rounding has left of the eigenvalue of a block of one: the Newton correction with its residual formed
 /// in extended precision. Tells the real part of an eigenvalue on the imaginary axis, where it is small, to
