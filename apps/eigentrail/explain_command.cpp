@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
@@ -68,16 +69,16 @@ void print_structure(const Structure& structure, bool has_constraints, const std
         has_constraints ? along(structure.constant_constraints) : ""}});
 }
 
-void print_solvers(const Model& model, const Structure& structure, const TraceOptions& options) {
+void print_solvers(const Model& model, const Structure& structure, int order, bool chosen) {
   std::printf("solvers\n");
-  std::string equilibrium = "KINSOL with line search at every point, predicted by its series of order " +
-                            std::to_string(options.order);
+  std::string equilibrium =
+      "KINSOL with line search at every point, predicted by its series of " + order_text(order, chosen);
   if (structure.known_equilibrium) {
     equilibrium = "known: x = 0; KINSOL is never called";
   } else if (structure.fixed_equilibrium) {
     equilibrium = "does not move: KINSOL at the first point only";
   }
-  std::string basis = "rank-revealing QR at every point, series T_1 ... T_" + std::to_string(options.order);
+  std::string basis = "rank-revealing QR at every point, series T_1 ... T_" + std::to_string(order);
   if (model.n_constraints() == 0) {
     basis = "identity: no constraints";
   } else if (structure.constant_constraints) {
@@ -87,9 +88,8 @@ void print_solvers(const Model& model, const Structure& structure, const TraceOp
       {{"  equilibrium", equilibrium},
        {"  tangent basis", basis},
        {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
-       {"  modes",
-        "chord-Newton, one complex LU per mode and point, series of order " + std::to_string(options.order)},
-       {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * options.order + 1)}});
+       {"  modes", "chord-Newton, one complex LU per mode and point, series of " + order_text(order, chosen)},
+       {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}});
 }
 
 int run_explain(const ExplainArguments& arguments) {
@@ -118,7 +118,10 @@ int run_explain(const ExplainArguments& arguments) {
     std::printf("\n");
   }
   print_structure(structure, model->n_constraints() > 0, options.parameter);
-  print_solvers(*model, structure, options);
+  const bool computed = point.status == PointStatus::computed;
+  const Eigen::Index freedoms = computed ? point.pencil.size() : model->n_coordinates();
+  const int cheapest = cheapest_order({freedoms, options.certify}, options.tolerance);
+  print_solvers(*model, structure, options.order.value_or(cheapest), !options.order);
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
   return done;
 }

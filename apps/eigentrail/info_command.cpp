@@ -66,6 +66,12 @@ std::string followed_modes(const LociFile& loci) {
   return some ? wanted + " of " + available + " modes followed" : "";
 }
 
+/// ", order 3 (auto)"; nothing for files that do not tell.
+std::string order_of_series(const LociFile& loci) {
+  const std::string order = attribute(loci, "series_order");
+  return order == "?" ? "" : ", " + order_text(std::stoi(order), attribute(loci, "option_order") == "auto");
+}
+
 void print_for_people(const LociFile& loci) {
   if (const std::string title = attribute(loci, "title"); !title.empty())
     std::printf("%s\n", printable(title).c_str());
@@ -77,11 +83,11 @@ void print_for_people(const LociFile& loci) {
   std::printf("\n  %zu coordinates, %zu constraints, %zu modes, %zu points\n", loci.coordinates.size(),
               loci.constraints.size(), loci.modes.size(), loci.n_nodes());
   if (loci.n_nodes() == 0) return;
-  std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)\n", loci.parameter.c_str(),
+  std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),
               exact_text(loci.p.front()).c_str(), exact_text(loci.p.back()).c_str(),
               loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
               attribute(loci, "tolerance").c_str(),
-              rounded(std::stod(attribute(loci, "reference")), 4).c_str());
+              rounded(std::stod(attribute(loci, "reference")), 4).c_str(), order_of_series(loci).c_str());
   std::vector<std::vector<std::string>> rows{
       {"mode", "s at the start", "s at the end", "certified", "worst residual", "worst condition"}};
   const auto end_value = [&loci](Eigen::Index node, std::size_t mode) {

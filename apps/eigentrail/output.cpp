@@ -13,6 +13,10 @@ std::string rounded(double value, int digits) {
   return buffer.data();
 }
 
+std::string order_text(int order, bool chosen) {
+  return "order " + std::to_string(order) + (chosen ? " (auto)" : "");
+}
+
 std::string complex_text(double real, double imag, int digits) {
   return rounded(real, digits) + (std::signbit(imag) ? " - " : " + ") + rounded(std::abs(imag), digits) + "j";
 }

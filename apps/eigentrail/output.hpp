@@ -11,6 +11,9 @@ namespace eigentrail::app {
 /// Text with `digits` significant digits.
 std::string rounded(double value, int digits = 6);
 
+/// "order 3", or "order 3 (auto)" where the program chose it.
+std::string order_text(int order, bool chosen);
+
 /// "-0.01994 + 17.88j"
 std::string complex_text(double real, double imag, int digits = 6);
 

@@ -122,10 +122,10 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
                    const TraceResult& result, const Ends& ends, const std::vector<StableRange>& ranges) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
-  std::printf("  %s  %s -> %s%s, tolerance %s, order %d, %d of %d modes, %lld freedoms\n",
+  std::printf("  %s  %s -> %s%s, tolerance %s, %s, %d of %d modes, %lld freedoms\n",
               options.parameter.c_str(), exact_text(options.from).c_str(), exact_text(result.reached).c_str(),
               (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),
-              options.order, result.n_modes, result.n_available,
+              order_text(result.order, !options.order).c_str(), result.n_modes, result.n_available,
               static_cast<long long>(result.n_independent));
   if (result.n_infinite > 0) {
     std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n",

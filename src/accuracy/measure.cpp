@@ -127,7 +127,6 @@ MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference
   MeasuredRun run;
   run.method = setup.options.certify ? Method::trace : Method::trace_uncertified;
   run.tolerance = setup.options.tolerance;
-  run.order = setup.options.order;
   PathRecorder recorder;
   run.bytes = record(setup, recorder);
   std::vector<double> seconds;
@@ -137,6 +136,7 @@ MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference
     run.completed = result.status == TraceStatus::completed;
     run.message = result.message;
     run.points = result.nodes;
+    run.order = result.order;
     take_counts(result.counts, run);
   }
   run.seconds = median(seconds);

@@ -1,9 +1,12 @@
 #include "continuation/least_magnitude.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -11,7 +14,7 @@ namespace {
 constexpr std::size_t intervals = 8;
 constexpr double accuracy = 1e-5;  ///< of the step
 
-/// Squared magnitude of the eigenvalues, for comparison only.
+/// Magnitude of the product of the eigenvalues: it vanishes where one of them does.
 class Magnitude {
  public:
   explicit Magnitude(const ComplexMatrix& functions) : functions_(functions), value_(functions.rows()) {}
@@ -19,9 +22,10 @@ class Magnitude {
   double operator()(double t) {
     value_ = functions_.col(functions_.cols() - 1);
     for (Eigen::Index k = functions_.cols() - 2; k >= 0; --k) value_ = value_ * t + functions_.col(k);
-    // The mean of |tau +- sqrt(delta)|^2.
-    if (value_.size() == 2) return std::norm(value_[0]) + std::abs(value_[1]);
-    return value_.squaredNorm();
+    const Eigen::Index k = block_size(value_.size());
+    if (k == 1) return std::abs(value_[0]);
+    if (k == 2) return std::abs(value_[0] * value_[0] - value_[1]);
+    return std::abs(value_.reshaped(k, k).determinant());
   }
 
  private:

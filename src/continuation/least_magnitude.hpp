@@ -6,10 +6,9 @@
 
 namespace eigentrail {
 
-/// The t in [0, 1] at which the eigenvalues are smallest, as root mean square for blocks of two and in the
-/// norm of Lambda for larger ones, to 1e-5 of the step. `functions` are the block's functions
-/// (modes/invariants.hpp) as polynomials in t, one row each. Finds a dip that at least one of 9 equidistant
-/// samples tells.
+/// The t in [0, 1] at which the product of the eigenvalues is smallest, to 1e-5 of the step: where one of
+/// them vanishes, if one does. `functions` are the block's functions (modes/invariants.hpp) as polynomials in
+/// t, one row each. Finds a dip that at least one of 9 equidistant samples tells.
 double place_of_least_magnitude(const ComplexMatrix& functions);
 
 }  // namespace eigentrail

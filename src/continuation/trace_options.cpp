@@ -15,6 +15,11 @@ namespace {
 /// Points of the range at which masses, lengths and the direction of gravity are checked.
 constexpr std::size_t checked_points = 33;
 
+/// What stands for a whole number that is not given.
+std::string word_for_absent(std::string_view key) {
+  return key == "modes" ? "all" : "auto";
+}
+
 /// Reads options from a table of texts and numbers: the [trace] table, or the command line turned into one.
 class OptionReader {
  public:
@@ -54,7 +59,7 @@ class OptionReader {
   }
   void operator()(const char* key, const char*, std::optional<int>& value) {
     if (!table_.has(key)) return;
-    if (is_all(key)) {
+    if (is_text(key) && table_.text(key) == word_for_absent(key)) {
       value.reset();
     } else {
       value = whole_number(key);
@@ -69,7 +74,6 @@ class OptionReader {
       return false;
     }
   }
-  bool is_all(const char* key) { return is_text(key) && table_.text(key) == "all"; }
 
   /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
   double number(const char* key) {
@@ -154,8 +158,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
           "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
-  require(options.order >= 1 && options.order < max_order, "order",
-          "must lie between 1 and " + std::to_string(max_order - 1));
+  require(!options.order || (*options.order >= 1 && *options.order < max_order), "order",
+          "must lie between 1 and " + std::to_string(max_order - 1) + ", or be \"auto\"");
   require(positive(options.reference), "reference", "must be positive");
   require(positive(options.first_step), "first_step", "must be positive");
   require(positive(options.max_step), "max_step", "must be positive");
@@ -219,7 +223,7 @@ OptionTexts describe_options(const TraceOptions& options) {
       for (const int item : value) list += (list.empty() ? "" : ", ") + std::to_string(item);
       texts.emplace_back(key, list.empty() ? "auto" : list);
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
-      texts.emplace_back(key, value ? std::to_string(*value) : "all");
+      texts.emplace_back(key, value ? std::to_string(*value) : word_for_absent(key));
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
       texts.emplace_back(key, value ? exact_text(*value) : "auto");
     } else if constexpr (std::is_same_v<T, int>) {

@@ -26,7 +26,6 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
     : options_(options), observer_(observer), problem_(problem_along(model, options.parameter)) {
   for (const auto& [name, value] : options.values)
     problem_.parameters[model.description().parameters.index(name).value()] = value;
-  problem_.order = options.order;
   problem_.basis = basis;
   problem_.threads = options.threads;
   problem_.corrector.passing_error = passing_share * options.tolerance;
@@ -35,9 +34,6 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
   result_.counts.evaluations = model.new_counts();
   direction_ = options.to > options.from ? 1.0 : -1.0;
   uncertified_below_ = uncertified_step * range();
-  // The interpolant of order q converges like (h / 2d)^(2q+2) for a meeting at distance d: nearer ones limit
-  // the step.
-  part_reach_ = 0.7 * std::pow(options.tolerance, -1.0 / (2.0 * options.order + 2.0));
 }
 
 TraceResult Tracer::run() {
@@ -79,7 +75,7 @@ void Tracer::follow() {
   const double min_step = std::max(smallest_step * range(), rounding);
   const double max_step = std::max(options_.max_step.value_or(0.25 * range()), min_step);
   const double begin = options_.first_step.value_or(first_step(node_, problem_, options_.tolerance, range()));
-  StepControl control(options_.order, begin, max_step, min_step);
+  StepControl control(problem_.order, begin, max_step, min_step);
   part(problem_, nullptr, node_, control.step(), 0.0, part_reach_, 0.0, result_.counts);
   while (!reached_end(node_)) {
     if (result_.nodes >= options_.max_nodes) {
@@ -91,7 +87,7 @@ void Tracer::follow() {
     if (turned_step_ > 0.0) {
       // In the path's own coordinate the range has length one.
       const double longest = options_.max_step ? *options_.max_step / range() : 0.25;
-      control = StepControl(options_.order, turned_step_, std::max(longest, smallest_step), smallest_step);
+      control = StepControl(problem_.order, turned_step_, std::max(longest, smallest_step), smallest_step);
       turned_step_ = 0.0;
     }
   }

@@ -47,6 +47,8 @@ class Tracer {
 
   // tracer_start.cpp: the first point.
   bool start();
+  /// From here on series have this order.
+  void use_order(int order);
   std::optional<std::vector<StartingMode>> starting_modes(const ReducedPencil& pencil);
   bool start_tracks(PathPoint& point, const std::vector<StartingMode>& modes, std::optional<PathNode>& node);
 

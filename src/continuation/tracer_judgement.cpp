@@ -58,7 +58,8 @@ double Tracer::track_error(double h, const PathNode& next, std::size_t i) const 
   double worst = 0.0;
   for (const double t : {0.0, 0.5, 1.0, smallest}) {
     const ComplexVector functions = step(t);
-    const double size = block_roots(functions).cwiseAbs().mean();
+    // The smallest member has its error relative to itself.
+    const double size = block_roots(functions).cwiseAbs().minCoeff();
     const double scale = std::max(size, problem_.reference(track.pair.chart));
     const double error = root_error(functions, errors, least_relative_gap * scale) /
                          (accepted_share * options_.tolerance * scale);

@@ -116,7 +116,7 @@ void Tracer::settle_real_block(Track& track) {
 PathStep Tracer::make_step(double h, const PathNode& next) const {
   PathStep step;
   step.length = h;
-  const Eigen::Index count = options_.order + 1;
+  const Eigen::Index count = problem_.order + 1;
   step.parameter = Matrix::Zero(2, count);
   const auto& left = node_.path.parameters;
   const auto& right = next.path.parameters;

@@ -5,6 +5,7 @@
 #include "continuation/regrouping.hpp"
 #include "continuation/starting_tracks.hpp"
 #include "continuation/tracer.hpp"
+#include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -23,13 +24,15 @@ bool Tracer::start() {
   const Vector guess = problem_.model.initial_guess(parameters_at(problem_, options_.from));
   PathPoint point = reduce_at(problem_, options_.from, {guess, Vector()}, Matrix(), counts);
   if (point.status != PointStatus::computed) return stop(TraceStatus::no_equilibrium, point.message);
-  bridge_start(point);
   result_.n_independent = point.pencil.size();
+  const int cheapest = cheapest_order({result_.n_independent, options_.certify}, options_.tolerance);
+  use_order(options_.order.value_or(cheapest));
+  bridge_start(point);
   const auto modes = starting_modes(point.pencil);
   if (!modes) return false;
   std::optional<PathNode> node;
   if (!start_tracks(point, *modes, node)) return false;
-  observer_.started({problem_.s_ref, result_.n_available, result_.n_modes});
+  observer_.started({problem_.s_ref, result_.n_available, result_.n_modes, result_.order});
   node_ = std::move(*node);
   record_branch_point(node_);
   record_meetings_at_start();
@@ -37,6 +40,13 @@ bool Tracer::start() {
   if (!on_branch_point(options_.from)) return true;
   const int choice = choice_at(branch_points_++);
   return choice == 1 || leave_path(choice);
+}
+
+void Tracer::use_order(int order) {
+  result_.order = problem_.order = order;
+  // The interpolant of order q converges like (h / 2d)^(2q+2) for a meeting at distance d: nearer ones limit
+  // the step.
+  part_reach_ = 0.7 * std::pow(options_.tolerance, -1.0 / (2.0 * order + 2.0));
 }
 
 /// All modes by ascending |s|, how many of them are followed, and the magnitudes that count as zero and

@@ -35,7 +35,7 @@ Window::Window(const Model& model, const BoundaryOptions& options)
       from_(options.trace.from, options.second_from),
       to_(options.trace.to, options.second_to),
       size_(to_ - from_) {
-  problem_.order = options.trace.order;
+  problem_.order = options.trace.order.value_or(usual_order);
   problem_.structure = united(model.structure(index_[0]), model.structure(index_[1]));
 }
 

@@ -147,7 +147,7 @@ void BoundaryFile::write_dimensions() {
             "what is interpolated: the parameters, and of the pair s, conj s the mean tau and delta; "
             "s = tau + sqrt(delta)");
   dimension("end", std::vector<std::string>{"left", "right"}, "end of a step");
-  dimension("order", count_to(static_cast<std::size_t>(setup_.options.trace.order) + 1),
+  dimension("order", count_to(static_cast<std::size_t>(setup_.options.trace.order.value_or(usual_order)) + 1),
             "power of the distance from the end of the step");
   dimension("bound", std::vector<std::string>{"lowest", "highest"}, "bound of an extent");
   dimension("member", std::vector<std::string>{"first", "second"}, "the two curves that meet in a corner");

@@ -19,7 +19,7 @@ namespace {
 void read_attributes(const Hdf5File& file, LociFile& loci) {
   for (const std::string& name : file.attribute_names()) {
     try {
-      if (name.starts_with("count_") || name == "schema_version") {
+      if (name.starts_with("count_") || name == "schema_version" || name == "series_order") {
         loci.attributes[name] = std::to_string(file.integer_attribute(name));
       } else if (name == "tolerance" || name == "reference" || name == "seconds") {
         loci.attributes[name] = exact_text(file.real_attribute(name));

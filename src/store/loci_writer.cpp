@@ -140,7 +140,7 @@ struct LociWriter::Implementation {
     file.make_scale(name, name);
   }
 
-  void create_dimensions(const ModelDescription& description, const TraceOptions& options) {
+  void create_dimensions(const ModelDescription& description, int order) {
     create_dimension("node", ElementType::integer, count_from(0, 0), "path point", true);
     create_dimension("step", ElementType::integer, count_from(0, 0), "step from a path point to the next",
                      true);
@@ -150,8 +150,7 @@ struct LociWriter::Implementation {
     create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"},
                      "end of a step, or of a stable range");
     create_dimension("coordinate", ElementType::text, description.coordinate_names, "coordinate");
-    create_dimension("order", ElementType::integer,
-                     count_from(0, static_cast<std::size_t>(options.order) + 1),
+    create_dimension("order", ElementType::integer, count_from(0, static_cast<std::size_t>(order) + 1),
                      "power of the distance from the end of the step");
     if (has_constraints)
       create_dimension("constraint", ElementType::text, description.constraint_names, "constraint");
@@ -164,13 +163,13 @@ struct LociWriter::Implementation {
     write_dataset(file, {"scene_parameter_unit", "1", "unit of the parameter"}, {"scene_parameter"}, units);
   }
 
-  void create_datasets(const Model& model, const TraceOptions& options) {
+  void create_datasets(const Model& model, const TraceOptions& options, int order) {
     const ModelDescription& description = model.description();
     const Parameter& traced = description.parameters.at(options.parameter);
     const std::string unit = label_unit(traced.unit);
     has_constraints = model.n_constraints() > 0;
     n_coordinates = description.coordinate_names.size();
-    create_dimensions(description, options);
+    create_dimensions(description, order);
     const std::string per_unit = unit == "1" ? "1/s" : "1/s/(" + unit + ")";
     create_growing(parameter, ElementType::real, {"node"}, unit, "traced parameter " + parameter);
     create_growing("eigenvalue", ElementType::complex, {"node", "mode"}, "1/s", "eigenvalue s");
@@ -265,8 +264,9 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
     Hdf5File& file = implementation_->file;
     write_provenance(file, loci_format, loci_schema_version, scene, options);
     file.set_attribute("reference", start.s_ref);
+    file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
     file.set_attribute("status", "running");
-    implementation_->create_datasets(model, options);
+    implementation_->create_datasets(model, options, start.order);
     file.flush();
   });
 }

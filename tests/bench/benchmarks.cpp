@@ -10,6 +10,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"few_modes", few_modes},
                                           {"tolerance", tolerance},
                                           {"order", order},
+                                          {"order_choice", order_choice},
                                           {"absent_effects", absent_effects},
                                           {"symmetric", symmetric},
                                           {"growth", growth},

@@ -35,6 +35,8 @@ Figures few_modes(const BenchOptions& options);
 // tolerance_bench.cpp
 Figures tolerance(const BenchOptions& options);
 Figures order(const BenchOptions& options);
+// order_bench.cpp
+Figures order_choice(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

@@ -240,6 +240,14 @@ class Explain(CommandTest):
                          "symmetric K", "KINSOL", "series of order 2", "Hermite interpolation of degree 5"]:
             self.assertIn(fragment, text)
 
+    def test_order_that_is_not_given_is_chosen_and_told(self):
+        self.write("scene.toml", BLADE)
+        self.assertRegex(self.run_well("explain", "scene.toml"), r"series of order [1-4] \(auto\)")
+        self.assertNotIn("(auto)", self.run_well("explain", "scene.toml", "--order", "2"))
+        text = self.run_well("trace", "scene.toml", "--order", "auto", "-o", "auto.h5")
+        order = re.search(r", (order [1-4] \(auto\)), ", text)[1]
+        self.assertIn(order, self.run_well("info", "auto.h5"))
+
     def test_unsymmetric_mass_matrix_is_not_called_symmetric(self):
         self.write("scene.toml", edited(FAMILY, "M = [[[1, 0], [0, 1]]]", "M = [[[1, 0.5], [0, 1]]]"))
         run = self.run_program("explain", "scene.toml")

@@ -35,15 +35,17 @@ TEST(LeastMagnitude, EndOfTheStepIsAPlaceToo) {
   EXPECT_EQ(place_of_least_magnitude(falling), 1.0);
 }
 
-TEST(LeastMagnitude, BlockIsSmallWhereAllItsEigenvaluesAre) {
-  // s = 1 +- 1, one of which vanishes throughout, has the same size as tau = 1 alone would have with s = 1 +-
-  // i. Here tau = t - 0.4 and delta = (t - 0.4)^2 + 0.01: both eigenvalues are smallest at 0.4.
-  const ComplexMatrix functions =
-      (ComplexMatrix(2, 3) << -0.4, 1.0, 0.0, 0.4 * 0.4 + 0.01, -0.8, 1.0).finished();
-  EXPECT_NEAR(place_of_least_magnitude(functions), 0.4, 1e-3);
-  // Two on either side of zero are not small although their mean is.
-  const ComplexMatrix apart = (ComplexMatrix(2, 2) << -0.4, 1.0, 4.0, -3.9).finished();
-  EXPECT_GT(place_of_least_magnitude(apart), 0.9);
+TEST(LeastMagnitude, OneMemberOfABlockThatVanishesIsEnough) {
+  // s1 = t - 0.4 beside s2 = -1: tau = (t - 1.4) / 2, delta = ((t + 0.6) / 2)^2.
+  const ComplexMatrix functions = (ComplexMatrix(2, 3) << -0.7, 0.5, 0.0, 0.09, 0.3, 0.25).finished();
+  EXPECT_NEAR(place_of_least_magnitude(functions), 0.4, 2e-5);
+  // The same with s3 = 2, as a matrix.
+  ComplexMatrix matrix = ComplexMatrix::Zero(9, 2);
+  matrix(0, 0) = -0.4;
+  matrix(0, 1) = 1.0;
+  matrix(4, 0) = -1.0;
+  matrix(8, 0) = 2.0;
+  EXPECT_NEAR(place_of_least_magnitude(matrix), 0.4, 2e-5);
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ TraceOptions read(const std::string& trace, const OptionTexts& overrides = {}) {
 TEST(TraceOptions, DefaultsAreDocumented) {
   const TraceOptions options = read("parameter = \"p\"\nfrom = 0\nto = 1\n");
   EXPECT_EQ(options.tolerance, 1e-6);
-  EXPECT_EQ(options.order, 3);
-  EXPECT_FALSE(options.modes || options.reference || options.first_step || options.max_step);
+  EXPECT_FALSE(options.order || options.modes || options.reference || options.first_step || options.max_step);
   EXPECT_TRUE(options.certify);
 }
 
@@ -30,6 +29,30 @@ TEST(TraceOptions, CommandLineOverridesTheScene) {
   EXPECT_FALSE(options.certify);
   EXPECT_FALSE(options.modes);
   EXPECT_EQ(options.tolerance, 1e-9);
+}
+
+TEST(TraceOptions, OrderIsANumberOrTheWordAuto) {
+  const std::string range = "parameter = \"p\"\nfrom = 0\nto = 1\n";
+  EXPECT_EQ(read(range + "order = 2\n").order, 2);
+  EXPECT_FALSE(read(range + "order = \"auto\"\n").order);
+  EXPECT_FALSE(read(range + "order = 2\n", {{"order", "auto"}}).order);
+  EXPECT_EQ(read(range + "order = \"auto\"\n", {{"order", "4"}}).order, 4);
+  // The word of another option.
+  EXPECT_THROW(static_cast<void>(read(range + "order = \"all\"\n")), InputError);
+  EXPECT_THROW(static_cast<void>(read(range + "modes = \"auto\"\n")), InputError);
+}
+
+TEST(TraceOptions, OrderIsDescribedAsItWasGiven) {
+  const auto described = [](std::optional<int> order) {
+    TraceOptions options;
+    options.order = order;
+    for (const auto& [key, text] : describe_options(options)) {
+      if (key == "order") return text;
+    }
+    return std::string("missing");
+  };
+  EXPECT_EQ(described({}), "auto");
+  EXPECT_EQ(described(2), "2");
 }
 
 TEST(TraceOptions, NumbersAreInTheParametersUnitAndExpressionsInSi) {

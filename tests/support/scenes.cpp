@@ -13,7 +13,7 @@ namespace eigentrail::test {
 
 PathProblem Setting::problem() const {
   PathProblem problem = problem_along(*model, options.parameter);
-  problem.order = options.order;
+  problem.order = options.order.value_or(usual_order);
   return problem;
 }
 

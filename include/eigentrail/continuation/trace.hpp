@@ -56,6 +56,7 @@ struct [[nodiscard]] TraceResult {
   int n_available = 0;             ///< finite modes at the start
   int n_infinite = 0;              ///< infinite eigenvalues at the start
   Eigen::Index n_independent = 0;  ///< size of the reduced pencil, n - rank A
+  int order = 0;                   ///< of the series at each point: as asked for, or chosen
   double reached = 0.0;            ///< last parameter value
   double s_ref = 0.0;
   std::vector<Event> events;
@@ -72,6 +73,7 @@ struct TraceStart {
   double s_ref = 0.0;
   int n_available = 0;
   int n_modes = 0;  ///< followed from the start; more may be born
+  int order = 0;    ///< of the series
 };
 
 /// A mode at a point.

@@ -14,13 +14,16 @@
 
 namespace eigentrail {
 
+/// The order where none is asked for and none is chosen for its cost: along the curves of boundaries.
+constexpr int usual_order = 3;
+
 struct TraceOptions {
   std::string parameter;     ///< name of the traced parameter
   double from = 0.0;         ///< where the trace begins, in the parameter's unit
   double to = 0.0;           ///< where it ends; may be below `from`, not equal
   double tolerance = 1e-6;   ///< bounds |s_dense - s| <= tolerance * max(|s|, reference), 1e-13 <= . <= 0.1
   std::optional<int> modes;  ///< follow the N modes of least |s|, >= 1; absent: all
-  int order = 3;             ///< of the series at each point, 1 to 4
+  std::optional<int> order;  ///< of the series at each point, 1 to 4; absent: the one that costs least
   std::optional<double> reference;   ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
                                      ///< absent: 1e-3 of the median |s| of the followed modes at the start
   std::optional<double> first_step;  ///< in the parameter's unit, > 0; absent: from the series at the start
@@ -50,7 +53,7 @@ struct TraceOptions {
     visit("tolerance", "bound of the relative error of every eigenvalue, everywhere on the range",
           self.tolerance);
     visit("modes", "follow this many modes of lowest |s|, or \"all\"", self.modes);
-    visit("order", "order of the power series at each point, 1 to 4", self.order);
+    visit("order", "order of the power series at each point, 1 to 4, or \"auto\"", self.order);
     visit("reference", "eigenvalues below this (1/s) count as zero in the tolerance", self.reference);
     visit("first_step", "length of the first step, in the parameter's unit", self.first_step);
     visit("max_step", "longest step, in the parameter's unit", self.max_step);
