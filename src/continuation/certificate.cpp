@@ -14,8 +14,8 @@ namespace {
 constexpr int max_depth = 6;  ///< a step is halved up to this often
 /// Where the tube is only too long its bound falls with its length; where modes meet it does not.
 constexpr double falling = 0.75;
-constexpr int power_iterations = 3;       ///< of a norm estimate, which approaches from below:
-constexpr int further_iterations = 1;     ///< from the direction that another sample found
+constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
+constexpr int further_iterations = 2;     ///< from the direction that another sample found
 constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
 constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory

@@ -27,10 +27,11 @@ ComplexMatrix stacked(const ComplexVector& w, const PairSeries& series) {
 std::optional<ContinuedMode> continue_mode(const PathNode& previous, const PathNode& node, std::size_t index,
                                            double last, double h) {
   const Track& track = node.tracks[index];
-  if (track.size() > 1 || track.strand == 0) return std::nullopt;
+  // What stands as it was continued tells nothing new.
+  if (track.size() > 1 || track.strand == 0 || track.passed) return std::nullopt;
   const auto before = std::find_if(previous.tracks.begin(), previous.tracks.end(),
                                    [&](const Track& other) { return other.strand == track.strand; });
-  if (before == previous.tracks.end() || before->pair.chart != track.pair.chart) return std::nullopt;
+  if (before == previous.tracks.end() || before->passed) return std::nullopt;
   const ComplexVector w = before->series.Z[0].col(0);
   const HermiteInterpolant step(last, stacked(w, before->series), stacked(w, track.series));
   const auto count = static_cast<Eigen::Index>(track.series.Z.size());

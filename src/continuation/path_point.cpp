@@ -126,7 +126,8 @@ class ModeCorrections {
       InvariantPair other = reduced(prediction_.continued[i]->pair);
       normalize_pair(other.Z, other.Lambda, other.W, reference);
       other.backward_error = backward_error(pencil, other);
-      if (other.condition * other.backward_error <= problem_.corrector.passing_error) {
+      if (prediction_.continued[i]->may_pass &&
+          other.condition * other.backward_error <= problem_.corrector.passing_error) {
         other.status = PairStatus::converged;
         point_.pairs[i] = std::move(other);
         point_.passed[i] = prediction_.continued[i]->series;

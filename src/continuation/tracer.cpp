@@ -16,7 +16,9 @@ constexpr double smallest_step = 1e-11;     ///< of the range
 constexpr double uncertified_step = 1e-6;   ///< of the range: shorter ones are taken without certificate
 constexpr double uncertified_error = 30.0;  ///< shortens a step without certificate as much as this error
 constexpr double series_share = 1e-5;       ///< accuracy of the coefficients of a series / tolerance
-constexpr double passing_share = 0.1;       ///< error of a mode that is not corrected / tolerance
+constexpr double passing_share = 0.01;      ///< error of a mode that is not corrected / tolerance
+constexpr double far_from_axis = 100.0;     ///< |Re s| / error, and |s| / what counts as zero
+constexpr double far_from_others = 2.0;     ///< meetings of modes that pass / those that divide blocks
 constexpr double large_block_step = 0.05;   ///< of the range: longest step with a block of three or more
 
 }  // namespace
@@ -150,6 +152,15 @@ Prediction Tracer::predict(const PathNode& base, double h) const {
   return prediction;
 }
 
+/// Events want eigenvalues to their own digits: modes near one are corrected at every point.
+bool Tracer::is_far_from_events(const ContinuedMode& mode, std::size_t track, double h) const {
+  const Complex mu = mode.pair.Lambda(0, 0);
+  const double error = problem_.corrector.passing_error * std::abs(mu);
+  return std::abs(mu.real()) > far_from_axis * error &&
+         std::abs(mu) > far_from_axis * problem_.reference(mode.pair.chart) &&
+         find_partners(node_, track, h, far_from_others * part_reach_).empty();
+}
+
 Prediction Tracer::predict_all(double h) {
   Prediction prediction = predict(node_, h);
   for (Track& track : node_.tracks) {
@@ -157,8 +168,10 @@ Prediction Tracer::predict_all(double h) {
   }
   // Where all modes are corrected at once none of them is spared.
   if (!problem_.all_at_once && !plane_ && last_step_ != 0.0) {
-    for (std::size_t i = 0; i < node_.tracks.size(); ++i)
+    for (std::size_t i = 0; i < node_.tracks.size(); ++i) {
       prediction.continued.push_back(continue_mode(previous_, node_, i, last_step_, h));
+      if (auto& mode = prediction.continued.back()) mode->may_pass = is_far_from_events(*mode, i, h);
+    }
   }
   if (!tried_ || tried_step_ != h) return prediction;
   for (const Track& track : node_.tracks) {

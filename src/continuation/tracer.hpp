@@ -58,6 +58,7 @@ class Tracer {
   Prediction predict(const PathNode& base, double h) const;
   /// The same from the node, with what the last step and the last attempt tell.
   Prediction predict_all(double h);
+  bool is_far_from_events(const ContinuedMode& mode, std::size_t track, double h) const;
   /// Computes and differentiates the point at distance h; the tracks' eigenvalues have their modes.
   Trouble attempt(double h, std::optional<PathNode>& next);
   bool accept(double h, PathNode next, double next_step);

@@ -53,7 +53,7 @@ double Tracer::track_error(double h, const PathNode& next, std::size_t i) const 
   const Track& track = node_.tracks[i];
   const HermiteInterpolant step = functions_on_step(node_, next, i, h);
   const Vector errors = (step.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
-  const auto degree = static_cast<int>(2 * block.left.cols() - 1);
+  const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
   const double smallest = place_of_least_magnitude(step.series(0.0, degree));
   double worst = 0.0;
   for (const double t : {0.0, 0.5, 1.0, smallest}) {
@@ -118,6 +118,13 @@ std::vector<Partner> Tracer::helpful_partners(double h, const PathNode& next, st
 }
 
 void Tracer::join_limiting_modes(double h, PathNode& next, double next_step) {
+  // All are chosen before any is joined: joining reorders the tracks.
+  struct Choice {
+    std::uint64_t strand;
+    std::vector<Partner> partners;
+    std::vector<std::uint64_t> strands;  ///< of the partners
+  };
+  std::vector<Choice> choices;
   for (std::size_t i = 0; i < next.tracks.size() && i < node_.tracks.size(); ++i) {
     if (next.tracks[i].size() > 1 || node_.tracks[i].size() > 1) continue;
     const double error = track_error(h, next, i);
@@ -125,13 +132,29 @@ void Tracer::join_limiting_modes(double h, PathNode& next, double next_step) {
     const double in_other_chart = error_in_other_chart(problem_, node_, next, i, h);
     if (in_other_chart < better_chart * error * accepted_share * options_.tolerance) {
       if (change_chart(problem_, next, i, result_.counts)) ++result_.regroupings.charts;
-      continue;
+      return;
     }
-    const auto partners =
+    Choice choice{next.tracks[i].strand, {}, {}};
+    choice.partners =
         helpful_partners(h, next, i, error, find_partners(next, i, direction_ * next_step, part_reach_));
-    if (partners.empty() || !join(problem_, next, i, partners, result_.counts)) continue;
-    ++result_.regroupings.joined;
-    return;  // joining reorders the tracks; the next point looks again
+    for (const Partner& partner : choice.partners)
+      choice.strands.push_back(next.tracks[partner.track].strand);
+    if (!choice.partners.empty()) choices.push_back(std::move(choice));
+  }
+  const auto index_of = [&next](std::uint64_t strand) {
+    const auto found = std::find_if(next.tracks.begin(), next.tracks.end(),
+                                    [&](const Track& track) { return track.strand == strand; });
+    return static_cast<std::size_t>(found - next.tracks.begin());
+  };
+  for (Choice& choice : choices) {
+    const std::size_t track = index_of(choice.strand);
+    bool all_there = choice.strand != 0 && track < next.tracks.size();
+    for (std::size_t i = 0; i < choice.partners.size(); ++i) {
+      choice.partners[i].track = index_of(choice.strands[i]);
+      all_there = all_there && choice.partners[i].track < next.tracks.size();
+    }
+    if (all_there && join(problem_, next, track, choice.partners, result_.counts))
+      ++result_.regroupings.joined;
   }
 }
 

@@ -113,6 +113,25 @@ void Tracer::settle_real_block(Track& track) {
   }
 }
 
+namespace {
+
+/// Whether the dense output leads from the labels at one end to those at the other, in both directions: where
+/// the tolerance is wider than a veering it may take another way than the series with one coefficient more,
+/// which the labels are from.
+bool keeps_labels(const DenseBlock& block, double h, const Track& left, const Track& right) {
+  constexpr double same = 1e-8;  // nearer ones cannot be told apart
+  if (left.size() == 1 || right.departure) return true;
+  double from = 0.0;
+  const ComplexVector start = departing_roots(left, h, from);
+  const auto leads = [&](const ComplexVector& a, double at_a, const ComplexVector& b, double at_b) {
+    const ComplexVector found = in_order_of(follow_roots(block, h, a, at_a, at_b), b);
+    return (found - b).cwiseAbs().maxCoeff() <= same * b.cwiseAbs().maxCoeff();
+  };
+  return leads(start, from, right.roots, 1.0) && leads(right.roots, 1.0, start, from);
+}
+
+}  // namespace
+
 PathStep Tracer::make_step(double h, const PathNode& next) const {
   PathStep step;
   step.length = h;
@@ -130,7 +149,8 @@ PathStep Tracer::make_step(double h, const PathNode& next) const {
     DenseBlock block = block_on_step(node_, next, i);
     block.left = block.left.leftCols(count).eval();
     block.right = block.right.leftCols(count).eval();
-    block.certified = i < certified_.size() && certified_[i] && next.tracks[i].told_apart;
+    block.certified = i < certified_.size() && certified_[i] && next.tracks[i].told_apart &&
+                      keeps_labels(block, h, track, next.tracks[i]);
     for (const int mode : track.modes) {
       if (mode >= 0) block.modes.push_back(mode);
     }

@@ -105,6 +105,11 @@ double largest_change(const PairSet& pairs, const ComplexMatrix& dZ, const Compl
   return largest;
 }
 
+bool has_blocks(const PairSet& pairs) {
+  return std::any_of(pairs.places.begin(), pairs.places.end(),
+                     [](const PairSet::Place& place) { return place.size > 1; });
+}
+
 /// Chord-Newton on all pairs; the basis is that of the pairs it ends with, about.
 bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options, PairSet& pairs,
             std::optional<ModalBasis>& basis, ModeCounts& counts) {
@@ -114,6 +119,8 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
     return basis.has_value();
   };
   if (!factor()) return false;
+  // Blocks may be nearly defective: they get what rounding leaves.
+  const bool all_single = !has_blocks(pairs);
   double last = INFINITY;
   int refactorizations = 0;
   ComplexMatrix dZ, dLambda;
@@ -127,9 +134,9 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
     const double size = largest_change(pairs, dZ, dLambda, reference);
     if (!std::isfinite(size)) return false;
     const double contraction = size / last;
-    if (size <= options.tolerance || (contraction > 0.5 && size < 1e-10) ||
-        (std::isfinite(last) && contraction < options.refactor_contraction &&
-         size * contraction <= 0.1 * options.tolerance))
+    if (size <= options.tolerance || (contraction > 0.5 && size < 1e-10)) return true;
+    if (all_single && std::isfinite(last) && contraction < options.refactor_contraction &&
+        size * contraction <= 0.1 * options.tolerance)
       return true;
     if (contraction > options.refactor_contraction) {
       if (contraction > 2.0 || ++refactorizations > most_refactorizations || !factor()) return false;
@@ -282,25 +289,30 @@ std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const All
                                           double accuracy, ModeCounts& counts) {
   const PairSet& pairs = all.set;
   AllEquations series(pencil, pairs, order);
-  // The basis is that of the corrected pairs: one solution is exact to rounding, and a second one corrects
-  // it.
-  const int solutions = all.basis.rounding() <= accuracy ? 1 : 2;
-  ComplexMatrix residual, defect, dZ, dLambda;
+  // The basis is that of the corrected pairs: one solution is exact to rounding, and further ones correct it.
+  // Blocks may be nearly defective, and get what rounding leaves.
+  const int most = has_blocks(pairs) ? 6 : all.basis.rounding() <= accuracy ? 1 : 2;
+  const bool has_clusters = pairs.Lambda.rows() > 2;
+  ComplexMatrix known, known_defect, dZ, dLambda;
   for (std::size_t j = 1; j < series.Z.size(); ++j) {
-    series.known_terms(j, residual, defect);
-    for (int i = 0; i < solutions; ++i) {
-      if (i == 0) {
-        all.basis.solve(pairs, -residual, -defect, dZ, dLambda);
-      } else {
-        ComplexMatrix rest = residual;
-        ComplexMatrix rest_of_norm = defect;
-        series.unknown_terms(j, rest, rest_of_norm);
-        all.basis.solve(pairs, -rest, -rest_of_norm, dZ, dLambda);
-      }
-      counts.modal_solves += 1;
+    series.known_terms(j, known, known_defect);
+    double last = INFINITY;
+    for (int i = 0; i < most; ++i) {
+      ComplexMatrix residual = known;
+      ComplexMatrix defect = known_defect;
+      if (i > 0) series.unknown_terms(j, residual, defect);
+      all.basis.solve(pairs, -residual, -defect, dZ, dLambda);
+      ++counts.modal_solves;
       make_real(pairs, dZ, dLambda);
       series.Z[j] += dZ;
       series.Lambda[j] += dLambda;
+      const double total = series.Z[j].norm() + series.Lambda[j].norm();
+      const double size = dZ.norm() + dLambda.norm();
+      // Every correction leaves an error that is smaller by about the same factor.
+      if (!(size > 1e-15 * total) || size > 0.5 * last ||
+          (!has_clusters && i > 0 && size * size < 1e-16 * total * last))
+        break;
+      last = size;
     }
     series.update(j);
   }

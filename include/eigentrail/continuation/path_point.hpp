@@ -120,8 +120,9 @@ struct EquilibriumGuess {
 
 /// A single mode as the dense output of the last step goes on, at the next point.
 struct ContinuedMode {
-  InvariantPair pair;  ///< Z in physical coordinates
-  PairSeries series;   ///< the same
+  InvariantPair pair;     ///< Z in physical coordinates
+  PairSeries series;      ///< the same
+  bool may_pass = false;  ///< may stand without correction where it is accurate enough
 };
 
 /// Where the next point is expected.
