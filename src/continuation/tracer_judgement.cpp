@@ -50,7 +50,7 @@ double Tracer::track_error(double h, const PathNode& next, std::size_t i) const 
   const Track& track = node_.tracks[i];
   const HermiteInterpolant step = functions_on_step(node_, next, i, h);
   const Vector errors = (step.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
-  const auto degree = static_cast<int>(2 * block.left.cols() - 1);
+  const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
   const double smallest = place_of_least_magnitude(step.series(0.0, degree));
   double worst = 0.0;
   for (const double t : {0.0, 0.5, 1.0, smallest}) {
