@@ -1,0 +1,129 @@
+#include "modes/real_blocks.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Of the squared directions that a real basis leaves out, over the least that it keeps.
+constexpr double largest_remainder = 1e-2;
+/// Of the sum of a block's eigenvalues, over their largest: s and -s cancel.
+constexpr double largest_sum = 1e-2;
+
+/// S(h) with S^2 = A, A[0] diagonal and positive: S_0 X + X S_0 = known divides by sums of roots.
+std::vector<Matrix> square_root(const std::vector<Matrix>& A) {
+  const Vector root = A[0].diagonal().cwiseSqrt();
+  const Eigen::Index k = root.size();
+  const Matrix sums = root.replicate(1, k) + root.transpose().replicate(k, 1);
+  std::vector<Matrix> S{root.asDiagonal()};
+  for (std::size_t j = 1; j < A.size(); ++j) {
+    Matrix rest = A[j];
+    for (std::size_t i = 1; i < j; ++i) rest -= S[i] * S[j - i];
+    S.emplace_back(rest.cwiseQuotient(sums));
+  }
+  return S;
+}
+
+/// A pair of the block, in the basis of its modes.
+PairSeries modal_pair(Root root, const RealSeries& modes) {
+  PairSeries pair;
+  const Eigen::Index n = modes.X[0].rows();
+  const Eigen::Index k = modes.X[0].cols();
+  if (root == Root::imaginary) {
+    std::vector<Matrix> stiffness;
+    for (const Matrix& L : modes.L) stiffness.emplace_back(-L);
+    for (const Matrix& X : modes.X) pair.Z.emplace_back(X.cast<Complex>());
+    for (const Matrix& omega : square_root(stiffness)) pair.Lambda.emplace_back(Complex(0.0, 1.0) * omega);
+    return pair;
+  }
+  for (std::size_t j = 0; j < modes.X.size(); ++j) {
+    ComplexMatrix Z = ComplexMatrix::Zero(n, 2 * k);
+    ComplexMatrix Lambda = ComplexMatrix::Zero(2 * k, 2 * k);
+    Z.leftCols(k) = modes.X[j].cast<Complex>();
+    Lambda.bottomLeftCorner(k, k) = modes.L[j].cast<Complex>();
+    if (j == 0) Lambda.topRightCorner(k, k).setIdentity();
+    pair.Z.push_back(std::move(Z));
+    pair.Lambda.push_back(std::move(Lambda));
+  }
+  return pair;
+}
+
+/// W0^H Z + W1^H Z Lambda, what the basis of a pair is to be divided by.
+std::vector<ComplexMatrix> normalization(const PairSeries& pair, const ComplexMatrix& W) {
+  const Eigen::Index n = pair.Z[0].rows();
+  const ComplexMatrix W0 = W.topRows(n).adjoint();
+  const ComplexMatrix W1 = W.bottomRows(n).adjoint();
+  std::vector<ComplexMatrix> of_Z, of_slope;
+  for (const ComplexMatrix& Z : pair.Z) {
+    of_Z.emplace_back(W0 * Z);
+    of_slope.emplace_back(W1 * Z);
+  }
+  std::vector<ComplexMatrix> sum = multiply_series(of_slope, pair.Lambda, pair.Z.size());
+  for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += of_Z[j];
+  return sum;
+}
+
+/// The same division for one vector: W1 = 0, and Lambda stays.
+void normalize_vector(const ComplexMatrix& W, PairSeries& pair) {
+  const std::size_t count = pair.Z.size();
+  const auto w = W.col(0).head(pair.Z[0].rows());
+  std::vector<Complex> size;
+  for (const ComplexMatrix& Z : pair.Z) size.push_back(w.dot(Z.col(0)));
+  for (std::size_t j = 0; j < count; ++j) {
+    auto z = pair.Z[j].col(0);
+    for (std::size_t i = 1; i <= j; ++i) z -= size[i] * pair.Z[j - i].col(0);
+    z /= size[0];
+  }
+}
+
+}  // namespace
+
+std::optional<Root> root_of(const InvariantPair& start) {
+  if (start.chart != Chart::finite || !start.Lambda.allFinite()) return std::nullopt;
+  const ComplexVector s = pair_eigenvalues(start);
+  if (!start.is_real) return (s.imag().array() > 0.0).all() ? std::optional(Root::imaginary) : std::nullopt;
+  const bool cancels = std::abs(s.sum()) <= largest_sum * s.cwiseAbs().maxCoeff();
+  return s.size() % 2 == 0 && cancels ? std::optional(Root::both) : std::nullopt;
+}
+
+std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k) {
+  Matrix parts(Z.rows(), 2 * Z.cols());
+  parts << Z.real(), Z.imag();
+  if (k > Z.rows() || !parts.allFinite()) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Matrix> directions(parts.transpose() * parts);
+  const Vector& squares = directions.eigenvalues();  // ascending
+  const Eigen::Index left_out = squares.size() - k;
+  const double least = squares[left_out];
+  if (!(least > 0.0) || squares[left_out - 1] > largest_remainder * least) return std::nullopt;
+  return parts * directions.eigenvectors().rightCols(k) *
+         squares.tail(k).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& W) {
+  PairSeries pair = modal_pair(root, modes);
+  if (pair.Lambda[0].size() == 1) {
+    normalize_vector(W, pair);
+    return pair;
+  }
+  const std::size_t count = pair.Z.size();
+  const std::vector<ComplexMatrix> size = normalization(pair, W);
+  const std::vector<ComplexMatrix> T = inverse_series(size);
+  return {multiply_series(pair.Z, T, count),
+          multiply_series(size, multiply_series(pair.Lambda, T, count), count)};
+}
+
+double sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W) {
+  const PairSeries pair = modal_pair(root, {{X}, {Matrix(lambda.asDiagonal())}});
+  const ComplexMatrix size = normalization(pair, W)[0];
+  // Of [0; M^-1 R], a mode with both roots takes X^T R as its velocity, and one root half of that over 2 s.
+  if (root == Root::both) return (size.rightCols(X.cols()) * X.transpose()).norm();
+  const Vector share = 0.5 * (-lambda).cwiseSqrt().cwiseInverse();
+  return (size * share.asDiagonal() * X.transpose()).norm();
+}
+
+}  // namespace eigentrail
