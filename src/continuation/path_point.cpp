@@ -8,6 +8,7 @@
 #include "core/matrix_series.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
+#include "eigentrail/modes/symmetric_pairs.hpp"
 
 namespace eigentrail {
 namespace {
@@ -88,6 +89,21 @@ std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, std::vecto
   return multiply_series(T, Z, Z.size());
 }
 
+/// Corrects the predicted pairs all at once, if the problem allows that and it works at this point.
+bool correct_together(const PathProblem& problem, const std::vector<InvariantPair>& starts, PathPoint& point,
+                      RunCounts& counts) {
+  if (problem.route == ModeRoute::one_by_one || !is_complete(starts, point.pencil.size())) return false;
+  const PencilAtPoint pencil(point.pencil, Chart::finite);
+  const double reference = problem.reference(Chart::finite);
+  if (problem.route == ModeRoute::symmetric) {
+    point.symmetric =
+        correct_symmetric(pencil, starts, reference, problem.corrector, counts.modes, point.pairs);
+  }
+  if (point.symmetric) return true;
+  point.all = correct_all(pencil, starts, reference, problem.corrector, counts.modes, point.pairs);
+  return point.all != nullptr;
+}
+
 /// Corrects the predicted pairs (Z in physical coordinates) at a reduced point, all at once or one by one.
 void correct_modes(const PathProblem& problem, const std::vector<InvariantPair>& predicted, PathPoint& point,
                    RunCounts& counts) {
@@ -97,12 +113,8 @@ void correct_modes(const PathProblem& problem, const std::vector<InvariantPair>&
     const Matrix projection = point.basis.T[0].transpose();
     for (InvariantPair& start : starts) start.Z = multiply(projection, start.Z);
   }
+  if (correct_together(problem, starts, point, counts)) return;
   const PencilAtPoint finite(point.pencil, Chart::finite);
-  if (problem.all_at_once && is_complete(starts, point.pencil.size())) {
-    point.all = correct_all(finite, starts, problem.reference(Chart::finite), problem.corrector, counts.modes,
-                            point.pairs);
-    if (point.all) return;
-  }
   const PencilAtPoint reciprocal(point.pencil, Chart::reciprocal);
   point.pairs.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -215,6 +227,25 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, Inva
 
 namespace {
 
+/// Series of all pairs of a point, the way they were corrected.
+std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point, const PathNode& node,
+                             RunCounts& counts) {
+  const int order = problem.order + 1;
+  std::vector<Track> tracks;
+  std::vector<PairSeries> series;
+  if (point.symmetric) {
+    series = differentiate_symmetric(node.pencil, *point.symmetric, order, counts.modes);
+  } else if (point.all) {
+    series =
+        differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy, counts.modes);
+  }
+  for (std::size_t i = 0; i < point.pairs.size(); ++i) {
+    tracks.push_back(series.empty() ? differentiate_track(problem, node, point.pairs[i], counts)
+                                    : make_track(node, point.pairs[i], std::move(series[i])));
+  }
+  return tracks;
+}
+
 /// What follows from the path of a node that has one.
 std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
                                             RunCounts& counts) {
@@ -224,15 +255,7 @@ std::optional<PathNode> differentiate_along(const PathProblem& problem, const Pa
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
   node.pencil = reduce(node.linearization, node.basis, order);
-  if (point.all) {
-    std::vector<PairSeries> series =
-        differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy, counts.modes);
-    for (std::size_t i = 0; i < point.pairs.size(); ++i)
-      node.tracks.push_back(make_track(node, point.pairs[i], std::move(series[i])));
-  } else {
-    for (const InvariantPair& pair : point.pairs)
-      node.tracks.push_back(differentiate_track(problem, node, pair, counts));
-  }
+  node.tracks = tracks_of(problem, point, node, counts);
   if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
   return node;
 }
