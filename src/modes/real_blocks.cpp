@@ -29,16 +29,23 @@ std::vector<Matrix> square_root(const std::vector<Matrix>& A) {
   return S;
 }
 
+/// The one of its square roots, relative to the positive one of its magnitude.
+Complex direction(Root root) {
+  if (root == Root::imaginary) return {0.0, 1.0};
+  return root == Root::positive ? 1.0 : -1.0;
+}
+
 /// A pair of the block, in the basis of its modes.
 PairSeries modal_pair(Root root, const RealSeries& modes) {
   PairSeries pair;
   const Eigen::Index n = modes.X[0].rows();
   const Eigen::Index k = modes.X[0].cols();
-  if (root == Root::imaginary) {
-    std::vector<Matrix> stiffness;
-    for (const Matrix& L : modes.L) stiffness.emplace_back(-L);
+  if (root != Root::both) {
+    const double sign = root == Root::imaginary ? -1.0 : 1.0;
+    std::vector<Matrix> squares;
+    for (const Matrix& L : modes.L) squares.emplace_back(sign * L);
     for (const Matrix& X : modes.X) pair.Z.emplace_back(X.cast<Complex>());
-    for (const Matrix& omega : square_root(stiffness)) pair.Lambda.emplace_back(Complex(0.0, 1.0) * omega);
+    for (const Matrix& S : square_root(squares)) pair.Lambda.emplace_back(direction(root) * S);
     return pair;
   }
   for (std::size_t j = 0; j < modes.X.size(); ++j) {
@@ -87,8 +94,11 @@ std::optional<Root> root_of(const InvariantPair& start) {
   if (start.chart != Chart::finite || !start.Lambda.allFinite()) return std::nullopt;
   const ComplexVector s = pair_eigenvalues(start);
   if (!start.is_real) return (s.imag().array() > 0.0).all() ? std::optional(Root::imaginary) : std::nullopt;
-  const bool cancels = std::abs(s.sum()) <= largest_sum * s.cwiseAbs().maxCoeff();
-  return s.size() % 2 == 0 && cancels ? std::optional(Root::both) : std::nullopt;
+  const double size = s.cwiseAbs().maxCoeff();
+  if (s.size() % 2 == 0 && std::abs(s.sum()) <= largest_sum * size) return Root::both;
+  if (!s.imag().isZero(0.0)) return std::nullopt;
+  if ((s.real().array() > 0.0).all()) return Root::positive;
+  return (s.real().array() < 0.0).all() ? std::optional(Root::negative) : std::nullopt;
 }
 
 std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k) {
@@ -122,7 +132,7 @@ double sensitivity(Root root, const Matrix& X, const Vector& lambda, const Compl
   const ComplexMatrix size = normalization(pair, W)[0];
   // Of [0; M^-1 R], a mode with both roots takes X^T R as its velocity, and one root half of that over 2 s.
   if (root == Root::both) return (size.rightCols(X.cols()) * X.transpose()).norm();
-  const Vector share = 0.5 * (-lambda).cwiseSqrt().cwiseInverse();
+  const Vector share = 0.5 * (lambda).cwiseAbs().cwiseSqrt().cwiseInverse();
   return (size * share.asDiagonal() * X.transpose()).norm();
 }
 

@@ -14,11 +14,39 @@ constexpr double least_mass = 1e-12;         ///< of a mode, relative to |M| |x|
 constexpr double largest_asymmetry = 1e-10;  ///< of M and K, relative: rounding of what is symmetric
 constexpr double largest_change = 0.3;  ///< of a vector: beyond, it is not known whose correction this is
 constexpr double largest_drift = 0.1;   ///< of the eigenvalues of a start, relative
-constexpr double least_frequency =
-    1.0;  ///< of an oscillation followed without its conjugate, over the reference
 
 bool is_symmetric(const Matrix& B, double norm) {
   return (B - B.transpose()).norm() <= largest_asymmetry * norm;
+}
+
+/// The positive root that a negative one mirrors: the block of it that is not yet taken.
+std::optional<std::size_t> mirrored(const std::vector<InvariantPair>& starts, std::size_t negative,
+                                    const SymmetricPairs& pairs, std::vector<bool>& taken) {
+  std::optional<std::size_t> nearest;
+  double distance = largest_drift * starts[negative].Lambda.norm();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (taken[i] || pairs.pairs[i].root != Root::positive || starts[i].size() != starts[negative].size())
+      continue;
+    const double apart = std::abs(starts[i].Lambda.trace() + starts[negative].Lambda.trace());
+    if (apart > distance) continue;
+    distance = apart;
+    nearest = i;
+  }
+  if (!nearest) return std::nullopt;
+  taken[*nearest] = true;
+  return pairs.pairs[*nearest].block;
+}
+
+/// Gives every negative root the block of its positive one; false where that has none.
+bool share_blocks(const std::vector<InvariantPair>& starts, SymmetricPairs& pairs) {
+  std::vector<bool> taken(starts.size(), false);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (pairs.pairs[i].root != Root::negative) continue;
+    const std::optional<std::size_t> block = mirrored(starts, i, pairs, taken);
+    if (!block) return false;
+    pairs.pairs[i].block = *block;
+  }
+  return true;
 }
 
 /// The starts as modes of the real pencil; empty where they are not all of them, or of another kind.
@@ -30,18 +58,19 @@ std::optional<SymmetricPairs> real_modes(const std::vector<InvariantPair>& start
   for (const InvariantPair& start : starts) {
     const std::optional<Root> root = root_of(start);
     if (!root) return std::nullopt;
-    const Eigen::Index size = *root == Root::both ? start.size() / 2 : start.size();
-    if (first + size > n) return std::nullopt;
-    const std::optional<Matrix> X = real_basis(start.Z, size);
-    if (!X) return std::nullopt;
-    pairs.X.middleCols(first, size) = *X;
+    pairs.pairs.push_back({pairs.blocks.size(), *root, {}});
     ComplexMatrix Z = start.Z;
     ComplexMatrix Lambda = start.Lambda;
-    pairs.blocks.push_back({first, size, *root, {}});
-    normalize_pair(Z, Lambda, pairs.blocks.back().W, reference);
+    normalize_pair(Z, Lambda, pairs.pairs.back().W, reference);
+    if (*root == Root::negative) continue;
+    const Eigen::Index size = *root == Root::both ? start.size() / 2 : start.size();
+    const std::optional<Matrix> X = first + size <= n ? real_basis(start.Z, size) : std::nullopt;
+    if (!X) return std::nullopt;
+    pairs.X.middleCols(first, size) = *X;
+    pairs.blocks.push_back({first, size});
     first += size;
   }
-  if (first != n) return std::nullopt;
+  if (first != n || !share_blocks(starts, pairs)) return std::nullopt;
   return pairs;
 }
 
@@ -51,7 +80,7 @@ struct Products {
 };
 
 /// Makes the vectors of a block M-orthonormal and L diagonal (Rayleigh-Ritz within the block).
-bool settle(const RealBlock& block, double norm_M, SymmetricPairs& pairs, Products& products) {
+bool settle(const SymmetricPairs::Block& block, double norm_M, SymmetricPairs& pairs, Products& products) {
   auto X = pairs.X.middleCols(block.first, block.size);
   auto MX = products.MX.middleCols(block.first, block.size);
   auto KX = products.KX.middleCols(block.first, block.size);
@@ -74,8 +103,9 @@ bool settle(const PencilAtPoint& pencil, SymmetricPairs& pairs, Products& produc
   products.MX.noalias() = pencil.M * pairs.X;
   products.KX.noalias() = pencil.K * pairs.X;
   pairs.lambda.resize(pairs.X.cols());
-  return std::all_of(pairs.blocks.begin(), pairs.blocks.end(),
-                     [&](const RealBlock& block) { return settle(block, pencil.norm_M, pairs, products); });
+  return std::all_of(pairs.blocks.begin(), pairs.blocks.end(), [&](const SymmetricPairs::Block& block) {
+    return settle(block, pencil.norm_M, pairs, products);
+  });
 }
 
 Matrix residual(const SymmetricPairs& pairs, const Products& products) {
@@ -103,7 +133,7 @@ bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, Symmet
     const double size =
         std::sqrt(change.colwise().squaredNorm().cwiseQuotient(pairs.X.colwise().squaredNorm()).maxCoeff());
     counts.modal_solves += 1;
-    counts.iterations += pairs.blocks.size();
+    counts.iterations += pairs.pairs.size();
     if (!change.allFinite() || size > largest_change || size > 2.0 * last) return false;
     pairs.X += change;
     if (suffices(size, last, options.tolerance)) return settle(pencil, pairs, products);
@@ -112,24 +142,29 @@ bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, Symmet
   return false;
 }
 
-/// The pair of a block at the point; R holds the residuals of all modes.
-InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs& pairs, const RealBlock& block,
-                      const Matrix& R, double reference) {
-  const Matrix X = pairs.X.middleCols(block.first, block.size);
-  const Vector lambda = pairs.lambda.segment(block.first, block.size);
-  PairSeries values = pair_series(block.root, {{X}, {Matrix(lambda.asDiagonal())}}, block.W);
+/// Whether the modes of a pair have the sign of lambda that its root needs; near zero they are to be followed
+/// with both.
+bool has_root(Root root, const Vector& lambda, double reference) {
+  const double least = reference * reference;
+  if (root == Root::imaginary) return lambda.maxCoeff() < -least;
+  return root == Root::both || lambda.minCoeff() > least;
+}
+
+/// A pair at the point; R (n x k) is the residual of its modes.
+InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs::Pair& of, const Matrix& X,
+                      const Vector& lambda, const Matrix& R, double reference) {
+  PairSeries values = pair_series(of.root, {{X}, {Matrix(lambda.asDiagonal())}}, of.W);
   InvariantPair pair;
   pair.status = PairStatus::converged;
-  pair.is_real = block.root == Root::both;
+  pair.is_real = of.root != Root::imaginary;
   pair.Z = std::move(values.Z[0]);
   pair.Lambda = std::move(values.Lambda[0]);
-  pair.W = block.W;
+  pair.W = of.W;
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   const double scale = pencil.magnitude(size) * pair.Z.norm();
   // Z = X T, and so is what remains of the equations.
-  const double rest = pair.Z.norm() * R.middleCols(block.first, block.size).norm() / X.norm();
-  pair.backward_error = scale > 0.0 ? rest / scale : 0.0;
-  pair.condition = sensitivity(block.root, X, lambda, block.W) * scale / std::max(size, reference);
+  pair.backward_error = scale > 0.0 ? pair.Z.norm() * R.norm() / X.norm() / scale : 0.0;
+  pair.condition = sensitivity(of.root, X, lambda, of.W) * scale / std::max(size, reference);
   return pair;
 }
 
@@ -145,7 +180,7 @@ bool stays(const InvariantPair& start, const InvariantPair& pair, double referen
 Matrix SymmetricPairs::divisors() const {
   const Eigen::Index n = lambda.size();
   Matrix result = (lambda.replicate(1, n) - lambda.transpose().replicate(n, 1)).cwiseInverse();
-  for (const RealBlock& block : blocks)
+  for (const SymmetricPairs::Block& block : blocks)
     result.block(block.first, block.first, block.size, block.size).setZero();
   return result;
 }
@@ -165,11 +200,12 @@ std::shared_ptr<const SymmetricPairs> correct_symmetric(const PencilAtPoint& pen
   const Matrix R = residual(*pairs, products);
   corrected.clear();
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    const RealBlock& block = pairs->blocks[i];
-    const double highest = pairs->lambda.segment(block.first, block.size).maxCoeff();
-    const double least = least_frequency * reference;
-    if (block.root == Root::imaginary && !(highest < -least * least)) return nullptr;
-    corrected.push_back(pair_of(pencil, *pairs, block, R, reference));
+    const SymmetricPairs::Pair& pair = pairs->pairs[i];
+    const SymmetricPairs::Block& block = pairs->blocks[pair.block];
+    const Vector lambda = pairs->lambda.segment(block.first, block.size);
+    if (!has_root(pair.root, lambda, reference)) return nullptr;
+    corrected.push_back(pair_of(pencil, pair, pairs->X.middleCols(block.first, block.size), lambda,
+                                R.middleCols(block.first, block.size), reference));
     if (!stays(starts[i], corrected.back(), reference)) return nullptr;
   }
   return std::make_shared<const SymmetricPairs>(std::move(*pairs));

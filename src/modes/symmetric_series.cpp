@@ -32,7 +32,7 @@ class ModalSeries {
   /// Coefficient j of all vectors, n x n.
   Matrix vectors(std::size_t j) const { return j == 0 ? pairs_.X : Matrix(pairs_.X * E_[j]); }
 
-  Matrix of_block(const RealBlock& block, std::size_t j) const {
+  Matrix of_block(const SymmetricPairs::Block& block, std::size_t j) const {
     return L_[j].block(block.first, block.first, block.size, block.size);
   }
 
@@ -41,7 +41,7 @@ class ModalSeries {
     const Matrix inertia = product(M_, j);
     Matrix known = product(K_, j) + inertia * pairs_.lambda.asDiagonal();
     Matrix L = Matrix::Zero(known.rows(), known.cols());
-    for (const RealBlock& block : pairs_.blocks) {
+    for (const SymmetricPairs::Block& block : pairs_.blocks) {
       auto columns = known.middleCols(block.first, block.size);
       for (std::size_t i = 1; i < j; ++i)
         columns += N_[j - i].middleCols(block.first, block.size) * of_block(block, i);
@@ -77,13 +77,14 @@ std::vector<PairSeries> differentiate_symmetric(const ReducedPencil& pencil, con
   std::vector<Matrix> X;
   for (std::size_t j = 0; j < count; ++j) X.push_back(series.vectors(j));
   std::vector<PairSeries> result;
-  for (const RealBlock& block : pairs.blocks) {
+  for (const SymmetricPairs::Pair& pair : pairs.pairs) {
+    const SymmetricPairs::Block& block = pairs.blocks[pair.block];
     RealSeries modes;
     for (std::size_t j = 0; j < count; ++j) {
       modes.X.emplace_back(X[j].middleCols(block.first, block.size));
       modes.L.push_back(series.of_block(block, j));
     }
-    result.push_back(pair_series(block.root, modes, block.W));
+    result.push_back(pair_series(pair.root, modes, pair.W));
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -141,6 +142,16 @@ TEST_P(SymmetricFamily, RealBlockOfAModeAndItsConjugateAgreesToo) {
   expect_agreement(starts);
 }
 
+TEST_P(SymmetricFamily, UnstableRootsOfBothSignsAgreeToo) {
+  family.K[0] -= 4.0 * family.M[0];
+  std::vector<InvariantPair> starts = starts_of(family, 1e-5);
+  const auto n_real =
+      std::count_if(starts.begin(), starts.end(), [](const auto& pair) { return pair.is_real; });
+  ASSERT_GT(n_real, 2);
+  ASSERT_GT(starts.size(), static_cast<std::size_t>(n_real));
+  expect_agreement(starts);
+}
+
 TEST_P(SymmetricFamily, ConvergesQuadratically) {
   std::vector<InvariantPair> pairs;
   ASSERT_TRUE(correct(family, starts_of(family, 1e-4), pairs, counts));
@@ -234,6 +245,17 @@ TEST_F(Refused, ModesThatAreNotAll) {
 
 TEST_F(Refused, TwoStartsAtOneMode) {
   starts[1] = starts[2];
+  EXPECT_TRUE(is_refused(family, starts));
+}
+
+TEST_F(Refused, NegativeRootWithoutItsPositive) {
+  family.K[0] -= 2.0 * family.M[0];
+  starts = starts_of(family, 1e-6);
+  EXPECT_FALSE(is_refused(family, starts));
+  const auto positive = std::find_if(starts.begin(), starts.end(),
+                                     [](const auto& pair) { return pair.eigenvalue().real() > 0.0; });
+  ASSERT_NE(positive, starts.end());
+  starts.erase(positive);
   EXPECT_TRUE(is_refused(family, starts));
 }
 

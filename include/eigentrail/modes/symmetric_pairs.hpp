@@ -30,21 +30,29 @@ namespace eigentrail {
 /// Which square roots of its lambda a pair follows.
 enum class Root {
   imaginary,  ///< s = i omega, lambda < 0
+  positive,   ///< s > 0, lambda > 0
+  negative,   ///< s < 0, lambda > 0
   both        ///< s and -s
-};
-
-/// A pair as modes of the real pencil: columns first ... first + size - 1.
-struct RealBlock {
-  Eigen::Index first, size;
-  Root root;
-  ComplexMatrix W;  ///< 2n x size, or 2n x 2 size for both roots: normalization of the pair
 };
 
 /// What a point keeps of all its pairs.
 struct SymmetricPairs {
-  std::vector<RealBlock> blocks;  ///< in the order of the pairs
-  Matrix X;                       ///< n x n, M-orthonormal
-  Vector lambda;                  ///< n; L of a block is diagonal at the point
+  /// Close modes of the real pencil that are followed together, or a single one: columns first ... first +
+  /// size - 1.
+  struct Block {
+    Eigen::Index first, size;
+  };
+  /// A pair of the quadratic pencil; a positive root and its negative share a block.
+  struct Pair {
+    std::size_t block;
+    Root root;
+    ComplexMatrix W;  ///< 2n x size, or 2n x 2 size for both roots: normalization
+  };
+
+  std::vector<Block> blocks;
+  std::vector<Pair> pairs;
+  Matrix X;       ///< n x n, M-orthonormal
+  Vector lambda;  ///< n; L of a block is diagonal at the point
 
   /// 1 / (lambda_a - lambda_b), n x n; zero within a block.
   Matrix divisors() const;
@@ -52,8 +60,8 @@ struct SymmetricPairs {
 
 /// Refines all pairs of a pencil (chart finite), as correct_pair for each. Null when that did not
 /// work or does not apply: C is there, M or K is not symmetric, M is not positive definite, the pairs are not
-/// all modes, one is followed in the other chart, or as one of two real roots. Cost: four real products of
-/// matrices of size n per iteration, two or three of which do.
+/// all modes, one is followed in the other chart, or real roots are grouped otherwise than their negatives.
+/// Cost: four real products of matrices of size n per iteration, two or three of which do.
 std::shared_ptr<const SymmetricPairs> correct_symmetric(const PencilAtPoint& pencil,
                                                         const std::vector<InvariantPair>& starts,
                                                         double reference, const CorrectorOptions& options,
