@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "modes/real_blocks.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double least_mass = 1e-12;         ///< of a mode, relative to |M| |x|^2
 constexpr double largest_asymmetry = 1e-10;  ///< of M and K, relative: rounding of what is symmetric
 constexpr double largest_change = 0.3;  ///< of a vector: beyond, it is not known whose correction this is
+constexpr double largest_turn = 0.1;    ///< of two vectors into each other by a first-order correction
 constexpr double largest_drift = 0.1;   ///< of the eigenvalues of a start, relative
 
 bool is_symmetric(const Matrix& B, double norm) {
@@ -79,23 +81,55 @@ struct Products {
   Matrix MX, KX;
 };
 
-/// Makes the vectors of a block M-orthonormal and L diagonal (Rayleigh-Ritz within the block).
-bool settle(const SymmetricPairs::Block& block, double norm_M, SymmetricPairs& pairs, Products& products) {
-  auto X = pairs.X.middleCols(block.first, block.size);
-  auto MX = products.MX.middleCols(block.first, block.size);
-  auto KX = products.KX.middleCols(block.first, block.size);
-  auto lambda = pairs.lambda.segment(block.first, block.size);
+using Columns = std::vector<Eigen::Index>;
+
+/// One vector gets unit mass, and lambda becomes its Rayleigh quotient.
+bool settle_one(Eigen::Index column, double norm_M, SymmetricPairs& pairs, Products& products) {
+  auto x = pairs.X.col(column);
+  const double mass = x.dot(products.MX.col(column));
+  if (!(mass > least_mass * norm_M * x.squaredNorm()) || !std::isfinite(mass)) return false;
+  pairs.lambda[column] = -x.dot(products.KX.col(column)) / mass;
+  const double scale = 1.0 / std::sqrt(mass);
+  x *= scale;
+  products.MX.col(column) *= scale;
+  products.KX.col(column) *= scale;
+  return true;
+}
+
+/// The columns of V in the order and with the signs that keep every vector closest to the old one.
+Columns closest_order(Matrix& V) {
+  Columns order(static_cast<std::size_t>(V.cols()));
+  Matrix overlaps = V.cwiseAbs();
+  for (Eigen::Index i = 0; i < V.cols(); ++i) {
+    Eigen::Index old = 0, now = 0;
+    overlaps.maxCoeff(&old, &now);
+    if (V(old, now) < 0.0) V.col(now) *= -1.0;
+    order[static_cast<std::size_t>(old)] = now;
+    overlaps.row(old).setConstant(-1.0);
+    overlaps.col(now).setConstant(-1.0);
+  }
+  return order;
+}
+
+/// Several vectors become M-orthonormal and their L diagonal (Rayleigh-Ritz).
+bool settle(const Columns& columns, double norm_M, SymmetricPairs& pairs, Products& products) {
+  if (columns.size() == 1) return settle_one(columns[0], norm_M, pairs, products);
+  const Matrix X = pairs.X(Eigen::all, columns);
+  const Matrix MX = products.MX(Eigen::all, columns);
+  const Matrix KX = products.KX(Eigen::all, columns);
   const Matrix mass = X.transpose() * MX;
-  const Matrix stiffness = X.transpose() * KX;
-  if (!mass.allFinite() || !stiffness.allFinite()) return false;
+  if (!mass.allFinite()) return false;
   const Eigen::SelfAdjointEigenSolver<Matrix> masses(mass, Eigen::EigenvaluesOnly);
   if (!(masses.eigenvalues()[0] > least_mass * norm_M * X.squaredNorm())) return false;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(stiffness, mass);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, mass);
   if (ritz.info() != Eigen::Success) return false;
-  lambda = -ritz.eigenvalues();
-  X = (X * ritz.eigenvectors()).eval();
-  MX = (MX * ritz.eigenvectors()).eval();
-  KX = (KX * ritz.eigenvectors()).eval();
+  Matrix V = ritz.eigenvectors();
+  const Columns order = closest_order(V);
+  V = V(Eigen::all, order).eval();
+  pairs.lambda(columns) = -ritz.eigenvalues()(order);
+  pairs.X(Eigen::all, columns) = X * V;
+  products.MX(Eigen::all, columns) = MX * V;
+  products.KX(Eigen::all, columns) = KX * V;
   return true;
 }
 
@@ -104,7 +138,9 @@ bool settle(const PencilAtPoint& pencil, SymmetricPairs& pairs, Products& produc
   products.KX.noalias() = pencil.K * pairs.X;
   pairs.lambda.resize(pairs.X.cols());
   return std::all_of(pairs.blocks.begin(), pairs.blocks.end(), [&](const SymmetricPairs::Block& block) {
-    return settle(block, pencil.norm_M, pairs, products);
+    Columns columns(static_cast<std::size_t>(block.size));
+    std::iota(columns.begin(), columns.end(), block.first);
+    return settle(columns, pencil.norm_M, pairs, products);
   });
 }
 
@@ -121,14 +157,42 @@ bool suffices(double size, double last, double tolerance) {
   return ratio * ratio * size <= 0.1 * tolerance || (ratio > 0.5 && size < 1e-10);
 }
 
+/// Groups of columns that a first-order correction would turn far into each other: those of close modes
+/// whose prediction is off by more than their distance.
+std::vector<Columns> turning(const Matrix& E) {
+  const Eigen::Index n = E.cols();
+  Columns group(static_cast<std::size_t>(n));
+  std::iota(group.begin(), group.end(), 0);
+  for (Eigen::Index b = 0; b < n; ++b) {
+    for (Eigen::Index a = 0; a < n; ++a) {
+      if (std::abs(E(a, b)) <= largest_turn) continue;
+      const auto from = group[static_cast<std::size_t>(a)], to = group[static_cast<std::size_t>(b)];
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  std::vector<Columns> members(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i)
+    members[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])].push_back(i);
+  std::erase_if(members, [](const Columns& columns) { return columns.size() < 2; });
+  return members;
+}
+
+Matrix correction(const SymmetricPairs& pairs, const Products& products) {
+  const Matrix G = pairs.X.transpose() * residual(pairs, products);
+  return G.cwiseProduct(pairs.divisors());
+}
+
 /// Newton's method; lambda and the products are those of the vectors it ends with.
 bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, SymmetricPairs& pairs,
             Products& products, ModeCounts& counts) {
   double last = INFINITY;
   for (int i = 0; i < options.max_iterations; ++i) {
     if (!settle(pencil, pairs, products)) return false;
-    Matrix E = pairs.X.transpose() * residual(pairs, products);
-    E = E.cwiseProduct(pairs.divisors());
+    Matrix E = correction(pairs, products);
+    const std::vector<Columns> groups = turning(E);
+    for (const Columns& columns : groups)
+      if (!settle(columns, pencil.norm_M, pairs, products)) return false;
+    if (!groups.empty()) E = correction(pairs, products);
     const Matrix change = pairs.X * E;
     const double size =
         std::sqrt(change.colwise().squaredNorm().cwiseQuotient(pairs.X.colwise().squaredNorm()).maxCoeff());
