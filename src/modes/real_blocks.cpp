@@ -75,17 +75,25 @@ std::vector<ComplexMatrix> normalization(const PairSeries& pair, const ComplexMa
   return sum;
 }
 
-/// The same division for one vector: W1 = 0, and Lambda stays.
-void normalize_vector(const ComplexMatrix& W, PairSeries& pair) {
-  const std::size_t count = pair.Z.size();
-  const auto w = W.col(0).head(pair.Z[0].rows());
-  std::vector<Complex> size;
-  for (const ComplexMatrix& Z : pair.Z) size.push_back(w.dot(Z.col(0)));
+/// The same of one mode with one root: W1 = 0, and Lambda does not depend on the vector's length.
+PairSeries single_series(Root root, const RealSeries& mode, const ComplexMatrix& W) {
+  const std::size_t count = mode.X.size();
+  const double sign = root == Root::imaginary ? -1.0 : 1.0;
+  const ComplexVector w = W.col(0).head(mode.X[0].rows());
+  std::vector<double> s{std::sqrt(sign * mode.L[0](0, 0))};
+  std::vector<Complex> length;
+  PairSeries pair;
   for (std::size_t j = 0; j < count; ++j) {
-    auto z = pair.Z[j].col(0);
-    for (std::size_t i = 1; i <= j; ++i) z -= size[i] * pair.Z[j - i].col(0);
-    z /= size[0];
+    length.push_back(w.dot(mode.X[j].col(0)));
+    ComplexVector z = mode.X[j].cast<Complex>();
+    for (std::size_t i = 1; i <= j; ++i) z -= length[i] * pair.Z[j - i].col(0);
+    pair.Z.emplace_back(z / length[0]);
+    double rest = sign * mode.L[j](0, 0);
+    for (std::size_t i = 1; i < j; ++i) rest -= s[i] * s[j - i];
+    if (j > 0) s.push_back(0.5 * rest / s[0]);
+    pair.Lambda.emplace_back(ComplexMatrix::Constant(1, 1, direction(root) * s[j]));
   }
+  return pair;
 }
 
 }  // namespace
@@ -115,11 +123,8 @@ std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k) {
 }
 
 PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& W) {
-  PairSeries pair = modal_pair(root, modes);
-  if (pair.Lambda[0].size() == 1) {
-    normalize_vector(W, pair);
-    return pair;
-  }
+  if (W.cols() == 1) return single_series(root, modes, W);
+  const PairSeries pair = modal_pair(root, modes);
   const std::size_t count = pair.Z.size();
   const std::vector<ComplexMatrix> size = normalization(pair, W);
   const std::vector<ComplexMatrix> T = inverse_series(size);
@@ -128,6 +133,10 @@ PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& 
 }
 
 double sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W) {
+  if (W.cols() == 1) {
+    const double length = std::abs(W.col(0).head(X.rows()).dot(X.col(0)));
+    return 0.5 * length * X.norm() / std::sqrt(std::abs(lambda[0]));
+  }
   const PairSeries pair = modal_pair(root, {{X}, {Matrix(lambda.asDiagonal())}});
   const ComplexMatrix size = normalization(pair, W)[0];
   // Of [0; M^-1 R], a mode with both roots takes X^T R as its velocity, and one root half of that over 2 s.
