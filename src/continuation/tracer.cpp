@@ -167,7 +167,7 @@ Prediction Tracer::predict_all(double h) {
     if (track.strand == 0) track.strand = ++strands_;
   }
   // Where all modes are corrected at once none of them is spared.
-  if (!problem_.all_at_once && !plane_ && last_step_ != 0.0) {
+  if (problem_.route == ModeRoute::one_by_one && !plane_ && last_step_ != 0.0) {
     for (std::size_t i = 0; i < node_.tracks.size(); ++i) {
       prediction.continued.push_back(continue_mode(previous_, node_, i, last_step_, h));
       if (auto& mode = prediction.continued.back()) mode->may_pass = is_far_from_events(*mode, i, h);

@@ -208,7 +208,7 @@ bool all_in_basis(const PathNode& node) {
 Tracer::Trouble Tracer::certify(double h, const PathNode& next) {
   const StageTimer timer(result_.counts.certificate_seconds);
   const StepPencil pencil(node_, next, h);
-  if (problem_.all_at_once && all_in_basis(node_) && all_in_basis(next))
+  if (problem_.route != ModeRoute::one_by_one && all_in_basis(node_) && all_in_basis(next))
     certified_ = certify_all(pencil, next, result_.counts);
   // A step that is too long is given up at the first mode whose tube does not close; with several threads
   // those behind it may have been looked at in vain.

@@ -17,6 +17,12 @@ constexpr double infinity_share = 1e4;    ///< s_max / largest |s| at the start
 /// A start that moves by more than this, relatively, was no eigenvalue of its own.
 constexpr double largest_drift = 1e-2;
 
+ModeRoute route_of_all_modes(const Structure& structure) {
+  const bool general =
+      !structure.symmetric_mass || structure.damped || structure.gyroscopic || structure.circulatory;
+  return general ? ModeRoute::state_space : ModeRoute::symmetric;
+}
+
 }  // namespace
 
 bool Tracer::start() {
@@ -82,7 +88,7 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPen
   result_.n_columns = result_.n_modes;
   // Infinite eigenvalues are not followed: the checksum would miss them.
   follows_all_ = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  problem_.all_at_once = follows_all_;
+  if (follows_all_) problem_.route = route_of_all_modes(problem_.structure);
   // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
   const auto beside = bridge_ ? spectrum_beside_branch_point() : std::nullopt;
   const auto& typical = beside ? beside->modes : modes;

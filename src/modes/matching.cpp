@@ -1,25 +1,31 @@
 #include "eigentrail/modes/matching.hpp"
 
-#include "eigentrail/modes/normalization.hpp"
-
 #include <limits>
 #include <stdexcept>
+
+#include "eigentrail/modes/pencil_at_point.hpp"
 
 namespace eigentrail {
 namespace {
 
-Vector mass_norms_squared(const ComplexMatrix& shapes, const Matrix& M) {
+/// v^H M v of every column, or zero when that is no more than rounding.
+Vector mass_norms_squared(const ComplexMatrix& shapes, const ComplexMatrix& M_shapes, double norm_M) {
   Vector norms(shapes.cols());
-  for (Eigen::Index i = 0; i < shapes.cols(); ++i) norms[i] = mass_norm_squared(shapes.col(i), M);
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+    norms[i] = shapes.col(i).dot(M_shapes.col(i)).real();
+    if (norms[i] <= 1e-12 * norm_M * shapes.col(i).squaredNorm()) norms[i] = 0.0;
+  }
   return norms;
 }
 
 }  // namespace
 
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Matrix& M) {
-  const Vector v = mass_norms_squared(V, M);
-  const Vector w = mass_norms_squared(W, M);
-  Matrix assurance = (V.adjoint() * (M.cast<Complex>() * W)).cwiseAbs2();
+  const double norm_M = M.norm();
+  const ComplexMatrix MW = multiply(M, W);
+  const Vector v = mass_norms_squared(V, multiply(M, V), norm_M);
+  const Vector w = mass_norms_squared(W, MW, norm_M);
+  Matrix assurance = (V.adjoint() * MW).cwiseAbs2();
   for (Eigen::Index i = 0; i < V.cols(); ++i) {
     for (Eigen::Index j = 0; j < W.cols(); ++j) {
       if (v[i] > 0.0 && w[j] > 0.0) {

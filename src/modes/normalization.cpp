@@ -2,15 +2,17 @@
 
 #include <cmath>
 
+#include "eigentrail/modes/pencil_at_point.hpp"
+
 namespace eigentrail {
 
 double mass_norm_squared(const ComplexVector& v, const Matrix& M) {
-  const double square = v.dot(M.cast<Complex>() * v).real();
+  const double square = v.dot(multiply(M, v).col(0)).real();
   return square > 1e-12 * M.norm() * v.squaredNorm() ? square : 0.0;
 }
 
 ComplexVector normalize_shape(const ComplexVector& v, const Matrix& M, const ComplexVector& reference) {
-  ComplexVector Mv = M.cast<Complex>() * v;
+  ComplexVector Mv = multiply(M, v);
   double square = mass_norm_squared(v, M);
   if (square == 0.0) {
     Mv = v;

@@ -63,6 +63,11 @@ std::string stages(const TimedTrace& timed) {
          " of the run";
 }
 
+std::string account(const TimedTrace& timed) {
+  return time_text(timed.seconds) + " on " + std::to_string(timed.result.nodes) + " points, " +
+         std::to_string(timed.result.rejections.total()) + " tried again; " + stages(timed);
+}
+
 /// Time of points alone: equilibrium, reduction, correction, series; with the certificate when it is on.
 double point_seconds(const TimedTrace& timed) {
   const RunCounts& c = timed.result.counts;
@@ -156,19 +161,27 @@ Figures symmetric(const BenchOptions& options) {
   const int n = options.smoke ? 8 : 100;
   const Setting undamped = undamped_family(n, seed, {});
   const Setting general = gyroscopic_family(n, seed, {});
-  const auto time = [&](const Setting& setting) {
-    TraceOptions all = setting.options;
-    all.tolerance = 1e-6;
-    return time_trace(setting, all, options.smoke ? options.repeats : 1);
-  };
-  const TimedTrace symmetric = time(undamped);
-  const TimedTrace damped = time(general);
-  return {
-      {"damped gyroscopic / undamped symmetric, time per mode and step, all modes, n = " + std::to_string(n),
-       damped.seconds_per_mode_step() / symmetric.seconds_per_mode_step(), at_least(4.0),
-       "no special route yet; undamped " + time_text(symmetric.seconds) + " on " +
-           std::to_string(symmetric.result.nodes) + " points, general " + time_text(damped.seconds) + " on " +
-           std::to_string(damped.result.nodes)}};
+  Figures figures;
+  for (const bool certify : {false, true}) {
+    const auto time = [&](const Setting& setting) {
+      TraceOptions all = setting.options;
+      all.tolerance = 1e-6;
+      all.certify = certify;
+      return time_trace(setting, all, options.repeats);
+    };
+    const TimedTrace symmetric = time(undamped);
+    const TimedTrace damped = time(general);
+    const std::string what = std::string("time per mode and step, certificate ") + (certify ? "on" : "off");
+    figures.push_back(
+        {"damped gyroscopic / undamped symmetric, all modes, n = " + std::to_string(n) + ", " + what,
+         damped.seconds_per_mode_step() / symmetric.seconds_per_mode_step(),
+         certify ? std::nullopt : std::optional(at_least(4.0)),
+         "undamped " + account(symmetric) + "; general " + account(damped)});
+    figures.push_back({"of that, points" + std::string(certify ? " and certificate" : " alone"),
+                       point_seconds(damped) / static_cast<double>(damped.result.mode_steps) /
+                           (point_seconds(symmetric) / static_cast<double>(symmetric.result.mode_steps))});
+  }
+  return figures;
 }
 
 Figures threads(const BenchOptions&) {

@@ -12,6 +12,8 @@
 
 namespace eigentrail {
 
+struct SymmetricPairs;
+
 /// A mode, or a block of close ones, at a point.
 struct Track {
   static constexpr int no_mode =
@@ -88,17 +90,25 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// How the modes of a point are corrected and differentiated. A route serves points at which every mode is
+/// followed and that meet its conditions; the others are left to the next one above it.
+enum class ModeRoute {
+  one_by_one,   ///< bordered systems, one mode or block after the other
+  state_space,  ///< all at once by products of size 2n (all_pairs.hpp)
+  symmetric     ///< all at once by real products of size n: no damping, symmetric (symmetric_pairs.hpp)
+};
+
 /// The setting of a run: what does not change from point to point.
 struct PathProblem {
   const Model& model;
   int traced = 0;          ///< index of the traced parameter
   Vector parameters = {};  ///< declared values; the traced entry is replaced at each point
   Structure structure = {};
-  int order = 3;             ///< of the dense output; series have one coefficient more, for its error
-  double s_ref = 1.0;        ///< magnitude below which an eigenvalue counts as zero, 1/s
-  double s_max = 1e300;      ///< magnitude above which it counts as infinite
-  int threads = 1;           ///< for the modes of a point, >= 1
-  bool all_at_once = false;  ///< all modes by matrix products, where every one of them is followed
+  int order = 3;         ///< of the dense output; series have one coefficient more, for its error
+  double s_ref = 1.0;    ///< magnitude below which an eigenvalue counts as zero, 1/s
+  double s_max = 1e300;  ///< magnitude above which it counts as infinite
+  int threads = 1;       ///< for the modes of a point, >= 1
+  ModeRoute route = ModeRoute::one_by_one;  ///< the cheapest one that the model allows
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
@@ -152,7 +162,8 @@ struct PathPoint {
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
   std::vector<InvariantPair> pairs;
-  std::shared_ptr<const AllPairs> all;                 ///< where the pairs were corrected all at once
+  std::shared_ptr<const AllPairs> all;              ///< where the pairs were corrected in state space
+  std::shared_ptr<const SymmetricPairs> symmetric;  ///< where they were corrected by the symmetric route
   std::vector<std::optional<PairSeries>> passed = {};  ///< of pairs that stand as they were continued
   std::vector<const Track*> ready = {};                ///< as in Prediction
 

@@ -1,0 +1,278 @@
+#include "eigentrail/modes/symmetric_pairs.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "modes/real_blocks.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double least_mass = 1e-12;         ///< of a mode, relative to |M| |x|^2
+constexpr double largest_asymmetry = 1e-10;  ///< of M and K, relative: rounding of what is symmetric
+constexpr double largest_change = 0.3;  ///< of a vector: beyond, it is not known whose correction this is
+constexpr double largest_turn = 0.1;    ///< of two vectors into each other by a first-order correction
+constexpr double largest_drift = 0.1;   ///< of the eigenvalues of a start, relative
+
+bool is_symmetric(const Matrix& B, double norm) {
+  return (B - B.transpose()).norm() <= largest_asymmetry * norm;
+}
+
+/// The positive root that a negative one mirrors: the block of it that is not yet taken.
+std::optional<std::size_t> mirrored(const std::vector<InvariantPair>& starts, std::size_t negative,
+                                    const SymmetricPairs& pairs, std::vector<bool>& taken) {
+  std::optional<std::size_t> nearest;
+  double distance = largest_drift * starts[negative].Lambda.norm();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (taken[i] || pairs.pairs[i].root != Root::positive || starts[i].size() != starts[negative].size())
+      continue;
+    const double apart = std::abs(starts[i].Lambda.trace() + starts[negative].Lambda.trace());
+    if (apart > distance) continue;
+    distance = apart;
+    nearest = i;
+  }
+  if (!nearest) return std::nullopt;
+  taken[*nearest] = true;
+  return pairs.pairs[*nearest].block;
+}
+
+/// Gives every negative root the block of its positive one; false where that has none.
+bool share_blocks(const std::vector<InvariantPair>& starts, SymmetricPairs& pairs) {
+  std::vector<bool> taken(starts.size(), false);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (pairs.pairs[i].root != Root::negative) continue;
+    const std::optional<std::size_t> block = mirrored(starts, i, pairs, taken);
+    if (!block) return false;
+    pairs.pairs[i].block = *block;
+  }
+  return true;
+}
+
+/// The starts as modes of the real pencil; empty where they are not all of them, or of another kind.
+std::optional<SymmetricPairs> real_modes(const std::vector<InvariantPair>& starts, Eigen::Index n,
+                                         double reference) {
+  SymmetricPairs pairs;
+  pairs.X.resize(n, n);
+  Eigen::Index first = 0;
+  for (const InvariantPair& start : starts) {
+    const std::optional<Root> root = root_of(start);
+    if (!root) return std::nullopt;
+    pairs.pairs.push_back({pairs.blocks.size(), *root, {}});
+    ComplexMatrix Z = start.Z;
+    ComplexMatrix Lambda = start.Lambda;
+    normalize_pair(Z, Lambda, pairs.pairs.back().W, reference);
+    if (*root == Root::negative) continue;
+    const Eigen::Index size = *root == Root::both ? start.size() / 2 : start.size();
+    const std::optional<Matrix> X = first + size <= n ? real_basis(start.Z, size) : std::nullopt;
+    if (!X) return std::nullopt;
+    pairs.X.middleCols(first, size) = *X;
+    pairs.blocks.push_back({first, size});
+    first += size;
+  }
+  if (first != n || !share_blocks(starts, pairs)) return std::nullopt;
+  return pairs;
+}
+
+/// The current vectors with their products.
+struct Products {
+  Matrix MX, KX;
+};
+
+using Columns = std::vector<Eigen::Index>;
+
+/// One vector gets unit mass, and lambda becomes its Rayleigh quotient.
+bool settle_one(Eigen::Index column, double norm_M, SymmetricPairs& pairs, Products& products) {
+  auto x = pairs.X.col(column);
+  const double mass = x.dot(products.MX.col(column));
+  if (!(mass > least_mass * norm_M * x.squaredNorm()) || !std::isfinite(mass)) return false;
+  pairs.lambda[column] = -x.dot(products.KX.col(column)) / mass;
+  const double scale = 1.0 / std::sqrt(mass);
+  x *= scale;
+  products.MX.col(column) *= scale;
+  products.KX.col(column) *= scale;
+  return true;
+}
+
+/// The columns of V in the order and with the signs that keep every vector closest to the old one.
+Columns closest_order(Matrix& V) {
+  Columns order(static_cast<std::size_t>(V.cols()));
+  Matrix overlaps = V.cwiseAbs();
+  for (Eigen::Index i = 0; i < V.cols(); ++i) {
+    Eigen::Index old = 0, now = 0;
+    overlaps.maxCoeff(&old, &now);
+    if (V(old, now) < 0.0) V.col(now) *= -1.0;
+    order[static_cast<std::size_t>(old)] = now;
+    overlaps.row(old).setConstant(-1.0);
+    overlaps.col(now).setConstant(-1.0);
+  }
+  return order;
+}
+
+/// Several vectors become M-orthonormal and their L diagonal (Rayleigh-Ritz).
+bool settle(const Columns& columns, double norm_M, SymmetricPairs& pairs, Products& products) {
+  if (columns.size() == 1) return settle_one(columns[0], norm_M, pairs, products);
+  const Matrix X = pairs.X(Eigen::all, columns);
+  const Matrix MX = products.MX(Eigen::all, columns);
+  const Matrix KX = products.KX(Eigen::all, columns);
+  const Matrix mass = X.transpose() * MX;
+  if (!mass.allFinite()) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix> masses(mass, Eigen::EigenvaluesOnly);
+  if (!(masses.eigenvalues()[0] > least_mass * norm_M * X.squaredNorm())) return false;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, mass);
+  if (ritz.info() != Eigen::Success) return false;
+  Matrix V = ritz.eigenvectors();
+  const Columns order = closest_order(V);
+  V = V(Eigen::all, order).eval();
+  pairs.lambda(columns) = -ritz.eigenvalues()(order);
+  pairs.X(Eigen::all, columns) = X * V;
+  products.MX(Eigen::all, columns) = MX * V;
+  products.KX(Eigen::all, columns) = KX * V;
+  return true;
+}
+
+bool settle(const PencilAtPoint& pencil, SymmetricPairs& pairs, Products& products) {
+  products.MX.noalias() = pencil.M * pairs.X;
+  products.KX.noalias() = pencil.K * pairs.X;
+  pairs.lambda.resize(pairs.X.cols());
+  return std::all_of(pairs.blocks.begin(), pairs.blocks.end(), [&](const SymmetricPairs::Block& block) {
+    Columns columns(static_cast<std::size_t>(block.size));
+    std::iota(columns.begin(), columns.end(), block.first);
+    return settle(columns, pencil.norm_M, pairs, products);
+  });
+}
+
+Matrix residual(const SymmetricPairs& pairs, const Products& products) {
+  return products.KX + products.MX * pairs.lambda.asDiagonal();
+}
+
+/// Whether a correction of relative size `size` after one of size `last` leaves an error below the tolerance:
+/// it is proportional to the square of the one before.
+bool suffices(double size, double last, double tolerance) {
+  if (size <= tolerance) return true;
+  if (!std::isfinite(last)) return false;
+  const double ratio = size / last;
+  return ratio * ratio * size <= 0.1 * tolerance || (ratio > 0.5 && size < 1e-10);
+}
+
+/// Groups of columns that a first-order correction would turn far into each other: those of close modes
+/// whose prediction is off by more than their distance.
+std::vector<Columns> turning(const Matrix& E) {
+  const Eigen::Index n = E.cols();
+  Columns group(static_cast<std::size_t>(n));
+  std::iota(group.begin(), group.end(), 0);
+  for (Eigen::Index b = 0; b < n; ++b) {
+    for (Eigen::Index a = 0; a < n; ++a) {
+      if (std::abs(E(a, b)) <= largest_turn) continue;
+      const auto from = group[static_cast<std::size_t>(a)], to = group[static_cast<std::size_t>(b)];
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  std::vector<Columns> members(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i)
+    members[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])].push_back(i);
+  std::erase_if(members, [](const Columns& columns) { return columns.size() < 2; });
+  return members;
+}
+
+Matrix correction(const SymmetricPairs& pairs, const Products& products) {
+  const Matrix G = pairs.X.transpose() * residual(pairs, products);
+  return G.cwiseProduct(pairs.divisors());
+}
+
+/// Newton's method; lambda and the products are those of the vectors it ends with.
+bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, SymmetricPairs& pairs,
+            Products& products, ModeCounts& counts) {
+  double last = INFINITY;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    if (!settle(pencil, pairs, products)) return false;
+    Matrix E = correction(pairs, products);
+    const std::vector<Columns> groups = turning(E);
+    for (const Columns& columns : groups)
+      if (!settle(columns, pencil.norm_M, pairs, products)) return false;
+    if (!groups.empty()) E = correction(pairs, products);
+    const Matrix change = pairs.X * E;
+    const double size =
+        std::sqrt(change.colwise().squaredNorm().cwiseQuotient(pairs.X.colwise().squaredNorm()).maxCoeff());
+    counts.modal_solves += 1;
+    counts.iterations += pairs.pairs.size();
+    if (!change.allFinite() || size > largest_change || size > 2.0 * last) return false;
+    pairs.X += change;
+    if (suffices(size, last, options.tolerance)) return settle(pencil, pairs, products);
+    last = size;
+  }
+  return false;
+}
+
+/// Whether the modes of a pair have the sign of lambda that its root needs; near zero they are to be followed
+/// with both.
+bool has_root(Root root, const Vector& lambda, double reference) {
+  const double least = reference * reference;
+  if (root == Root::imaginary) return lambda.maxCoeff() < -least;
+  return root == Root::both || lambda.minCoeff() > least;
+}
+
+/// A pair at the point; R (n x k) is the residual of its modes.
+InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs::Pair& of, const Matrix& X,
+                      const Vector& lambda, const Matrix& R, double reference) {
+  PairSeries values = pair_series(of.root, {{X}, {Matrix(lambda.asDiagonal())}}, of.W);
+  InvariantPair pair;
+  pair.status = PairStatus::converged;
+  pair.is_real = of.root != Root::imaginary;
+  pair.Z = std::move(values.Z[0]);
+  pair.Lambda = std::move(values.Lambda[0]);
+  pair.W = of.W;
+  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+  const double scale = pencil.magnitude(size) * pair.Z.norm();
+  // Z = X T, and so is what remains of the equations.
+  pair.backward_error = scale > 0.0 ? pair.Z.norm() * R.norm() / X.norm() / scale : 0.0;
+  pair.condition = sensitivity(of.root, X, lambda, of.W) * scale / std::max(size, reference);
+  return pair;
+}
+
+/// Whether a corrected pair still is the predicted one.
+bool stays(const InvariantPair& start, const InvariantPair& pair, double reference) {
+  const double k = static_cast<double>(pair.size());
+  const double moved = std::abs(pair.Lambda.trace() - start.Lambda.trace()) / k;
+  return moved <= largest_drift * std::max(pair.Lambda.norm() / std::sqrt(k), reference);
+}
+
+}  // namespace
+
+Matrix SymmetricPairs::divisors() const {
+  const Eigen::Index n = lambda.size();
+  Matrix result = (lambda.replicate(1, n) - lambda.transpose().replicate(n, 1)).cwiseInverse();
+  for (const SymmetricPairs::Block& block : blocks)
+    result.block(block.first, block.first, block.size, block.size).setZero();
+  return result;
+}
+
+std::shared_ptr<const SymmetricPairs> correct_symmetric(const PencilAtPoint& pencil,
+                                                        const std::vector<InvariantPair>& starts,
+                                                        double reference, const CorrectorOptions& options,
+                                                        ModeCounts& counts,
+                                                        std::vector<InvariantPair>& corrected) {
+  if (!pencil.is_undamped() || !is_symmetric(pencil.M, pencil.norm_M) ||
+      !is_symmetric(pencil.K, pencil.norm_K))
+    return nullptr;
+  std::optional<SymmetricPairs> pairs = real_modes(starts, pencil.size(), reference);
+  Products products;
+  if (!pairs || !newton(pencil, options, *pairs, products, counts)) return nullptr;
+  ++counts.modal_bases;
+  const Matrix R = residual(*pairs, products);
+  corrected.clear();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const SymmetricPairs::Pair& pair = pairs->pairs[i];
+    const SymmetricPairs::Block& block = pairs->blocks[pair.block];
+    const Vector lambda = pairs->lambda.segment(block.first, block.size);
+    if (!has_root(pair.root, lambda, reference)) return nullptr;
+    corrected.push_back(pair_of(pencil, pair, pairs->X.middleCols(block.first, block.size), lambda,
+                                R.middleCols(block.first, block.size), reference));
+    if (!stays(starts[i], corrected.back(), reference)) return nullptr;
+  }
+  return std::make_shared<const SymmetricPairs>(std::move(*pairs));
+}
+
+}  // namespace eigentrail

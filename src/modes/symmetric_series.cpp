@@ -1,0 +1,92 @@
+// Power series of all pairs of an undamped symmetric pencil, in the coordinates of its modes.
+#include "eigentrail/modes/symmetric_pairs.hpp"
+#include "modes/real_blocks.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// X^T B_i X of the coefficients from i = 1 on; empty where B_i is zero.
+std::vector<Matrix> in_modes(const MatrixSeries& B, const Matrix& X, std::size_t count) {
+  std::vector<Matrix> result(count);
+  for (std::size_t i = 1; i < count && i < B.size(); ++i) {
+    if (!B[i].isZero(0.0)) result[i] = X.transpose() * (B[i] * X);
+  }
+  return result;
+}
+
+/// Coefficients E_j of X(h) = X E(h) and L_j of the blocks, with N(h) = X^T M(h) X E(h), filled order by
+/// order. E_j is zero within the blocks for j > 0: the pairs are normalized afterwards.
+class ModalSeries {
+ public:
+  ModalSeries(const ReducedPencil& pencil, const SymmetricPairs& pairs, std::size_t count)
+      : pairs_(pairs),
+        divisors_(pairs.divisors()),
+        M_(in_modes(pencil.M, pairs.X, count)),
+        K_(in_modes(pencil.K, pairs.X, count)),
+        E_{Matrix::Identity(pairs.X.cols(), pairs.X.cols())},
+        N_{E_[0]},
+        L_{pairs.lambda.asDiagonal()} {
+    for (std::size_t j = 1; j < count; ++j) append(j);
+  }
+
+  /// Coefficient j of all vectors, n x n.
+  Matrix vectors(std::size_t j) const { return j == 0 ? pairs_.X : Matrix(pairs_.X * E_[j]); }
+
+  Matrix of_block(const SymmetricPairs::Block& block, std::size_t j) const {
+    return L_[j].block(block.first, block.first, block.size, block.size);
+  }
+
+ private:
+  void append(std::size_t j) {
+    const Matrix inertia = product(M_, j);
+    Matrix known = product(K_, j) + inertia * pairs_.lambda.asDiagonal();
+    Matrix L = Matrix::Zero(known.rows(), known.cols());
+    for (const SymmetricPairs::Block& block : pairs_.blocks) {
+      auto columns = known.middleCols(block.first, block.size);
+      for (std::size_t i = 1; i < j; ++i)
+        columns += N_[j - i].middleCols(block.first, block.size) * of_block(block, i);
+      L.block(block.first, block.first, block.size, block.size) =
+          -columns.middleRows(block.first, block.size);
+    }
+    E_.emplace_back(known.cwiseProduct(divisors_));
+    N_.emplace_back(E_[j] + inertia);
+    L_.push_back(std::move(L));
+  }
+
+  /// Coefficient j of B(h) E(h) without the term B_0 E_j.
+  Matrix product(const std::vector<Matrix>& B, std::size_t j) const {
+    Matrix sum = j < B.size() && B[j].size() > 0 ? B[j] : Matrix(Matrix::Zero(E_[0].rows(), E_[0].cols()));
+    for (std::size_t i = 1; i < j; ++i) {
+      if (B[i].size() > 0) sum.noalias() += B[i] * E_[j - i];
+    }
+    return sum;
+  }
+
+  const SymmetricPairs& pairs_;
+  Matrix divisors_;
+  std::vector<Matrix> M_, K_, E_, N_, L_;
+};
+
+}  // namespace
+
+std::vector<PairSeries> differentiate_symmetric(const ReducedPencil& pencil, const SymmetricPairs& pairs,
+                                                int order, ModeCounts& counts) {
+  const auto count = static_cast<std::size_t>(order) + 1;
+  const ModalSeries series(pencil, pairs, count);
+  counts.modal_solves += count - 1;
+  std::vector<Matrix> X;
+  for (std::size_t j = 0; j < count; ++j) X.push_back(series.vectors(j));
+  std::vector<PairSeries> result;
+  for (const SymmetricPairs::Pair& pair : pairs.pairs) {
+    const SymmetricPairs::Block& block = pairs.blocks[pair.block];
+    RealSeries modes;
+    for (std::size_t j = 0; j < count; ++j) {
+      modes.X.emplace_back(X[j].middleCols(block.first, block.size));
+      modes.L.push_back(series.of_block(block, j));
+    }
+    result.push_back(pair_series(pair.root, modes, pair.W));
+  }
+  return result;
+}
+
+}  // namespace eigentrail
