@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
@@ -69,7 +71,21 @@ void print_structure(const Structure& structure, bool has_constraints, const std
         has_constraints ? along(structure.constant_constraints) : ""}});
 }
 
-void print_solvers(const Model& model, const Structure& structure, int order, bool chosen) {
+/// The route of the modes, and what it costs beside one LU per mode.
+std::string describe_route(const Structure& structure, const ModeWork& work) {
+  const ModeRoute route = cheapest_route(structure, work);
+  if (route == ModeRoute::one_by_one)
+    return "chord-Newton, one LU of size " + std::to_string(work.freedoms + 1) + " per mode and point";
+  const double share =
+      route_work(route, structure, work) / route_work(ModeRoute::one_by_one, structure, work);
+  const std::string how = route == ModeRoute::symmetric
+                              ? "all at once by real products of size n (undamped, symmetric)"
+                              : "all at once by products in state space, size 2 n";
+  return how + ": about " + rounded(100.0 * share, 2) + " % of the work of one LU per mode";
+}
+
+void print_solvers(const Model& model, const Structure& structure, const ModeWork& work, bool chosen) {
+  const int order = work.order;
   std::printf("solvers\n");
   std::string equilibrium =
       "KINSOL with line search at every point, predicted by its series of " + order_text(order, chosen);
@@ -84,12 +100,11 @@ void print_solvers(const Model& model, const Structure& structure, int order, bo
   } else if (structure.constant_constraints) {
     basis = "rank-revealing QR at every point, T' = 0";
   }
-  print_table(
-      {{"  equilibrium", equilibrium},
-       {"  tangent basis", basis},
-       {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
-       {"  modes", "chord-Newton, one complex LU per mode and point, series of " + order_text(order, chosen)},
-       {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}});
+  print_table({{"  equilibrium", equilibrium},
+               {"  tangent basis", basis},
+               {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
+               {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
+               {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}});
 }
 
 int run_explain(const ExplainArguments& arguments) {
@@ -121,7 +136,10 @@ int run_explain(const ExplainArguments& arguments) {
   const bool computed = point.status == PointStatus::computed;
   const Eigen::Index freedoms = computed ? point.pencil.size() : model->n_coordinates();
   const int cheapest = cheapest_order({freedoms, options.certify}, options.tolerance);
-  print_solvers(*model, structure, options.order.value_or(cheapest), !options.order);
+  // Infinite eigenvalues show at the start of a trace only; its modes are then corrected one by one.
+  const Eigen::Index modes = options.modes ? std::min<Eigen::Index>(*options.modes, 2 * freedoms) : freedoms;
+  print_solvers(*model, structure, {freedoms, modes, !options.modes, options.order.value_or(cheapest)},
+                !options.order);
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
   return done;
 }
@@ -133,7 +151,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  for (const std::string name : {"parameter", "from", "to", "order"}) {
+  for (const std::string name : {"parameter", "from", "to", "modes", "order"}) {
     command->add_option_function<std::string>(
         "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
         "as for trace (overrides the scene)");

@@ -8,8 +8,16 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // there where LAPACK is OpenBLAS
+
 namespace eigentrail::app {
 namespace {
+
+/// Work is shared by modes and by traces; threads within BLAS would compete with those, and change the last
+/// bits with their number.
+void use_one_thread_within_blas() {
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+}
 
 /// CLI11 would only say that a command is required.
 void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
@@ -57,6 +65,7 @@ int run(int argc, char** argv) {
 }  // namespace eigentrail::app
 
 int main(int argc, char** argv) try {
+  eigentrail::app::use_one_thread_within_blas();
   return eigentrail::app::run(argc, argv);
 } catch (const eigentrail::InputError& error) {
   std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());

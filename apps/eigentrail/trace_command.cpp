@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "check_output.hpp"
 #include "commands.hpp"
@@ -21,6 +22,7 @@ struct TraceArguments {
   std::string output;
   bool force = false;
   bool quiet = false;
+  int threads = 0;                             ///< 0: one per core
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
 
@@ -70,6 +72,17 @@ void print_work(const TraceResult& result) {
       static_cast<unsigned long long>(counts.event_factorizations),
       static_cast<unsigned long long>(counts.equilibrium_iterations),
       static_cast<unsigned long long>(counts.equilibrium_factorizations));
+  if (counts.modes.modal_bases + counts.certificate_bases > 0) {
+    std::printf(
+        "        all modes at once: %llu bases, %llu solutions with them, %llu bases of the certificate\n",
+        static_cast<unsigned long long>(counts.modes.modal_bases),
+        static_cast<unsigned long long>(counts.modes.modal_solves),
+        static_cast<unsigned long long>(counts.certificate_bases));
+  }
+  if (counts.modes.passed > 0) {
+    std::printf("        %llu times a mode passed a point as its dense output went on\n",
+                static_cast<unsigned long long>(counts.modes.passed));
+  }
   std::printf(
       "  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, certificate %s, matching "
       "%s, events "
@@ -149,8 +162,11 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
 }
 
 int run_trace(const TraceArguments& arguments) {
-  const TraceSetup setup =
+  TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+  setup.options.threads = arguments.threads > 0
+                              ? arguments.threads
+                              : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const Scene& scene = setup.scene;
   const TraceOptions& options = setup.options;
   const Model& model = *setup.model;
@@ -225,6 +241,10 @@ void add_trace(CLI::App& program, int& exit_code) {
   command->add_flag_callback(
       "--no-certify", [arguments] { arguments->options["certify"] = "false"; },
       "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "threads that share the modes of a point; 0: one per core (results are the same)")
+      ->check(CLI::Range(0, 1024));
   command->footer(
       "Examples:\n"
       "  eigentrail trace data/scenes/rotating_mass.toml -o blade.h5\n"

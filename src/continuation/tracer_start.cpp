@@ -6,6 +6,7 @@
 #include "continuation/starting_tracks.hpp"
 #include "continuation/tracer.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
+#include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -16,12 +17,6 @@ constexpr double few_share = 4.0;         ///< freedoms per mode above which mod
 constexpr double infinity_share = 1e4;    ///< s_max / largest |s| at the start
 /// A start that moves by more than this, relatively, was no eigenvalue of its own.
 constexpr double largest_drift = 1e-2;
-
-ModeRoute route_of_all_modes(const Structure& structure) {
-  const bool general =
-      !structure.symmetric_mass || structure.damped || structure.gyroscopic || structure.circulatory;
-  return general ? ModeRoute::state_space : ModeRoute::symmetric;
-}
 
 }  // namespace
 
@@ -88,7 +83,8 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPen
   result_.n_columns = result_.n_modes;
   // Infinite eigenvalues are not followed: the checksum would miss them.
   follows_all_ = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  if (follows_all_) problem_.route = route_of_all_modes(problem_.structure);
+  problem_.route = cheapest_route(problem_.structure,
+                                  {pencil.size(), result_.n_modes, follows_all_, problem_.order});
   // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
   const auto beside = bridge_ ? spectrum_beside_branch_point() : std::nullopt;
   const auto& typical = beside ? beside->modes : modes;

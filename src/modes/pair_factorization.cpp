@@ -7,6 +7,29 @@
 
 namespace eigentrail {
 
+namespace {
+
+/// A deviation below this, relatively, is left out of the factors: it slows the corrections down by as much.
+constexpr double unreal = 1e-6;
+
+/// Phase of a vector that is real but for it; empty if it is not.
+std::optional<Complex> phase_of(const ComplexVector& z) {
+  const Complex square = (z.transpose() * z)(0, 0);
+  if (!(std::abs(square) > 0.0)) return std::nullopt;
+  const Complex phase = std::sqrt(square / std::abs(square));
+  const bool is_real = (std::conj(phase) * z).imag().norm() <= unreal * z.norm();
+  return is_real ? std::optional(phase) : std::nullopt;
+}
+
+/// Direction of s if P(s) is real: i without damping, 1 of a real s.
+std::optional<Complex> direction_of(const PencilAtPoint& pencil, Complex s) {
+  if (std::abs(s.imag()) <= unreal * unreal * std::abs(s.real())) return 1.0;
+  const bool imaginary = std::abs(s.real()) <= unreal * unreal * std::abs(s.imag());
+  return pencil.is_undamped() && imaginary ? std::optional(Complex(0.0, 1.0)) : std::nullopt;
+}
+
+}  // namespace
+
 PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexMatrix& Z,
                                      const ComplexMatrix& Lambda, const ComplexMatrix& W) {
   const Eigen::Index n = Z.rows();
@@ -32,6 +55,7 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const double slope = (2.0 * MZ * T + CZ).norm();
   slope_scale_ = slope > 0.0 ? size / slope : size;
   border_scale_ = size;
+  if (k == 1 && factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ)) return;
   columns_.reserve(static_cast<std::size_t>(k));
   for (Eigen::Index j = 0; j < k; ++j) {
     const Complex t = T(j, j);
@@ -44,6 +68,21 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   }
 }
 
+bool PairFactorization::factor_real(const PencilAtPoint& pencil, const ComplexVector& z, Complex s,
+                                    const ComplexVector& w, const ComplexVector& slope) {
+  const std::optional<Complex> direction = direction_of(pencil, s);
+  const std::optional<Complex> phase = direction ? phase_of(z) : std::nullopt;
+  if (!phase || (std::conj(*phase) * w).imag().norm() > unreal * w.norm()) return false;
+  const Eigen::Index n = z.size();
+  Matrix B = Matrix::Zero(n + 1, n + 1);
+  B.topLeftCorner(n, n) = (s * s).real() * pencil.M + pencil.K;
+  if (!pencil.is_undamped()) B.topLeftCorner(n, n) += s.real() * pencil.C;
+  B.topRightCorner(n, 1) = slope_scale_ * (std::conj(*phase * *direction) * slope).real();
+  B.bottomLeftCorner(1, n) = border_scale_ * (std::conj(*phase) * w).real().transpose();
+  real_.emplace(RealMode{RealLu(std::move(B)), *phase, *direction});
+  return true;
+}
+
 void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
                               ComplexMatrix& dLambda) const {
   if (coupling_) return solve_block(R, N, dZ, dLambda);
@@ -51,7 +90,14 @@ void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, Co
   ComplexVector b(n + 1);
   b.head(n) = R.col(0);
   b[n] = border_scale_ * N(0, 0);
-  columns_.front().solve_in_place(b);
+  if (real_) {
+    b.head(n) *= std::conj(real_->phase);
+    real_->lu.solve_in_place(b);
+    b.head(n) *= real_->phase;
+    b[n] *= std::conj(real_->direction);
+  } else {
+    columns_.front().solve_in_place(b);
+  }
   dZ = b.head(n);
   dLambda.resize(1, 1);
   dLambda(0, 0) = slope_scale_ * b[n];
@@ -86,6 +132,11 @@ void PairFactorization::solve_block(const ComplexMatrix& R, const ComplexMatrix&
 }
 
 double PairFactorization::sensitivity() const {
+  if (real_) {
+    ComplexVector y = ComplexVector::Unit(real_->lu.size(), real_->lu.size() - 1);
+    real_->lu.solve_adjoint_in_place(y);
+    return slope_scale_ * y.head(y.size() - 1).norm();
+  }
   const auto k = static_cast<Eigen::Index>(columns_.size());
   const Eigen::Index n = columns_.front().size() - k;
   double square = 0.0;

@@ -67,7 +67,11 @@ void write_summary(Hdf5File& file, const TraceResult& result) {
   count("mode_factorizations", result.counts.modes.factorizations);
   count("mode_iterations", result.counts.modes.iterations);
   count("mode_solves", result.counts.modes.solves);
+  count("modes_passed", result.counts.modes.passed);
+  count("modal_bases", result.counts.modes.modal_bases);
+  count("modal_solves", result.counts.modes.modal_solves);
   count("certificate_factorizations", result.counts.certificate_factorizations);
+  count("certificate_bases", result.counts.certificate_bases);
   count("event_factorizations", result.counts.event_factorizations);
   count("spectra", result.counts.spectra);
   count("equilibrium_iterations", result.counts.equilibrium_iterations);

@@ -184,9 +184,27 @@ Figures symmetric(const BenchOptions& options) {
   return figures;
 }
 
-Figures threads(const BenchOptions&) {
-  return {{"speed-up by a second thread within one trace", 1.0, at_least(1.6),
-           "not offered yet; maps and boundaries use a trace per core"}};
+Figures threads(const BenchOptions& options) {
+  const int n = options.smoke ? 40 : 100;
+  const int modes = options.smoke ? 16 : 40;
+  const Setting setting = gyroscopic_family(n, seed, {});
+  // On the wall, one after the other: what else the machine does meets both.
+  std::vector<double> one, two;
+  TraceOptions with = few_modes_of(setting, modes, true);
+  std::string account;
+  for (int i = 0; i < options.repeats; ++i) {
+    for (const int count : {1, 2}) {
+      with.threads = count;
+      const TimedTrace timed = time_trace(setting, with, 1);
+      (count == 1 ? one : two).push_back(timed.result.seconds);
+      account = std::to_string(timed.result.nodes) + " points";
+    }
+  }
+  const double alone = median(one);
+  const double together = median(two);
+  return {{"speed-up by a second thread, " + std::to_string(modes) + " modes of n = " + std::to_string(n),
+           alone / together, at_least(1.6),
+           time_text(alone) + " / " + time_text(together) + " on the wall, " + account}};
 }
 
 }  // namespace eigentrail::test

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "eigentrail/core/complex_lu.hpp"
+#include "eigentrail/core/real_lu.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
 
 namespace eigentrail {
@@ -33,12 +34,13 @@ struct CorrectorOptions {
 
 /// Work done on modes, summed over a run.
 struct ModeCounts {
-  std::uint64_t factorizations = 0;  ///< complex LU of size n + k
+  std::uint64_t factorizations = 0;  ///< LU of size n + k, real where the equations are
   std::uint64_t iterations = 0;      ///< Newton corrections
   std::uint64_t solves = 0;          ///< back-substitutions, all purposes
   std::uint64_t passed = 0;          ///< modes that needed no correction
-  std::uint64_t modal_bases = 0;     ///< inverses of size 2n that serve all modes at once (all_pairs.hpp)
-  std::uint64_t modal_solves = 0;    ///< solutions for all modes with them
+  /// Bases that serve all modes at once (all_pairs.hpp, symmetric_pairs.hpp).
+  std::uint64_t modal_bases = 0;
+  std::uint64_t modal_solves = 0;  ///< solutions for all modes with them
 
   ModeCounts& operator+=(const ModeCounts& other);
 };
@@ -64,10 +66,21 @@ class PairFactorization {
     ComplexMatrix U, T, T2, Z, W1;
   };
 
+  /// A single mode of which, but for the phase of z, all is real: s^2 without damping, or s itself.
+  struct RealMode {
+    RealLu lu;
+    Complex phase;      ///< of z
+    Complex direction;  ///< of s: 1 or i
+  };
+
+  /// Factors the real form of a single mode, if it has one.
+  bool factor_real(const PencilAtPoint& pencil, const ComplexVector& z, Complex s, const ComplexVector& w,
+                   const ComplexVector& slope);
   void solve_block(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
                    ComplexMatrix& dLambda) const;
 
   std::optional<Coupling> coupling_;
+  std::optional<RealMode> real_;
   std::vector<ComplexLu> columns_;
   double slope_scale_, border_scale_;
 };

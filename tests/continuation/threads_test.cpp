@@ -1,0 +1,63 @@
+// Threads share the modes of a point; what they find may not depend on them.
+#include <gtest/gtest.h>
+
+#include "eigentrail/continuation/recorded_path.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// n freedoms whose frequencies veer and are damped, M the identity.
+std::string family(int n) {
+  const auto matrix = [n](auto&& entry) {
+    std::string text = "[";
+    for (int i = 0; i < n; ++i) {
+      text += i > 0 ? ", [" : "[";
+      for (int j = 0; j < n; ++j) text += (j > 0 ? ", " : "") + std::to_string(entry(i, j));
+      text += "]";
+    }
+    return text + "]";
+  };
+  const auto identity = [](int i, int j) { return i == j ? 1.0 : 0.0; };
+  const auto stiffness = [](int i, int j) { return i == j ? 9.0 + 0.7 * i : 0.02 / (1.0 + i + j); };
+  const auto growth = [](int i, int j) { return i == j ? 3.0 - 0.1 * ((7 * i) % 11) : 0.0; };
+  const auto damping = [](int i, int j) { return i == j ? 0.02 + 0.001 * i : 0.05 * (i < j ? 1 : -1); };
+  return "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 8\n[matrix_family]\nM = [" +
+         matrix(identity) + "]\nC = [" + matrix(damping) + "]\nK = [" + matrix(stiffness) + ", " +
+         matrix(growth) + "]\n";
+}
+
+RecordedPath path_with(const Setting& setting, int threads) {
+  TraceOptions options = setting.options;
+  options.threads = threads;
+  PathRecorder recorder;
+  TraceObserver observer;
+  observer.point = [&](const TracePoint& point) {
+    recorder.append(point);
+    return true;
+  };
+  const TraceResult result = trace(*setting.model, options, observer);
+  EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
+  return recorder.path();
+}
+
+TEST(Threads, GiveTheSameBits) {
+  constexpr int n = 40;
+  ASSERT_TRUE(is_worth_sharing(8, n)) << "the modes must be shared at all";
+  const Setting setting = make_setting(family(n), {});
+  const RecordedPath one = path_with(setting, 1);
+  for (const int threads : {2, 5}) {
+    const RecordedPath many = path_with(setting, threads);
+    ASSERT_EQ(one.p, many.p);
+    ASSERT_EQ(one.eigenvalues, many.eigenvalues);
+    for (std::size_t i = 0; i < one.steps.size(); ++i) {
+      for (std::size_t j = 0; j < one.steps[i].blocks.size(); ++j) {
+        EXPECT_EQ(one.steps[i].blocks[j].left, many.steps[i].blocks[j].left);
+        EXPECT_EQ(one.steps[i].blocks[j].certified, many.steps[i].blocks[j].certified);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test
