@@ -20,15 +20,6 @@ constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
 constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
 
-ComplexMatrix kronecker(const ComplexMatrix& A, const ComplexMatrix& B) {
-  ComplexMatrix result(A.rows() * B.rows(), A.cols() * B.cols());
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    for (Eigen::Index j = 0; j < A.cols(); ++j)
-      result.block(i * B.rows(), j * B.cols(), B.rows(), B.cols()) = A(i, j) * B;
-  }
-  return result;
-}
-
 /// One block on one step.
 class Tube {
  public:
@@ -90,21 +81,30 @@ class Tube {
     return J;
   }
 
+  /// Block (i, j) of size n x n belongs to columns i of the residual and j of Z: it is Lambda^2(j, i) M +
+  /// Lambda(j, i) C, and K where i is j; the others likewise.
   ComplexMatrix jacobian_of_block(const State& s, double scale) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
-    const ComplexMatrix W0 = W_.topRows(n);
-    const ComplexMatrix W1 = W_.bottomRows(n);
+    const ComplexMatrix L2 = s.Lambda * s.Lambda;
     const ComplexMatrix MZ = multiply(s.M, s.Z);
+    const ComplexMatrix slope = MZ * s.Lambda + multiply(s.C, s.Z);
+    const ComplexMatrix W0 = W_.topRows(n).adjoint();
+    const ComplexMatrix W1 = W_.bottomRows(n).adjoint();
+    const ComplexMatrix W1Z = W1 * s.Z;
     ComplexMatrix J(n * k + k * k, n * k + k * k);
-    const ComplexMatrix I = ComplexMatrix::Identity(k, k);
-    const ComplexMatrix Lt = s.Lambda.transpose();
-    J.topLeftCorner(n * k, n * k) = kronecker(Lt * Lt, s.M.cast<Complex>()) +
-                                    kronecker(Lt, s.C.cast<Complex>()) + kronecker(I, s.K.cast<Complex>());
-    J.topRightCorner(n * k, k * k) =
-        scale * (kronecker(Lt, MZ) + kronecker(I, MZ * s.Lambda + multiply(s.C, s.Z)));
-    J.bottomLeftCorner(k * k, n * k) = kronecker(I, W0.adjoint()) + kronecker(Lt, W1.adjoint());
-    J.bottomRightCorner(k * k, k * k) = scale * kronecker(I, W1.adjoint() * s.Z);
+    for (Eigen::Index j = 0; j < k; ++j) {
+      for (Eigen::Index i = 0; i < k; ++i) {
+        const Complex l = s.Lambda(j, i);
+        const double own = i == j ? 1.0 : 0.0;
+        auto P = J.block(i * n, j * n, n, n);
+        P.real() = L2(j, i).real() * s.M + l.real() * s.C + own * s.K;
+        P.imag() = L2(j, i).imag() * s.M + l.imag() * s.C;
+        J.block(i * n, n * k + j * k, n, k) = scale * (l * MZ + own * slope);
+        J.block(n * k + i * k, j * n, k, n) = own * W0 + l * W1;
+        J.block(n * k + i * k, n * k + j * k, k, k) = scale * own * W1Z;
+      }
+    }
     return J;
   }
 

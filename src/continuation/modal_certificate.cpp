@@ -183,8 +183,9 @@ class ModalTube {
     const ComplexMatrix F = residual(basis, centre, sample, moved);
     Vector Y(F.cols());
     for (Eigen::Index b = 0; b < F.cols(); ++b) {
-      const double own = std::abs(F(b, b)) / scale(weights, moved, b);
-      Y[b] = std::hypot(weights.col(b).cwiseProduct(F.col(b).cwiseAbs()).norm(), own);
+      const double kappa = scale(weights, moved, b);
+      const double others = weights.col(b).cwiseAbs2().dot(F.col(b).cwiseAbs2());
+      Y[b] = std::sqrt(others + std::norm(F(b, b)) / (kappa * kappa));
     }
     return Y;
   }

@@ -10,18 +10,18 @@ namespace {
 
 constexpr double least_rcond = 1e-9;  ///< of M and of the modal basis
 
-/// Solves D X - X L = G for small square D and L.
-ComplexMatrix solve_sylvester(const ComplexMatrix& D, const ComplexMatrix& L, const ComplexMatrix& G) {
+/// Inverse of X -> X L - D X for small square D and L, on vec X.
+ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L) {
   const Eigen::Index m = D.rows();
   const Eigen::Index k = L.rows();
   ComplexMatrix system = ComplexMatrix::Zero(m * k, m * k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    system.block(j * m, j * m, m, m) = D;
+    system.block(j * m, j * m, m, m) = -D;
     for (Eigen::Index i = 0; i < k; ++i) {
-      for (Eigen::Index l = 0; l < m; ++l) system(j * m + l, i * m + l) -= L(i, j);
+      for (Eigen::Index l = 0; l < m; ++l) system(j * m + l, i * m + l) += L(i, j);
     }
   }
-  return system.partialPivLu().solve(G.reshaped()).reshaped(m, k);
+  return system.partialPivLu().inverse();
 }
 
 }  // namespace
@@ -88,14 +88,7 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
   basis.left_ = lu.solve(load);
   basis.right_ = V.topRows(n);
 
-  basis.divisors_ = ComplexMatrix::Zero(rows, columns);
-  for (Eigen::Index b = 0; b < columns; ++b) {
-    for (Eigen::Index a = 0; a < rows; ++a) {
-      const Complex difference =
-          basis.s_[static_cast<std::size_t>(b)] - basis.s_[static_cast<std::size_t>(a)];
-      if (a != b && difference == difference) basis.divisors_(a, b) = 1.0 / difference;
-    }
-  }
+  basis.prepare_division(pairs);
   return basis;
 }
 
@@ -131,30 +124,40 @@ ComplexMatrix ModalBasis::vectors(const ComplexMatrix& U) const {
   return multiply_many(right_, u);
 }
 
-/// G becomes U.
-void ModalBasis::divide(const PairSet& pairs, ComplexMatrix& G) const {
-  const auto rows_of = [&](const PairSet::Place& place, bool conjugate) {
-    return conjugate ? conjugate_[static_cast<std::size_t>(place.first)] : place.first;
-  };
-  const auto block_of = [&](const PairSet::Place& place, bool conjugate) -> ComplexMatrix {
-    const ComplexMatrix L = pairs.block(pairs.Lambda, place);
-    return conjugate ? L.conjugate() : L;
-  };
-  // Beside blocks of more than one.
-  std::vector<std::tuple<Eigen::Index, Eigen::Index, ComplexMatrix>> solved;
+void ModalBasis::prepare_division(const PairSet& pairs) {
+  const Eigen::Index rows = left_.rows();
+  divisors_ = ComplexMatrix::Zero(rows, pairs.Z.cols());
+  for (Eigen::Index b = 0; b < divisors_.cols(); ++b) {
+    for (Eigen::Index a = 0; a < rows; ++a) {
+      const Complex difference = s_[static_cast<std::size_t>(b)] - s_[static_cast<std::size_t>(a)];
+      if (a != b && difference == difference) divisors_(a, b) = 1.0 / difference;
+    }
+  }
   for (const PairSet::Place& b : pairs.places) {
     for (const PairSet::Place& a : pairs.places) {
       if (a.size == 1 && b.size == 1) continue;
-      for (const bool conjugate : {false, true}) {
-        if ((conjugate && a.is_real) || (!conjugate && a.first == b.first)) continue;
-        const ComplexMatrix part = G.block(rows_of(a, conjugate), b.first, a.size, b.size);
-        solved.emplace_back(rows_of(a, conjugate), b.first,
-                            solve_sylvester(block_of(a, conjugate), block_of(b, false), -part));
+      const ComplexMatrix D = pairs.block(pairs.Lambda, a);
+      const ComplexMatrix L = pairs.block(pairs.Lambda, b);
+      if (a.first != b.first)
+        divisions_.push_back({a.first, b.first, a.size, b.size, inverse_sylvester(D, L)});
+      if (!a.is_real) {
+        divisions_.push_back(
+            {conjugate_row(a.first), b.first, a.size, b.size, inverse_sylvester(D.conjugate(), L)});
       }
     }
   }
+}
+
+/// G becomes U.
+void ModalBasis::divide(ComplexMatrix& G) const {
+  const ComplexMatrix beside_blocks = divisions_.empty() ? ComplexMatrix() : G;
   G = G.cwiseProduct(divisors_);
-  for (const auto& [row, column, U] : solved) G.block(row, column, U.rows(), U.cols()) = U;
+  ComplexVector x, y;
+  for (const auto& [row, column, rows, columns, inverse] : divisions_) {
+    x = beside_blocks.block(row, column, rows, columns).reshaped();
+    y.noalias() = inverse * x;
+    G.block(row, column, rows, columns) = y.reshaped(rows, columns);
+  }
 }
 
 void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const ComplexMatrix& N,
@@ -166,7 +169,7 @@ void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const Compl
     dLambda.block(0, place.first, place.size, place.size) =
         G.block(place.first, place.first, place.size, place.size);
   }
-  divide(pairs, G);
+  divide(G);
   dZ = vectors(G);
   // What is left open is a change of basis within a pair, which its normalization settles.
   for (const PairSet::Place& place : pairs.places) {

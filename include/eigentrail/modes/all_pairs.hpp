@@ -66,7 +66,13 @@ class ModalBasis {
 
  private:
   ModalBasis() = default;
-  void divide(const PairSet& pairs, ComplexMatrix& G) const;
+  /// Beside blocks of more than one: the inverse of X -> D_a X - X Lambda_b on vec X, negative.
+  struct Division {
+    Eigen::Index row, column, rows, columns;
+    ComplexMatrix inverse;
+  };
+  void prepare_division(const PairSet& pairs);
+  void divide(ComplexMatrix& G) const;
   /// Z U of modal coordinates U, conjugates included.
   ComplexMatrix vectors(const ComplexMatrix& U) const;
 
@@ -75,6 +81,7 @@ class ModalBasis {
   std::vector<Eigen::Index> real_row_;   ///< of every column of Z: its row in the real basis
   std::vector<Eigen::Index> conjugate_;  ///< of every column of Z: the row of its conjugate, or -1
   ComplexMatrix divisors_;               ///< 1 / (s_b - s_a); zero within a pair and beside blocks
+  std::vector<Division> divisions_;
   std::vector<Complex> s_;               ///< of every row, where its pair is a single mode
   double rounding_ = 0.0;
 };
