@@ -212,7 +212,7 @@ Matrix directions_at_branch_point(const Model& model, const Path& point, int tra
   const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
                                      Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index regular = tangent_basis.cols() - 1;
-  const Vector loads = svd.matrixU().leftCols(regular).transpose() * tangent_basis.transpose() * load;
+  const Vector loads = svd.matrixU().leftCols(regular).transpose() * (tangent_basis.transpose() * load);
   const Vector y = svd.matrixV().leftCols(regular) * loads.cwiseQuotient(svd.singularValues().head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);
   directions.col(0) << tangent_basis * svd.matrixV().col(regular), 0.0;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "continuation/continued_mode.hpp"
+#include "continuation/modal_certificate.hpp"
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "support/families.hpp"
@@ -222,6 +224,94 @@ TEST(Certificate, ClosesInTheReciprocalChartWhereTheMassIsSingular) {
   EXPECT_LT(left.s(0, 0).real(), 0.0);
   EXPECT_GT(right.s(0, 0).real(), 0.0);
   EXPECT_TRUE(certify_step(StepPencil(left, right, -0.2), left.tracks[0], right.tracks[0], 1.43, counts));
+}
+
+/// Of every track of a step, whether the certificate of all modes at once closes.
+std::vector<bool> certified_together(Step& step) {
+  return certify_all(StepPencil(step.left, step.right, step.length), step.right, step.counts);
+}
+
+TEST(ModalCertificate, ClosesOnASmoothStepOfAllModes) {
+  Step step(smooth_family(), 0.2, 0.4);
+  EXPECT_EQ(certified_together(step), std::vector<bool>(3, true));
+  EXPECT_GE(step.counts.certificate_bases, 1U);
+  EXPECT_LE(step.counts.certificate_bases, 15U) << "halved three times at most";
+  EXPECT_EQ(step.counts.certificate_factorizations, 0U);
+}
+
+TEST(ModalCertificate, StaysOpenWhereTheEndIsAnotherMode) {
+  Step step(smooth_family(), 0.2, 0.4);
+  std::swap(step.right.tracks[0], step.right.tracks[1]);
+  const std::vector<bool> closed = certified_together(step);
+  EXPECT_FALSE(closed[0]);
+  EXPECT_FALSE(closed[1]);
+}
+
+TEST(ModalCertificate, StaysOpenWhereModesJumpOverAVeering) {
+  // Each mode arrives with the other's eigenvector: the corrector found what the series pointed at.
+  for (const double eps : {1e-2, 1e-4, 1e-8}) {
+    Step step(veering(eps), -0.3, 0.3);
+    EXPECT_EQ(certified_together(step), std::vector<bool>(2, false)) << eps;
+  }
+  Step wide(veering(1.0), -0.1, 0.1);
+  EXPECT_EQ(certified_together(wide), std::vector<bool>(2, true)) << "the modes turn together";
+}
+
+TEST(ModalCertificate, AgreesWithTheTubesOfSingleModes) {
+  for (const double to : {0.25, 0.4, 0.7, 1.0}) {
+    Step step(smooth_family(), 0.2, to);
+    const std::vector<bool> together = certified_together(step);
+    // It bounds norms from above where the tubes estimate them: what closes here closes there.
+    for (std::size_t i = 0; i < together.size(); ++i)
+      EXPECT_TRUE(!together[i] || step.certified(i)) << "mode " << i << " to " << to;
+  }
+}
+
+TEST(ModalCertificate, LeavesBlocksAndIncompleteSetsToTheirTubes) {
+  Step step(smooth_family(), 0.2, 0.4);
+  step.join(0.4);
+  EXPECT_EQ(certified_together(step), (std::vector<bool>{false, true}));
+  step.left.tracks.pop_back();
+  step.right.tracks.pop_back();
+  EXPECT_EQ(certified_together(step), std::vector<bool>{false});
+}
+
+TEST(ContinuedMode, IsFarMoreAccurateThanTheSeriesOfOnePoint) {
+  Step first(smooth_family(), 0.2, 0.3);
+  for (std::size_t i = 0; i < 3; ++i) first.left.tracks[i].strand = first.right.tracks[i].strand = i + 1;
+  Step there(smooth_family(), 0.3, 0.4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto mode = continue_mode(first.left, first.right, i, first.length, 0.1);
+    ASSERT_TRUE(mode);
+    const Complex exact = there.right.s(i, 0);
+    Complex taylor = 0.0;
+    for (Eigen::Index k = first.right.tracks[i].functions.cols(); k-- > 0;)
+      taylor = taylor * 0.1 + first.right.s(i, k);
+    EXPECT_LT(std::abs(mode->pair.eigenvalue() - exact), 0.1 * std::abs(taylor - exact)) << i;
+    EXPECT_LT(std::abs(mode->series.Lambda[1](0, 0) - there.right.s(i, 1)), 1e-5) << i;
+    const ComplexVector v = mode->series.Z[0].col(0);
+    const ComplexVector w = there.right.tracks[i].series.Z[0].col(0);
+    EXPECT_NEAR(std::abs(v.dot(w)), v.norm() * w.norm(), 1e-9) << i;
+  }
+}
+
+TEST(ContinuedMode, IsRefusedForBlocksPassesAndTracksThatWereNotThere) {
+  Step step(smooth_family(), 0.2, 0.3);
+  const auto continued = [&] { return continue_mode(step.left, step.right, 0, step.length, 0.1); };
+  EXPECT_FALSE(continued()) << "not numbered";
+  step.left.tracks[0].strand = step.right.tracks[0].strand = 7;
+  EXPECT_TRUE(continued());
+  step.right.tracks[0].passed = true;
+  EXPECT_FALSE(continued()) << "tells nothing new";
+  step.right.tracks[0].passed = false;
+  step.left.tracks[0].passed = true;
+  EXPECT_FALSE(continued());
+  step.left.tracks[0].passed = false;
+  step.left.tracks[0].strand = 8;
+  EXPECT_FALSE(continued()) << "another one";
+  step.join(0.3);
+  step.left.tracks[0].strand = step.right.tracks[0].strand = 9;
+  EXPECT_FALSE(continued()) << "a block";
 }
 
 TEST(StepPencil, HasTheEigenvaluesOfThePathBetweenItsPoints) {
