@@ -6,6 +6,7 @@
 
 #include "continuation/shared_basis.hpp"
 #include "core/matrix_series.hpp"
+#include "core/products.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 
 namespace eigentrail {
@@ -170,15 +171,20 @@ class Tube {
     weights.head(rows).setConstant(equations);
     weights.tail(lu.size() - rows).setConstant(normalization);
     ComplexVector direction = start_vector(lu.size());
-    return norm_of_solved(lu, Diagonal{weights}, power_iterations, direction);
+    return norm_of_solved(lu, weights, power_iterations, direction);
   }
 
-  /// A real diagonal matrix, as a factor of vectors.
-  struct Diagonal {
-    const Vector& entries;
-    const Diagonal& adjoint() const { return *this; }
-    friend auto operator*(const Diagonal& D, const ComplexVector& v) { return D.entries.cwiseProduct(v); }
-  };
+  static ComplexVector times(const ComplexMatrix& A, const ComplexVector& v) { return product(A, v); }
+  static ComplexVector adjoint_times(const ComplexMatrix& A, const ComplexVector& v) {
+    return adjoint_product(A, v);
+  }
+  /// Of a real diagonal matrix.
+  static ComplexVector times(const Vector& entries, const ComplexVector& v) {
+    return entries.cwiseProduct(v);
+  }
+  static ComplexVector adjoint_times(const Vector& entries, const ComplexVector& v) {
+    return entries.cwiseProduct(v);
+  }
 
   /// Without symmetry.
   static ComplexVector start_vector(Eigen::Index size) {
@@ -194,11 +200,11 @@ class Tube {
     ComplexVector w(v.size());
     for (int i = 0; i < iterations; ++i) {
       v.normalize();
-      w.noalias() = A * v;
+      w = times(A, v);
       lu.solve_in_place(w);
       norm = std::max(norm, w.norm());
       lu.solve_adjoint_in_place(w);
-      ComplexVector next = A.adjoint() * w;
+      ComplexVector next = adjoint_times(A, w);
       const double length = next.norm();
       if (!(length > 0.0)) return norm_safety * norm;
       norm = std::max(norm, std::sqrt(length));

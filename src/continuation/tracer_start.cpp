@@ -83,8 +83,8 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPen
   result_.n_columns = result_.n_modes;
   // Infinite eigenvalues are not followed: the checksum would miss them.
   follows_all_ = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  problem_.route = cheapest_route(problem_.structure,
-                                  {pencil.size(), result_.n_modes, follows_all_, problem_.order});
+  problem_.route =
+      cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, follows_all_, problem_.order});
   // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
   const auto beside = bridge_ ? spectrum_beside_branch_point() : std::nullopt;
   const auto& typical = beside ? beside->modes : modes;

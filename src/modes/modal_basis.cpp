@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/products.hpp"
 #include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
@@ -31,11 +32,10 @@ ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
   Matrix parts(Z.rows(), 2 * m);
   parts.leftCols(m) = Z.real();
   parts.rightCols(m) = Z.imag();
-  Matrix product(B.rows(), 2 * m);
-  product.noalias() = B * parts;
+  const Matrix both = product(B, parts);
   ComplexMatrix result(B.rows(), m);
-  result.real() = product.leftCols(m);
-  result.imag() = product.rightCols(m);
+  result.real() = both.leftCols(m);
+  result.imag() = both.rightCols(m);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/products.hpp"
 #include "eigentrail/modes/invariant_pair.hpp"
 
 namespace eigentrail {
@@ -132,19 +133,19 @@ class ModeEquations {
 
   /// Coefficient j of the residual with Z_j = mu_j = 0.
   ComplexVector known_terms(Eigen::Index j) {
-    MZ_.col(j) = product(M_, j);
-    if (!undamped_) CZ_.col(j) = product(C_, j);
+    MZ_.col(j) = sum_of(M_, j);
+    if (!undamped_) CZ_.col(j) = sum_of(C_, j);
     Complex square = 0.0;
     for (Eigen::Index i = 1; i < j; ++i) square += mu[i] * mu[j - i];
     ComplexVector residual =
-        product(K_, j) + square_[0] * MZ_.col(j) + mu[0] * CZ_.col(j) + square * MZ_.col(0);
+        sum_of(K_, j) + square_[0] * MZ_.col(j) + mu[0] * CZ_.col(j) + square * MZ_.col(0);
     for (Eigen::Index i = 1; i < j; ++i) residual += square_[i] * MZ_.col(j - i) + mu[i] * CZ_.col(j - i);
     return residual;
   }
 
   /// What Z_j and mu_j add to it and to the normalization.
   void unknown_terms(Eigen::Index j, ComplexMatrix& residual, ComplexMatrix& defect) const {
-    residual.noalias() += P_ * Z.col(j);
+    residual += product(P_, Z.col(j));
     residual += mu[j] * slope_;
     defect(0, 0) = W0_.dot(Z.col(j));
   }
@@ -158,7 +159,7 @@ class ModeEquations {
 
  private:
   /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
-  ComplexVector product(const MatrixSeries& B, Eigen::Index j) const {
+  ComplexVector sum_of(const MatrixSeries& B, Eigen::Index j) const {
     ComplexVector sum = ComplexVector::Zero(Z.rows());
     for (Eigen::Index i = 1; i <= j && i < static_cast<Eigen::Index>(B.size()); ++i)
       sum += multiply(B[static_cast<std::size_t>(i)], Z.col(j - i));

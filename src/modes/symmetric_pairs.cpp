@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/products.hpp"
 #include "modes/real_blocks.hpp"
 
 namespace eigentrail {
@@ -134,8 +135,8 @@ bool settle(const Columns& columns, double norm_M, SymmetricPairs& pairs, Produc
 }
 
 bool settle(const PencilAtPoint& pencil, SymmetricPairs& pairs, Products& products) {
-  products.MX.noalias() = pencil.M * pairs.X;
-  products.KX.noalias() = pencil.K * pairs.X;
+  products.MX = product(pencil.M, pairs.X);
+  products.KX = product(pencil.K, pairs.X);
   pairs.lambda.resize(pairs.X.cols());
   return std::all_of(pairs.blocks.begin(), pairs.blocks.end(), [&](const SymmetricPairs::Block& block) {
     Columns columns(static_cast<std::size_t>(block.size));
@@ -178,7 +179,7 @@ std::vector<Columns> turning(const Matrix& E) {
 }
 
 Matrix correction(const SymmetricPairs& pairs, const Products& products) {
-  const Matrix G = pairs.X.transpose() * residual(pairs, products);
+  const Matrix G = transposed_product(pairs.X, residual(pairs, products));
   return G.cwiseProduct(pairs.divisors());
 }
 
@@ -193,7 +194,7 @@ bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, Symmet
     for (const Columns& columns : groups)
       if (!settle(columns, pencil.norm_M, pairs, products)) return false;
     if (!groups.empty()) E = correction(pairs, products);
-    const Matrix change = pairs.X * E;
+    const Matrix change = product(pairs.X, E);
     const double size =
         std::sqrt(change.colwise().squaredNorm().cwiseQuotient(pairs.X.colwise().squaredNorm()).maxCoeff());
     counts.modal_solves += 1;

@@ -1,4 +1,5 @@
 // Power series of all pairs of an undamped symmetric pencil, in the coordinates of its modes.
+#include "core/products.hpp"
 #include "eigentrail/modes/symmetric_pairs.hpp"
 #include "modes/real_blocks.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 std::vector<Matrix> in_modes(const MatrixSeries& B, const Matrix& X, std::size_t count) {
   std::vector<Matrix> result(count);
   for (std::size_t i = 1; i < count && i < B.size(); ++i) {
-    if (!B[i].isZero(0.0)) result[i] = X.transpose() * (B[i] * X);
+    if (!B[i].isZero(0.0)) result[i] = transposed_product(X, product(B[i], X));
   }
   return result;
 }
@@ -30,7 +31,7 @@ class ModalSeries {
   }
 
   /// Coefficient j of all vectors, n x n.
-  Matrix vectors(std::size_t j) const { return j == 0 ? pairs_.X : Matrix(pairs_.X * E_[j]); }
+  Matrix vectors(std::size_t j) const { return j == 0 ? pairs_.X : product(pairs_.X, E_[j]); }
 
   Matrix of_block(const SymmetricPairs::Block& block, std::size_t j) const {
     return L_[j].block(block.first, block.first, block.size, block.size);
@@ -38,8 +39,8 @@ class ModalSeries {
 
  private:
   void append(std::size_t j) {
-    const Matrix inertia = product(M_, j);
-    Matrix known = product(K_, j) + inertia * pairs_.lambda.asDiagonal();
+    const Matrix inertia = sum_of(M_, j);
+    Matrix known = sum_of(K_, j) + inertia * pairs_.lambda.asDiagonal();
     Matrix L = Matrix::Zero(known.rows(), known.cols());
     for (const SymmetricPairs::Block& block : pairs_.blocks) {
       auto columns = known.middleCols(block.first, block.size);
@@ -54,10 +55,10 @@ class ModalSeries {
   }
 
   /// Coefficient j of B(h) E(h) without the term B_0 E_j.
-  Matrix product(const std::vector<Matrix>& B, std::size_t j) const {
+  Matrix sum_of(const std::vector<Matrix>& B, std::size_t j) const {
     Matrix sum = j < B.size() && B[j].size() > 0 ? B[j] : Matrix(Matrix::Zero(E_[0].rows(), E_[0].cols()));
     for (std::size_t i = 1; i < j; ++i) {
-      if (B[i].size() > 0) sum.noalias() += B[i] * E_[j - i];
+      if (B[i].size() > 0) sum += product(B[i], E_[j - i]);
     }
     return sum;
   }

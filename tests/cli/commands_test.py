@@ -178,7 +178,7 @@ class Info(CommandTest):
         text = self.run_well("info", "loci.h5")
         for fragment in ["Blade", "schema 1", "run completed", "3 coordinates, 1 constraints, 2 modes",
                          "omega  100 -> 5 rad/s, tolerance 1e-06", "mode 2", "certified", "100 %",
-                         "counts  certificate_factorizations", "equilibrium_factorizations"]:
+                         "counts  certificate_bases", "equilibrium_factorizations"]:
             self.assertIn(fragment, text)
 
     def test_json_is_one_object_that_agrees_with_the_file(self):

@@ -162,8 +162,8 @@ struct PathPoint {
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
   std::vector<InvariantPair> pairs;
-  std::shared_ptr<const AllPairs> all;              ///< where the pairs were corrected in state space
-  std::shared_ptr<const SymmetricPairs> symmetric;  ///< where they were corrected by the symmetric route
+  std::shared_ptr<const AllPairs> all;                 ///< where the pairs were corrected in state space
+  std::shared_ptr<const SymmetricPairs> symmetric;     ///< where they were corrected by the symmetric route
   std::vector<std::optional<PairSeries>> passed = {};  ///< of pairs that stand as they were continued
   std::vector<const Track*> ready = {};                ///< as in Prediction
 

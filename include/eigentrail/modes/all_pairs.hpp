@@ -82,7 +82,7 @@ class ModalBasis {
   std::vector<Eigen::Index> conjugate_;  ///< of every column of Z: the row of its conjugate, or -1
   ComplexMatrix divisors_;               ///< 1 / (s_b - s_a); zero within a pair and beside blocks
   std::vector<Division> divisions_;
-  std::vector<Complex> s_;               ///< of every row, where its pair is a single mode
+  std::vector<Complex> s_;  ///< of every row, where its pair is a single mode
   double rounding_ = 0.0;
 };
 

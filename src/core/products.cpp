@@ -1,0 +1,60 @@
+#include "core/products.hpp"
+
+// The Fortran interface: the C one is not in every BLAS.
+extern "C" {
+void dgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
+            const double* alpha, const double* A, const int* stride_A, const double* B, const int* stride_B,
+            const double* beta, double* C, const int* stride_C);
+void zgemv_(const char* form, const int* m, const int* n, const eigentrail::Complex* alpha,
+            const eigentrail::Complex* A, const int* stride_A, const eigentrail::Complex* x,
+            const int* increment_x, const eigentrail::Complex* beta, eigentrail::Complex* y,
+            const int* increment_y);
+}
+
+namespace eigentrail {
+namespace {
+
+Matrix dgemm(char form, const Matrix& A, const Matrix& B) {
+  const auto rows = static_cast<int>(form == 'N' ? A.rows() : A.cols());
+  const auto columns = static_cast<int>(B.cols());
+  const auto inner = static_cast<int>(B.rows());
+  if (rows == 0 || columns == 0 || inner == 0) return Matrix::Zero(rows, columns);
+  const auto stride = static_cast<int>(A.rows());
+  const double one = 1.0, zero = 0.0;
+  Matrix C(rows, columns);
+  dgemm_(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, B.data(), &inner, &zero, C.data(),
+         &rows);
+  return C;
+}
+
+ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
+  const auto rows = static_cast<int>(A.rows());
+  const auto columns = static_cast<int>(A.cols());
+  const int size = form == 'N' ? rows : columns;
+  if (rows == 0 || columns == 0) return ComplexVector::Zero(size);
+  const Complex one = 1.0, zero = 0.0;
+  const int next = 1;
+  ComplexVector y(size);
+  zgemv_(&form, &rows, &columns, &one, A.data(), &rows, x.data(), &next, &zero, y.data(), &next);
+  return y;
+}
+
+}  // namespace
+
+Matrix product(const Matrix& A, const Matrix& B) {
+  return dgemm('N', A, B);
+}
+
+Matrix transposed_product(const Matrix& A, const Matrix& B) {
+  return dgemm('T', A, B);
+}
+
+ComplexVector product(const ComplexMatrix& A, const ComplexVector& x) {
+  return zgemv('N', A, x);
+}
+
+ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x) {
+  return zgemv('C', A, x);
+}
+
+}  // namespace eigentrail
