@@ -7,6 +7,8 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_refactorizations = 4;
+/// A cluster of three and more needs every digit, which solutions of its own leave it.
+constexpr Eigen::Index largest_block = 2;
 
 /// Columns of `Z` times the blocks of `Lambda`, pair by pair.
 void times_blocks(const PairSet& pairs, const ComplexMatrix& Lambda, ComplexMatrix& Z) {
@@ -151,7 +153,7 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
 bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index n) {
   Eigen::Index columns = 0;
   for (const InvariantPair& pair : pairs) {
-    if (pair.chart != Chart::finite) return false;
+    if (pair.chart != Chart::finite || pair.size() > largest_block) return false;
     columns += pair.size() * (pair.is_real ? 1 : 2);
   }
   return columns == 2 * n;
@@ -292,7 +294,6 @@ std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const All
   // The basis is that of the corrected pairs: one solution is exact to rounding, and further ones correct it.
   // Blocks may be nearly defective, and get what rounding leaves.
   const int most = has_blocks(pairs) ? 6 : all.basis.rounding() <= accuracy ? 1 : 2;
-  const bool has_clusters = pairs.Lambda.rows() > 2;
   ComplexMatrix known, known_defect, dZ, dLambda;
   for (std::size_t j = 1; j < series.Z.size(); ++j) {
     series.known_terms(j, known, known_defect);
@@ -309,8 +310,7 @@ std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const All
       const double total = series.Z[j].norm() + series.Lambda[j].norm();
       const double size = dZ.norm() + dLambda.norm();
       // Every correction leaves an error that is smaller by about the same factor.
-      if (!(size > 1e-15 * total) || size > 0.5 * last ||
-          (!has_clusters && i > 0 && size * size < 1e-16 * total * last))
+      if (!(size > 1e-15 * total) || size > 0.5 * last || (i > 0 && size * size < 1e-16 * total * last))
         break;
       last = size;
     }
