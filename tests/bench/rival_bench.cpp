@@ -90,8 +90,7 @@ Figures few_modes(const BenchOptions& options) {
   const ArnoldiTime arnoldi =
       time_arnoldi(setting, traced, fought.exact, 0.1 * traced.tolerance, fought.points, 50);
   figures.push_back({"shift-invert Arnoldi grid, spline / ours, " + name,
-                     arnoldi.seconds / fought.ours.seconds,
-                     at_least(20.0),
+                     arnoldi.seconds / fought.ours.seconds, at_least(20.0),
                      std::to_string(arnoldi.steps) + " solves and one LU per point, no labels; " +
                          rival_text(arnoldi, fought.points)});
   return figures;
