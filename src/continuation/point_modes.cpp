@@ -21,8 +21,10 @@ template <class Work>
 void for_every_mode(const PathProblem& problem, std::size_t modes, Eigen::Index n, ModeCounts& counts,
                     Work&& work) {
   std::vector<ModeCounts> own(modes);
+  // From the last one: blocks stand behind single modes and take longer, no thread shall begin with one when
+  // the others have ended.
   in_parallel(modes, is_worth_sharing(modes, n) ? problem.threads : 1,
-              [&](std::size_t i) { work(i, own[i]); });
+              [&](std::size_t i) { work(modes - 1 - i, own[modes - 1 - i]); });
   for (const ModeCounts& some : own) counts += some;
 }
 

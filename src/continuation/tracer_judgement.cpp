@@ -223,8 +223,10 @@ Tracer::Trouble Tracer::certify(double h, const PathNode& next) {
     for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {
     }
   };
-  in_parallel(node_.tracks.size(), is_worth_sharing(own.size(), node_.pencil.size()) ? problem_.threads : 1,
-              look);
+  // Shared, the blocks come first, which stand behind single modes and take longer.
+  const std::size_t count = own.size();
+  const int threads = is_worth_sharing(count, node_.pencil.size()) ? problem_.threads : 1;
+  in_parallel(count, threads, [&](std::size_t i) { look(threads > 1 ? count - 1 - i : i); });
   for (std::size_t i = 0; i < own.size(); ++i) {
     certified_[i] = closed[i] != 0 && (all_count || i <= first_open);
     if (all_count || i <= first_open)
