@@ -8,6 +8,7 @@
 #include "continuation/continued_mode.hpp"
 #include "continuation/regrouping.hpp"
 #include "core/matrix_series.hpp"
+#include "core/parallel.hpp"
 
 namespace eigentrail {
 namespace {
@@ -168,10 +169,14 @@ Prediction Tracer::predict_all(double h) {
   }
   // Where all modes are corrected at once none of them is spared.
   if (problem_.route == ModeRoute::one_by_one && !plane_ && last_step_ != 0.0) {
-    for (std::size_t i = 0; i < node_.tracks.size(); ++i) {
-      prediction.continued.push_back(continue_mode(previous_, node_, i, last_step_, h));
-      if (auto& mode = prediction.continued.back()) mode->may_pass = is_far_from_events(*mode, i, h);
-    }
+    const std::size_t count = node_.tracks.size();
+    prediction.continued.resize(count);
+    const int threads = is_worth_sharing(count, node_.pencil.size()) ? problem_.threads : 1;
+    in_parallel(count, threads, [&](std::size_t i) {
+      auto& mode = prediction.continued[i];
+      mode = continue_mode(previous_, node_, i, last_step_, h);
+      if (mode) mode->may_pass = is_far_from_events(*mode, i, h);
+    });
   }
   if (!tried_ || tried_step_ != h) return prediction;
   for (const Track& track : node_.tracks) {
