@@ -245,12 +245,6 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
             project(change, right.pencil.K, order)};
 }
 
-bool StepPencil::is_undamped() const {
-  const auto vanishes = [](const Matrix& C) { return C.isZero(0.0); };
-  return std::all_of(left_.pencil.C.begin(), left_.pencil.C.end(), vanishes) &&
-         std::all_of(right_.C.begin(), right_.C.end(), vanishes);
-}
-
 Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
                                const Vector& weights) const {
   if (left.size() == 1 && right.size() == 1) return left[0];

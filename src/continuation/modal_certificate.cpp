@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "continuation/shared_basis.hpp"
+#include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {
@@ -18,6 +18,16 @@ constexpr std::size_t few = 3;            ///< modes: so many are left to their 
 /// Columns of all tracks side by side.
 void append(const ComplexMatrix& block, const PairSet::Place& place, ComplexMatrix& blocks) {
   blocks.block(0, place.first, block.rows(), block.cols()) = block;
+}
+
+/// Whether the tracks of a point are a basis of the state space, all in the finite chart.
+bool is_basis(const PathNode& node) {
+  Eigen::Index columns = 0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.chart != Chart::finite) return false;
+    columns += track.size() * (track.pair.is_real ? 1 : 2);
+  }
+  return columns == 2 * node.pencil.size();
 }
 
 class ModalTube {
@@ -95,21 +105,19 @@ class ModalTube {
 
   std::vector<bool> piece(double begin, double middle, double end, std::vector<double>& Z1) {
     std::vector<bool> result(places_.size(), false);
-    const auto sample = pencil_.at(middle);
-    const ReducedPencil matrices{{sample->M}, {sample->C}, {sample->K}};
-    const PencilAtPoint centre(matrices);
-    const PairSet set = at(*sample);
-    const auto basis = ModalBasis::from(centre, set);
+    const Sampled centre = sampled_at(middle, nullptr);
+    const PairSet& set = centre.set;
+    const ReducedPencil matrices{{centre.sample->M}, {centre.sample->C}, {centre.sample->K}};
+    const auto basis = ModalBasis::from(PencilAtPoint(matrices), set);
     ++counts_.certificate_bases;
     if (!basis) return result;
     const Matrix weights = distances(*basis, set).cwiseInverse();
-    Vector Y = defect(*basis, *sample, *sample, set, weights);
+    Vector Y = defect(*basis, centre, weights);
     Z1.assign(places_.size(), 0.0);
     for (const double t : {begin, 0.5 * (begin + middle), 0.5 * (middle + end), end}) {
-      const auto there = pencil_.at(t);
-      const PairSet moved = at(*there);
-      Y = Y.cwiseMax(defect(*basis, *sample, *there, moved, weights));
-      const Vector bounds = change(*basis, *sample, *there, set, moved, weights);
+      const Sampled there = sampled_at(t, centre.sample.get());
+      Y = Y.cwiseMax(defect(*basis, there, weights));
+      const Vector bounds = change(*basis, there, set, weights);
       for (std::size_t i = 0; i < Z1.size(); ++i) Z1[i] = std::max(Z1[i], bounds[places_[i].first]);
     }
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -154,33 +162,30 @@ class ModalTube {
     return std::clamp(0.5 / weights.col(b).maxCoeff(), 1e-6 * size, 2.0 * size);
   }
 
-  /// Residuals of pairs at a sample, in modal coordinates of the companion form.
-  ComplexMatrix residual(const ModalBasis& basis, const StepPencil::Sample& centre,
-                         const StepPencil::Sample& sample, const PairSet& set) const {
-    const auto by_blocks = [&](ComplexMatrix Z) {
-      for (const PairSet::Place& place : places_) {
-        auto columns = Z.middleCols(place.first, place.size);
-        if (place.size == 1) {
-          columns *= set.Lambda(0, place.first);
-        } else {
-          columns = (columns * set.block(set.Lambda, place)).eval();
-        }
-      }
-      return Z;
-    };
-    ComplexMatrix slope = by_blocks(multiply_many(sample.M, set.Z));
-    if (!pencil_.is_undamped()) slope += multiply_many(sample.C, set.Z);
-    ComplexMatrix R = by_blocks(std::move(slope)) + multiply_many(sample.K, set.Z);
-    if (!pencil_.has_constant_mass()) {
-      R = multiply_many(Matrix(centre.M * sample.M.partialPivLu().inverse()), R);
-    }
-    return basis.coordinates(R);
+  /// A place of a piece, with the pairs interpolated there.
+  struct Sampled {
+    std::shared_ptr<const StepPencil::Sample> sample;
+    PairSet set;
+    Matrix from_mass;  ///< M of the middle times M^-1 here; empty where M is the same
+  };
+
+  Sampled sampled_at(double t, const StepPencil::Sample* middle) const {
+    const auto sample = pencil_.at(t);
+    const bool same = middle == nullptr || pencil_.has_constant_mass();
+    return {sample, at(*sample), same ? Matrix() : Matrix(middle->M * sample->M.partialPivLu().inverse())};
+  }
+
+  /// Residuals of pairs at a place, in modal coordinates of the companion form.
+  static ComplexMatrix modal_residual(const ModalBasis& basis, const Sampled& place, const PairSet& set) {
+    const auto& [weights, M, C, K] = *place.sample;
+    const ComplexMatrix R = residual(M, C, K, set);
+    return basis.coordinates(place.from_mass.size() == 0 ? R : multiply_many(place.from_mass, R));
   }
 
   /// Y of every mode.
-  Vector defect(const ModalBasis& basis, const StepPencil::Sample& centre, const StepPencil::Sample& sample,
-                const PairSet& moved, const Matrix& weights) const {
-    const ComplexMatrix F = residual(basis, centre, sample, moved);
+  static Vector defect(const ModalBasis& basis, const Sampled& there, const Matrix& weights) {
+    const PairSet& moved = there.set;
+    const ComplexMatrix F = modal_residual(basis, there, moved);
     Vector Y(F.cols());
     for (Eigen::Index b = 0; b < F.cols(); ++b) {
       const double kappa = scale(weights, moved, b);
@@ -192,9 +197,10 @@ class ModalTube {
 
   /// Z1 of every mode: the Jacobian at a sample differs from that at the middle by E there, by the shift of
   /// the eigenvalue, and by the turn of the vector.
-  Vector change(const ModalBasis& basis, const StepPencil::Sample& centre, const StepPencil::Sample& sample,
-                const PairSet& set, const PairSet& moved, const Matrix& weights) const {
-    const ComplexMatrix E = residual(basis, centre, sample, set);  // -E(t), own columns
+  Vector change(const ModalBasis& basis, const Sampled& there, const PairSet& set,
+                const Matrix& weights) const {
+    const PairSet& moved = there.set;
+    const ComplexMatrix E = modal_residual(basis, there, set);  // -E(t), own columns
     const Eigen::Index columns = E.cols();
     const Vector own = E.rowwise().squaredNorm();
     Vector paired = Vector::Zero(E.rows());  // over the columns that have conjugates
@@ -237,6 +243,7 @@ class ModalTube {
 }  // namespace
 
 std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, RunCounts& counts) {
+  if (!is_basis(pencil.left())) return std::vector<bool>(right.tracks.size(), false);
   return ModalTube(pencil, right, counts).closes();
 }
 

@@ -167,22 +167,23 @@ Prediction Tracer::predict_all(double h) {
   for (Track& track : node_.tracks) {
     if (track.strand == 0) track.strand = ++strands_;
   }
+  const std::size_t count = node_.tracks.size();
+  prediction.ready.assign(count, nullptr);
+  for (std::size_t i = 0; tried_ && tried_step_ == h && i < count; ++i) {
+    for (const Track& other : tried_->tracks) {
+      if (other.strand == node_.tracks[i].strand) prediction.ready[i] = &other;
+    }
+  }
   // Where all modes are corrected at once none of them is spared.
   if (problem_.route == ModeRoute::one_by_one && !plane_ && last_step_ != 0.0) {
-    const std::size_t count = node_.tracks.size();
     prediction.continued.resize(count);
     const int threads = is_worth_sharing(count, node_.pencil.size()) ? problem_.threads : 1;
     in_parallel(count, threads, [&](std::size_t i) {
+      if (prediction.ready[i] != nullptr) return;
       auto& mode = prediction.continued[i];
       mode = continue_mode(previous_, node_, i, last_step_, h);
       if (mode) mode->may_pass = is_far_from_events(*mode, i, h);
     });
-  }
-  if (!tried_ || tried_step_ != h) return prediction;
-  for (const Track& track : node_.tracks) {
-    const auto found = std::find_if(tried_->tracks.begin(), tried_->tracks.end(),
-                                    [&](const Track& other) { return other.strand == track.strand; });
-    prediction.ready.push_back(found == tried_->tracks.end() ? nullptr : &*found);
   }
   return prediction;
 }

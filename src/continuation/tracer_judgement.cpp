@@ -191,25 +191,10 @@ Tracer::Trouble Tracer::check_identity(const PathNode& next) {
   return {};
 }
 
-namespace {
-
-/// Whether the tracks are a basis of the state space, all in the finite chart.
-bool all_in_basis(const PathNode& node) {
-  Eigen::Index columns = 0;
-  for (const Track& track : node.tracks) {
-    if (track.pair.chart != Chart::finite) return false;
-    columns += track.size() * (track.pair.is_real ? 1 : 2);
-  }
-  return columns == 2 * node.pencil.size();
-}
-
-}  // namespace
-
 Tracer::Trouble Tracer::certify(double h, const PathNode& next) {
   const StageTimer timer(result_.counts.certificate_seconds);
   const StepPencil pencil(node_, next, h);
-  if (problem_.route != ModeRoute::one_by_one && all_in_basis(node_) && all_in_basis(next))
-    certified_ = certify_all(pencil, next, result_.counts);
+  if (problem_.route != ModeRoute::one_by_one) certified_ = certify_all(pencil, next, result_.counts);
   // A step that is too long is given up at the first mode whose tube does not close; with several threads
   // those behind it may have been looked at in vain.
   const bool all_count = std::abs(h) <= uncertified_below_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modes/pair_set.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -27,6 +29,17 @@ ComplexMatrix with_blocks(const PairSet& pairs, ComplexMatrix Z, const ComplexMa
   return Z;
 }
 
+}  // namespace
+
+ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const PairSet& pairs) {
+  ComplexMatrix slope = with_blocks(pairs, multiply_many(M, pairs.Z), pairs.Lambda);
+  if (!C.isZero(0.0)) slope += multiply_many(C, pairs.Z);
+  times_blocks(pairs, pairs.Lambda, slope);
+  return slope + multiply_many(K, pairs.Z);
+}
+
+namespace {
+
 /// Products of blocks, pair by pair.
 ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, const ComplexMatrix& B) {
   ComplexMatrix product = ComplexMatrix::Zero(A.rows(), A.cols());
@@ -37,10 +50,7 @@ ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, cons
 }
 
 ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
-  ComplexMatrix slope = with_blocks(pairs, multiply_many(pencil.M, pairs.Z), pairs.Lambda);
-  if (!pencil.is_undamped()) slope += multiply_many(pencil.C, pairs.Z);
-  times_blocks(pairs, pairs.Lambda, slope);
-  return slope + multiply_many(pencil.K, pairs.Z);
+  return residual(pencil.M, pencil.C, pencil.K, pairs);
 }
 
 /// What W0^H Z + W1^H Z Lambda lacks to the identity, pair by pair.

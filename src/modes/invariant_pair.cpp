@@ -14,10 +14,6 @@ ComplexMatrix normalization(const ComplexMatrix& W, const ComplexMatrix& Z, cons
   return W.topRows(Z.rows()).adjoint() * Z + (W.bottomRows(Z.rows()).adjoint() * Z) * Lambda;
 }
 
-void make_real(ComplexMatrix& Z) {
-  Z.imag().setZero();
-}
-
 }  // namespace
 
 ModeCounts& ModeCounts::operator+=(const ModeCounts& other) {
@@ -73,8 +69,8 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
     counts.solves += static_cast<std::uint64_t>(k);
     ++counts.iterations;
     if (pair.is_real) {
-      make_real(dZ);
-      make_real(dLambda);
+      dZ.imag().setZero();
+      dLambda.imag().setZero();
     }
     pair.Z += dZ;
     pair.Lambda += dLambda;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/products.hpp"
+#include "core/reciprocal_condition.hpp"
 #include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
@@ -80,8 +81,8 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
   }
   const Eigen::PartialPivLU<Matrix> mass(pencil.M);
   const Eigen::PartialPivLU<Matrix> lu(V);
-  const double rcond = lu.rcond();
-  if (!(rcond > least_rcond) || !(mass.rcond() > least_rcond)) return std::nullopt;
+  const double rcond = reciprocal_condition(lu);
+  if (!(rcond > least_rcond) || !(reciprocal_condition(mass) > least_rcond)) return std::nullopt;
   basis.rounding_ = 10.0 * std::numeric_limits<double>::epsilon() / rcond;
   Matrix load = Matrix::Zero(2 * n, n);
   load.bottomRows(n) = mass.inverse() / gamma;

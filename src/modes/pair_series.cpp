@@ -29,10 +29,6 @@ void refine(double accuracy, Correct&& correct) {
   }
 }
 
-void make_real(ComplexMatrix& Z) {
-  Z.imag().setZero();
-}
-
 double size_of(const ComplexMatrix& Lambda) {
   const double size = Lambda.norm();
   return size > 0.0 ? size : 1.0;
@@ -189,8 +185,8 @@ PairSeries differentiate_mode(const ReducedPencil& pencil, const InvariantPair& 
       factors.solve(-residual, -defect, dZ, dmu);
       ++counts.solves;
       if (mode.is_real) {
-        make_real(dZ);
-        make_real(dmu);
+        dZ.imag().setZero();
+        dmu.imag().setZero();
       }
       series.Z.col(j) += dZ;
       series.mu[j] += dmu(0, 0);
@@ -228,8 +224,8 @@ PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& 
       factors.solve(-residual, -defect, dZ, dLambda);
       counts.solves += static_cast<std::uint64_t>(pair.size());
       if (pair.is_real) {
-        make_real(dZ);
-        make_real(dLambda);
+        dZ.imag().setZero();
+        dLambda.imag().setZero();
       }
       series.Z[at] += dZ;
       series.Lambda[at] += dLambda;

@@ -34,7 +34,6 @@ class StepPencil {
 
   const PathNode& left() const { return left_; }
   bool has_constant_mass() const { return left_.pencil.M.size() == 1 && right_.M.size() == 1; }
-  bool is_undamped() const;  ///< C vanishes on the whole step
 
  private:
   Sample sample(double t) const;
