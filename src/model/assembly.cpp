@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "model/scatter.hpp"
+
 namespace eigentrail {
 namespace {
 
 template <class Real>
 using Columns = typename BasicPath<Real>::Columns;
-template <class Real>
-using Coefficients = typename BasicLinearization<Real>::Coefficients;
 
 template <class Real, int Q>
 std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
@@ -21,12 +21,10 @@ std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
 
 /// Adds a series to an entry of a matrix series and notes whether all its coefficients are finite.
 template <class Real, int Q>
-void add_entry(Coefficients<Real>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
+void add_entry(Scatter<Real, Q>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
   using std::isfinite;
-  for (int k = 0; k <= Q; ++k) {
-    sum[k](row, column) += value[k];
-    finite = finite && isfinite(value[k]);
-  }
+  sum.add(row, column, value);
+  for (int k = 0; k <= Q; ++k) finite = finite && isfinite(value[k]);
 }
 
 template <class Real, int Q>
@@ -38,19 +36,13 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Drops the trailing coefficients that are exactly zero: a constant keeps one.
-template <class Real>
-void trim(Coefficients<Real>& series) {
-  while (series.size() > 1 && series.back().isZero(Real(0.0))) series.pop_back();
-}
-
 /// Evaluates one element with forces: its derivative in each direction gives a column of M, C or K.
 template <class Real, int Q, class Element>
 bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                     std::span<const Series<Real, Q>> lambda, BasicLinearization<Real>& sum) {
+                     std::span<const Series<Real, Q>> lambda, LinearizationScatter<Real, Q>& sum) {
   using Scalar = Series<Series<Real, Q>, 1>;
   bool finite = true;
-  const auto differentiate = [&](bool depends, Motion motion, Coefficients<Real>& matrix) {
+  const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
     if (!depends) return;
     for (const int point : placed.points) {
       for (int column = 3 * point; column < 3 * point + 3; ++column) {
@@ -73,7 +65,7 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
 /// Rows of A, and (A^T lambda)_/x as the second derivatives of lambda^T c (Eq. 18), which is symmetric.
 template <class Real, int Q, class Element>
 bool linearize_constraint(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                          std::span<const Series<Real, Q>> lambda, BasicLinearization<Real>& sum) {
+                          std::span<const Series<Real, Q>> lambda, LinearizationScatter<Real, Q>& sum) {
   using Scalar = Series<Series<Series<Real, Q>, 1>, 1>;
   bool finite = true;
   std::vector<int> coordinates;
@@ -146,11 +138,6 @@ std::span<const Series<Real, Q>> own_multipliers(const Placed<Element>& placed,
   }
 }
 
-template <class Real>
-Coefficients<Real> zero_series(int order, Eigen::Index rows, Eigen::Index columns) {
-  return Coefficients<Real>(static_cast<std::size_t>(order) + 1, Columns<Real>::Zero(rows, columns));
-}
-
 }  // namespace
 
 template <class Real, int Q>
@@ -189,28 +176,21 @@ EvaluationFault Assembly<Real, Q>::residual(BasicSteadyResidual<Real>& result,
 template <class Real, int Q>
 EvaluationFault Assembly<Real, Q>::linearize(BasicLinearization<Real>& result,
                                              EvaluationCounts& counts) const {
-  const int n = data_.n_coordinates;
-  result.M = zero_series<Real>(Q, n, n);
-  result.C = zero_series<Real>(Q, n, n);
-  result.K = zero_series<Real>(Q, n, n);
-  result.A = zero_series<Real>(Q, data_.n_constraints, n);
+  LinearizationScatter<Real, Q> sum(data_.n_coordinates, data_.n_constraints);
   EvaluationFault fault;
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
     for (const Placed<Element>& placed : list) {
       const auto lambda = own_multipliers<Real, Q>(placed, values_);
       bool finite = true;
       if constexpr (HasForce<Element>)
-        finite = linearize_force<Real, Q>(placed, values_, lambda, result) && finite;
+        finite = linearize_force<Real, Q>(placed, values_, lambda, sum) && finite;
       if constexpr (HasConstraint<Element>)
-        finite = linearize_constraint<Real, Q>(placed, values_, lambda, result) && finite;
+        finite = linearize_constraint<Real, Q>(placed, values_, lambda, sum) && finite;
       if (!finite && !fault) fault.source = placed.label;
     }
     counts.linearization[kind] += list.size();
   });
-  trim<Real>(result.M);
-  trim<Real>(result.C);
-  trim<Real>(result.K);
-  trim<Real>(result.A);
+  result = sum.take();
   return fault;
 }
 
