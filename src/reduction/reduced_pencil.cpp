@@ -44,15 +44,13 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
     return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(last_order(order, B.size(), 1)) + 1};
   }
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
-  MatrixSeries result(last_order(order, BT.size() + T.size(), 2) + 1, Matrix::Zero(T[0].cols(), T[0].cols()));
+  const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models keep to the products that they always had: their results do not change by a rounding.
-  const bool by_blas = is_sparse(B);
+  if (is_sparse(B)) return transposed_product(T, BT, count);
+  MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {
     for (std::size_t j = 0; j < BT.size() && i + j < result.size(); ++j) {
-      if (by_blas)
-        result[i + j] += transposed_product(T[i], BT[j]);
-      else
-        result[i + j].noalias() += T[i].transpose() * BT[j];
+      result[i + j].noalias() += T[i].transpose() * BT[j];
     }
   }
   return result;
