@@ -54,6 +54,19 @@ class OptionReader {
       value.push_back(number);
     }
   }
+  /// Names separated by commas; "none" is the empty list.
+  void operator()(const char* key, const char*, std::vector<std::string>& value) {
+    if (!table_.has(key)) return;
+    value.clear();
+    std::istringstream text(table_.text(key));
+    for (std::string item; std::getline(text, item, ',');) {
+      const std::size_t begin = item.find_first_not_of(' ');
+      const std::size_t end = item.find_last_not_of(' ');
+      if (begin == std::string::npos) table_.fail(key, "expected names separated by commas");
+      value.push_back(item.substr(begin, end - begin + 1));
+    }
+    if (value == std::vector<std::string>{"none"}) value.clear();
+  }
   void operator()(const char* key, const char*, std::optional<double>& value) {
     if (table_.has(key)) value = number(key);
   }
@@ -192,7 +205,7 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   table.fail(faults.front().key, message);
 }
 
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths) {
   check_top_level(scene);
   TraceSetup setup{std::move(scene), {}, nullptr};
   std::set<int> used;
@@ -206,7 +219,7 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
     const double share = static_cast<double>(i - 1) / (checked_points - 1);
     points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
   }
-  setup.model = build_model(setup.scene, points, used);
+  setup.model = build_model(setup.scene, {points, used, options.without, strengths});
   return setup;
 }
 
@@ -222,6 +235,10 @@ OptionTexts describe_options(const TraceOptions& options) {
       std::string list;
       for (const int item : value) list += (list.empty() ? "" : ", ") + std::to_string(item);
       texts.emplace_back(key, list.empty() ? "auto" : list);
+    } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+      std::string list;
+      for (const std::string& item : value) list += (list.empty() ? "" : ", ") + item;
+      texts.emplace_back(key, list.empty() ? "none" : list);
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
       texts.emplace_back(key, value ? std::to_string(*value) : word_for_absent(key));
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {

@@ -106,7 +106,8 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   // Both must enter the model.
   used.erase(setup.scene.parameters.index(options.trace.parameter).value());
   used.erase(setup.scene.parameters.index(options.second).value());
-  setup.model = build_model(setup.scene, places_to_check(setup.scene, options), used);
+  setup.model =
+      build_model(setup.scene, {places_to_check(setup.scene, options), used, options.trace.without});
   return setup;
 }
 

@@ -95,8 +95,8 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   // Both must enter the model.
   used.erase(trace.traced());
   used.erase(parameters.index(options.second).value());
-  trace.model =
-      build_model(trace.scene, checked_points(parameters, trace.traced(), trace.options, options), used);
+  trace.model = build_model(trace.scene, {checked_points(parameters, trace.traced(), trace.options, options),
+                                          used, trace.options.without});
   return setup;
 }
 

@@ -36,22 +36,62 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Evaluates one element with forces: its derivative in each direction gives a column of M, C or K.
+/// Adds weight_b weight_a block, 3 x 3, for all shares of two moving vectors.
+template <class Real, int Q>
+class WeightedBlocks {
+ public:
+  using Base = Series<Real, Q>;
+
+  WeightedBlocks(const PathValues<Base>& values, bool& finite) : values_(values), finite_(finite) {}
+
+  /// Entry (i, j) of the block in rows of `to` and columns of `from`.
+  void add(Scatter<Real, Q>& sum, const Place& to, int i, const Place& from, int j, const Base& value) {
+    for (const Term& row : to.terms) {
+      const Base weighted = times(row.weight, value);
+      for (const Term& column : from.terms) {
+        add_entry<Real, Q>(sum, 3 * row.triple + i, 3 * column.triple + j, times(column.weight, weighted),
+                           finite_);
+      }
+    }
+  }
+
+  Base times(const Quantity& weight, const Base& value) const {
+    return weight.slot < 0 ? value : values_.values[static_cast<std::size_t>(weight.slot)] * value;
+  }
+
+ private:
+  const PathValues<Base>& values_;
+  bool& finite_;
+};
+
+template <class Element, class Base>
+std::array<Vec3<Base>, max_arguments> positions(const Placed<Element>& placed,
+                                                const PathValues<Base>& values) {
+  std::array<Vec3<Base>, max_arguments> result;
+  for (std::size_t i = 0; i < placed.arguments.size(); ++i) result[i] = values.vector(placed.arguments[i]);
+  return result;
+}
+
+/// The derivative of an element's force in each direction gives columns of M, C or K.
 template <class Real, int Q, class Element>
 bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                     std::span<const Series<Real, Q>> lambda, LinearizationScatter<Real, Q>& sum) {
-  using Scalar = Series<Series<Real, Q>, 1>;
+                     LinearizationScatter<Real, Q>& sum) {
+  using Base = Series<Real, Q>;
+  using Scalar = Series<Base, 1>;
   bool finite = true;
+  WeightedBlocks<Real, Q> blocks(values, finite);
+  const auto all = positions(placed, values);
+  const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
   const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
-    if (!depends) return;
-    for (const int point : placed.points) {
-      for (int column = 3 * point; column < 3 * point + 3; ++column) {
-        ElementView<Scalar> view(values, placed.points, lambda, {Seed{motion, column}});
-        placed.element.force(view);
-        for (std::size_t i = 0; i < placed.points.size(); ++i) {
-          for (int axis = 0; axis < 3; ++axis) {
-            add_entry<Real, Q>(matrix, 3 * placed.points[i] + axis, column, -view.force(i)[axis][1], finite);
-          }
+    const int components = depends ? 3 * static_cast<int>(arguments.size()) : 0;
+    for (int component = 0; component < components; ++component) {
+      const Place& from = placed.arguments[static_cast<std::size_t>(component / 3)];
+      ElementView<Scalar> view(values, arguments, Seed{motion, component});
+      placed.element.force(view);
+      for (std::size_t i = 0; i < arguments.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          blocks.add(matrix, placed.arguments[i], axis, from, component % 3,
+                     blocks.times(placed.strength, -view.force(i)[axis][1]));
         }
       }
     }
@@ -62,87 +102,118 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
   return finite;
 }
 
-/// Rows of A, and (A^T lambda)_/x as the second derivatives of lambda^T c (Eq. 18), which is symmetric.
-template <class Real, int Q, class Element>
-bool linearize_constraint(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                          std::span<const Series<Real, Q>> lambda, LinearizationScatter<Real, Q>& sum) {
-  using Scalar = Series<Series<Series<Real, Q>, 1>, 1>;
-  bool finite = true;
-  std::vector<int> coordinates;
-  for (const int point : placed.points) {
-    for (int axis = 0; axis < 3; ++axis) coordinates.push_back(3 * point + axis);
-  }
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      const int a = coordinates[i];
-      const int b = coordinates[j];
-      ElementView<Scalar> view(values, placed.points, lambda,
-                               {Seed{Motion::position, a}, Seed{Motion::position, b}});
-      placed.element.constraint(view);
-      const Series<Real, Q>& curvature = view.lagrangian()[1][1];
-      add_entry<Real, Q>(sum.K, a, b, curvature, finite);
-      if (a == b) {
-        for (int row = 0; row < Element::constraint_count; ++row) {
-          add_entry<Real, Q>(sum.A, placed.first_row + row, a, view.constraint(row)[0][1], finite);
-        }
-      } else {
-        add_entry<Real, Q>(sum.K, b, a, curvature, finite);
-      }
-    }
-  }
-  return finite;
-}
-
 template <class Real, int Q, class Element>
 bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                    std::span<const Series<Real, Q>> lambda, BasicSteadyResidual<Real>& sum) {
+                    BasicSteadyResidual<Real>& sum) {
+  using Base = Series<Real, Q>;
   bool finite = true;
-  ElementView<Series<Real, Q>> view(values, placed.points, lambda);
+  const WeightedBlocks<Real, Q> blocks(values, finite);
+  const auto all = positions(placed, values);
+  ElementView<Base> view(values, std::span<const Vec3<Base>>(all.data(), placed.arguments.size()));
   placed.element.force(view);
-  for (std::size_t i = 0; i < placed.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      add_entry<Real, Q>(sum.force, 3 * placed.points[i] + axis, -view.force(i)[axis], finite);
-    }
-  }
-  return finite;
-}
-
-template <class Real, int Q, class Element>
-bool constraint_residual(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                         std::span<const Series<Real, Q>> lambda, BasicSteadyResidual<Real>& sum) {
-  using Scalar = Series<Series<Real, Q>, 1>;
-  bool finite = true;
-  bool first = true;
-  for (const int point : placed.points) {
-    for (int i = 3 * point; i < 3 * point + 3; ++i) {
-      ElementView<Scalar> view(values, placed.points, lambda, {Seed{Motion::position, i}});
-      placed.element.constraint(view);
-      add_entry<Real, Q>(sum.force, i, view.lagrangian()[1], finite);
-      for (int row = 0; first && row < Element::constraint_count; ++row) {
-        add_entry<Real, Q>(sum.constraint, placed.first_row + row, view.constraint(row)[0], finite);
+  for (std::size_t i = 0; i < placed.arguments.size(); ++i) {
+    for (const Term& row : placed.arguments[i].terms) {
+      for (int axis = 0; axis < 3; ++axis) {
+        add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
+                           blocks.times(row.weight, blocks.times(placed.strength, -view.force(i)[axis])),
+                           finite);
       }
-      first = false;
     }
   }
   return finite;
 }
 
-template <class Real, int Q, class Element>
-std::span<const Series<Real, Q>> own_multipliers(const Placed<Element>& placed,
-                                                 const PathValues<Series<Real, Q>>& values) {
-  if constexpr (HasConstraint<Element>) {
-    return std::span(values.lambda)
-        .subspan(static_cast<std::size_t>(placed.first_row), Element::constraint_count);
-  } else {
-    return {};
+/// The shares of a difference: visit(term, sign).
+template <class Visit>
+void for_each_share(const Difference& difference, Visit visit) {
+  for (const Term& term : difference.first.terms) visit(term, 1.0);
+  if (!difference.second) return;
+  for (const Term& term : difference.second->terms) visit(term, -1.0);
+}
+
+template <class Base>
+Vec3<Base> value_of(const Difference& difference, const PathValues<Base>& values) {
+  const Vec3<Base> first = values.vector(difference.first);
+  return difference.second ? Vec3<Base>(first - values.vector(*difference.second)) : first;
+}
+
+/// One row of c, and what its gradient is made of: visit(term, g) for all g = dc / d(triple).
+template <class Real, int Q, class Visit>
+Series<Real, Q> evaluate_row(const ConstraintRow& row, const PathValues<Series<Real, Q>>& values,
+                             Visit visit) {
+  using Base = Series<Real, Q>;
+  bool finite = true;
+  const WeightedBlocks<Real, Q> blocks(values, finite);
+  const Vec3<Base> a = value_of(row.a, values);
+  const Base& offset = values.values[static_cast<std::size_t>(row.offset.slot)];
+  const auto add = [&](const Difference& difference, const Vec3<Base>& other) {
+    for_each_share(difference, [&](const Term& term, double sign) {
+      for (int i = 0; i < 3; ++i) visit(3 * term.triple + i, sign * blocks.times(term.weight, other[i]));
+    });
+  };
+  if (!row.b) {
+    for_each_share(row.a, [&](const Term& term, double sign) {
+      visit(3 * term.triple + row.axis, sign * blocks.times(term.weight, Base(1.0)));
+    });
+    return a[row.axis] - offset;
   }
+  const Vec3<Base> b = value_of(*row.b, values);
+  add(row.a, b);
+  add(*row.b, a);
+  return a.dot(b) - offset;
+}
+
+/// Rows of A, and (A^T lambda)_/x (Eq. 18): lambda a_/q b_/q' for every two shares, and its transpose.
+template <class Real, int Q>
+bool linearize_constraint(const Constraint& constraint, const PathValues<Series<Real, Q>>& values,
+                          LinearizationScatter<Real, Q>& sum) {
+  using Base = Series<Real, Q>;
+  bool finite = true;
+  const WeightedBlocks<Real, Q> blocks(values, finite);
+  int index = constraint.first_row;
+  for (const ConstraintRow& row : constraint.rows) {
+    evaluate_row<Real, Q>(row, values, [&](int column, const Base& gradient) {
+      add_entry<Real, Q>(sum.A, index, column, gradient, finite);
+    });
+    const Base& lambda = values.lambda[static_cast<std::size_t>(index++)];
+    if (!row.b) continue;
+    for_each_share(row.a, [&](const Term& p, double sign_p) {
+      const Base share = sign_p * blocks.times(p.weight, lambda);
+      for_each_share(*row.b, [&](const Term& q, double sign_q) {
+        const Base curvature = sign_q * blocks.times(q.weight, share);
+        for (int i = 0; i < 3; ++i) {
+          add_entry<Real, Q>(sum.K, 3 * p.triple + i, 3 * q.triple + i, curvature, finite);
+          add_entry<Real, Q>(sum.K, 3 * q.triple + i, 3 * p.triple + i, curvature, finite);
+        }
+      });
+    });
+  }
+  return finite;
+}
+
+/// c, and A^T lambda.
+template <class Real, int Q>
+bool constraint_residual(const Constraint& constraint, const PathValues<Series<Real, Q>>& values,
+                         BasicSteadyResidual<Real>& sum) {
+  using Base = Series<Real, Q>;
+  bool finite = true;
+  int index = constraint.first_row;
+  for (const ConstraintRow& row : constraint.rows) {
+    const Base& lambda = values.lambda[static_cast<std::size_t>(index)];
+    const Base c = evaluate_row<Real, Q>(row, values, [&](int column, const Base& gradient) {
+      add_entry<Real, Q>(sum.force, column, lambda * gradient, finite);
+    });
+    add_entry<Real, Q>(sum.constraint, index++, c, finite);
+  }
+  return finite;
 }
 
 }  // namespace
 
 template <class Real, int Q>
 Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& path) : data_(data) {
-  values_.x = to_series<Real, Q>(path.x);
+  const std::vector<Base> x = to_series<Real, Q>(path.x);
+  for (std::size_t i = 0; i + 2 < x.size(); i += 3) values_.triples.push_back({x[i], x[i + 1], x[i + 2]});
   values_.lambda = to_series<Real, Q>(path.lambda);
   std::vector<Base> parameters = to_series<Real, Q>(path.parameters);
   data.parameters.to_si(std::span<Base>(parameters));
@@ -153,43 +224,42 @@ Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& pa
 }
 
 template <class Real, int Q>
+template <class Force, class Rows>
+EvaluationFault Assembly<Real, Q>::visit_all(std::vector<std::uint64_t>& counts, Force add_force,
+                                             Rows add_rows) const {
+  EvaluationFault fault;
+  const auto note = [&fault](bool finite, const std::string& label) {
+    if (!finite && !fault) fault.source = label;
+  };
+  data_.elements.for_each([&](const auto& list, std::size_t kind) {
+    for (const auto& placed : list) note(add_force(placed), placed.label);
+    counts[kind] += list.size();
+  });
+  for (const Constraint& constraint : data_.constraints) {
+    note(add_rows(constraint), constraint.label);
+    ++counts[Elements::kinds + static_cast<std::size_t>(constraint.kind)];
+  }
+  return fault;
+}
+
+template <class Real, int Q>
 EvaluationFault Assembly<Real, Q>::residual(BasicSteadyResidual<Real>& result,
                                             EvaluationCounts& counts) const {
   result.force = Columns<Real>::Zero(data_.n_coordinates, Q + 1);
   result.constraint = Columns<Real>::Zero(data_.n_constraints, Q + 1);
-  EvaluationFault fault;
-  data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
-    for (const Placed<Element>& placed : list) {
-      const auto lambda = own_multipliers<Real, Q>(placed, values_);
-      bool finite = true;
-      if constexpr (HasForce<Element>)
-        finite = force_residual<Real, Q>(placed, values_, lambda, result) && finite;
-      if constexpr (HasConstraint<Element>)
-        finite = constraint_residual<Real, Q>(placed, values_, lambda, result) && finite;
-      if (!finite && !fault) fault.source = placed.label;
-    }
-    counts.residual[kind] += list.size();
-  });
-  return fault;
+  return visit_all(
+      counts.residual, [&](const auto& placed) { return force_residual<Real, Q>(placed, values_, result); },
+      [&](const Constraint& c) { return constraint_residual<Real, Q>(c, values_, result); });
 }
 
 template <class Real, int Q>
 EvaluationFault Assembly<Real, Q>::linearize(BasicLinearization<Real>& result,
                                              EvaluationCounts& counts) const {
   LinearizationScatter<Real, Q> sum(data_.n_coordinates, data_.n_constraints);
-  EvaluationFault fault;
-  data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
-    for (const Placed<Element>& placed : list) {
-      const auto lambda = own_multipliers<Real, Q>(placed, values_);
-      bool finite = true;
-      if constexpr (HasForce<Element>)
-        finite = linearize_force<Real, Q>(placed, values_, lambda, sum) && finite;
-      if constexpr (HasConstraint<Element>)
-        finite = linearize_constraint<Real, Q>(placed, values_, lambda, sum) && finite;
-      if (!finite && !fault) fault.source = placed.label;
-    }
-    counts.linearization[kind] += list.size();
-  });
+  const EvaluationFault fault = visit_all(
+      counts.linearization,
+      [&](const auto& placed) { return linearize_force<Real, Q>(placed, values_, sum); },
+      [&](const Constraint& c) { return linearize_constraint<Real, Q>(c, values_, sum); });
   result = sum.take();
   return fault;
 }

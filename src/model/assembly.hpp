@@ -6,9 +6,10 @@
 
 namespace eigentrail {
 
-/// What a multibody model is made of.
+/// What a multibody model is made of. Counters of constraint kinds follow those of elements.
 struct MultibodyData {
   Elements elements;
+  std::vector<Constraint> constraints;
   std::vector<Expression> quantities;  ///< by slot
   Parameters parameters;
   int n_coordinates = 0;
@@ -25,6 +26,11 @@ class Assembly {
 
  private:
   using Base = Series<Real, Q>;
+
+  /// Calls one of the two for everything the scene has, and counts it. The fault names the first that is not
+  /// finite.
+  template <class Force, class Rows>
+  EvaluationFault visit_all(std::vector<std::uint64_t>& counts, Force add_force, Rows add_rows) const;
 
   const MultibodyData& data_;
   PathValues<Base> values_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "eigentrail/core/text.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
 
@@ -19,15 +20,22 @@ void check_top_level(const Scene& scene) {
   }
 }
 
+std::string strength_parameter(const std::string& effect) {
+  return "strength of " + effect;
+}
+
 bool is_matrix_family(const Scene& scene) {
   return scene.root.find("matrix_family") != nullptr;
 }
 
-std::unique_ptr<Model> build_model(const Scene& scene, const std::vector<Vector>& check_at,
-                                   const std::set<int>& used_elsewhere) {
+std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
   check_top_level(scene);
-  return is_matrix_family(scene) ? read_matrix_family(scene, used_elsewhere)
-                                 : read_multibody(scene, check_at, used_elsewhere);
+  if (!is_matrix_family(scene)) return read_multibody(scene, request);
+  if (!request.without.empty()) {
+    throw InputError(scene.path + ": '" + printable(request.without.front()) +
+                     "' cannot be left out: a family of matrices has no effects");
+  }
+  return read_matrix_family(scene, request.used_elsewhere);
 }
 
 }  // namespace eigentrail

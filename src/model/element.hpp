@@ -4,9 +4,10 @@
 //   name, description, contribution        facts that `explain` and the structure flags are derived from
 //   depends                                which of position, velocity, acceleration its force uses
 //   fields(self, visit)                    its data, listed once: scene keys, units, roles, help
-//   force(at)        and / or              its physics, written once for every scalar
-//   constraint(at), constraint_count, curved   (curved: A depends on x)
-// Adding an effect: one file in elements/ and one line in registry.hpp.
+//   force(at)                              its physics, written once for every scalar
+// Its force acts through moving vectors: places of points and bodies, and directions that turn with bodies.
+// All are linear in the coordinates, so a derivative takes three directions per vector, however many
+// coordinates the vector is made of. Adding an effect: one file in elements/ and one line in registry.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,8 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/model/model.hpp"
@@ -24,8 +27,8 @@ namespace eigentrail {
 template <class Scalar>
 using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
 
-/// Most moving points that one element may join.
-inline constexpr int max_points_per_element = 4;
+/// Most moving vectors that one element may join.
+inline constexpr int max_arguments = 4;
 
 /// A number that may depend on the parameters; `slot` is its place in the table of values of an evaluation.
 struct Quantity {
@@ -33,10 +36,21 @@ struct Quantity {
   int slot = -1;
 };
 
-/// A moving point of the scene (index >= 0) or a place that is fixed in the frame.
+/// A share of a moving vector: a weight times a triple of coordinates. No slot: the weight is one.
+struct Term {
+  int triple = -1;
+  Quantity weight;
+};
+
+/// A vector of the scene: fixed in the frame, or moving with a point or a body. The position of a point is
+/// its triple; a place on a body is origin + sum a_i director_i, a direction on it sum b_i director_i: both
+/// linear in the coordinates.
 struct Place {
-  int point = -1;
+  std::vector<Term> terms;  ///< empty: fixed
   std::array<Quantity, 3> fixed;
+  int argument = -1;  ///< which of its element's moving vectors it is
+
+  bool moves() const { return !terms.empty(); }
 };
 
 /// A coordinate direction: 0 x, 1 y, 2 z.
@@ -76,27 +90,27 @@ struct Dependence {
   bool position = false;
   bool velocity = false;
   bool acceleration = false;
+  bool turning = false;  ///< what it takes from velocities depends on positions: C follows the equilibrium
 };
 
 enum class Motion { position, velocity, acceleration };
 
-/// One direction of differentiation: a coordinate's position, velocity or acceleration.
+/// One direction of differentiation: a component of a moving vector's position, velocity or acceleration.
 struct Seed {
   Motion motion = Motion::position;
-  int coordinate = -1;  ///< -1: none
+  int component = -1;  ///< 3 * argument + axis; -1: none
 };
 
 namespace detail {
 
+/// The series along the path beneath a scalar that may carry a derivative.
 template <class Scalar>
-struct SeriesOf {
-  using Base = typename SeriesOf<typename Scalar::Coefficient>::Base;
-  static constexpr int depth = SeriesOf<typename Scalar::Coefficient>::depth + 1;
+struct BaseOf {
+  using type = Scalar;
 };
 template <class Real, int Q>
-requires(!is_series<Real>) struct SeriesOf<Series<Real, Q>> {
-  using Base = Series<Real, Q>;
-  static constexpr int depth = 0;
+struct BaseOf<Series<Series<Real, Q>, 1>> {
+  using type = Series<Real, Q>;
 };
 
 }  // namespace detail
@@ -104,24 +118,40 @@ requires(!is_series<Real>) struct SeriesOf<Series<Real, Q>> {
 /// Series along the path that an evaluation starts from.
 template <class Base>
 struct PathValues {
-  std::vector<Base> x;       ///< coordinates
-  std::vector<Base> lambda;  ///< multipliers
-  std::vector<Base> values;  ///< quantities, by slot
+  std::vector<Vec3<Base>> triples;  ///< coordinates
+  std::vector<Base> lambda;         ///< multipliers
+  std::vector<Base> values;         ///< quantities, by slot
+
+  Vec3<Base> vector(const std::array<Quantity, 3>& v) const {
+    return {values[v[0].slot], values[v[1].slot], values[v[2].slot]};
+  }
+
+  Vec3<Base> vector(const Place& place) const {
+    if (!place.moves()) return vector(place.fixed);
+    Vec3<Base> sum = Vec3<Base>::Zero();
+    for (const Term& term : place.terms) {
+      const Vec3<Base>& triple = triples[term.triple];
+      if (term.weight.slot < 0) {
+        sum += triple;
+      } else {
+        sum += values[term.weight.slot] * triple;
+      }
+    }
+    return sum;
+  }
 };
 
 /// What an element sees and writes to during one evaluation. Scalar is Series<Real, Q> (values along the
-/// path), or that nested once (with the derivative in direction `seeds[0]`) or twice (`seeds[0]` and
-/// `seeds[1]`).
+/// path), or that nested once: with the derivative in direction `seed`.
 template <class Scalar>
 class ElementView {
  public:
-  using Base = typename detail::SeriesOf<Scalar>::Base;
-  static constexpr int depth = detail::SeriesOf<Scalar>::depth;
+  using Base = typename detail::BaseOf<Scalar>::type;
 
-  ElementView(const PathValues<Base>& path, std::span<const int> points, std::span<const Base> lambda,
-              std::array<Seed, 2> seeds = {})
-      : path_(path), points_(points), lambda_(lambda), seeds_(seeds) {
-    for (std::size_t i = 0; i < points.size(); ++i) force_[i].setZero();
+  /// `arguments` are the positions of the element's moving vectors.
+  ElementView(const PathValues<Base>& path, std::span<const Vec3<Base>> arguments, Seed seed = {})
+      : path_(path), arguments_(arguments), seed_(seed) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) force_[i].setZero();
   }
 
   Scalar value(const Quantity& quantity) const { return Scalar(path_.values[quantity.slot]); }
@@ -130,10 +160,12 @@ class ElementView {
     return {value(vector[0]), value(vector[1]), value(vector[2])};
   }
 
-  /// Position in the frame, m.
+  /// Position in the frame, m; of a direction the direction itself.
   Vec3<Scalar> position(const Place& place) const {
-    if (place.point < 0) return value(place.fixed);
-    return {coordinate(place, 0), coordinate(place, 1), coordinate(place, 2)};
+    if (place.argument < 0) return value(place.fixed);
+    const Vec3<Base>& at = arguments_[static_cast<std::size_t>(place.argument)];
+    return {seeded(at[0], Motion::position, place, 0), seeded(at[1], Motion::position, place, 1),
+            seeded(at[2], Motion::position, place, 2)};
   }
 
   /// Velocity relative to the frame, m/s: zero at the steady state, present as a direction of
@@ -143,54 +175,33 @@ class ElementView {
   /// Acceleration relative to the frame, m/s^2: likewise.
   Vec3<Scalar> acceleration(const Place& place) const { return rate(place, Motion::acceleration); }
 
-  /// Adds a force, N, on a place; on a fixed place it does nothing.
+  /// Adds a force, N, on a place; on a fixed place it does nothing. On a direction it is what does work on
+  /// its change, N m.
   void add_force(const Place& place, const Vec3<Scalar>& force) {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (points_[i] == place.point) force_[i] += force;
-    }
+    if (place.argument >= 0) force_[static_cast<std::size_t>(place.argument)] += force;
   }
 
-  /// Sets constraint row `row` (0 <= row < constraint_count) to c.
-  void set_constraint(int row, const Scalar& c) {
-    constraint_[row] = c;
-    lagrangian_ += Scalar(lambda_[row]) * c;
-  }
-
-  const Vec3<Scalar>& force(std::size_t point) const { return force_[point]; }  ///< index into `points`
-  const Scalar& constraint(int row) const { return constraint_[row]; }
-  const Scalar& lagrangian() const { return lagrangian_; }  ///< sum over rows of lambda c
+  const Vec3<Scalar>& force(std::size_t argument) const { return force_[argument]; }
 
  private:
-  Scalar seeded(const Base& base, Motion motion, int coordinate) const {
+  Scalar seeded(const Base& base, Motion motion, const Place& place, int axis) const {
     Scalar result(base);
-    const auto is = [&](const Seed& seed) { return seed.coordinate == coordinate && seed.motion == motion; };
-    if constexpr (depth == 1) {
-      if (is(seeds_[0])) result[1] = Base(1.0);
-    } else if constexpr (depth == 2) {
-      if (is(seeds_[0])) result[0][1] = Base(1.0);
-      if (is(seeds_[1])) result[1] = typename Scalar::Coefficient(1.0);
+    if constexpr (!std::is_same_v<Scalar, Base>) {
+      if (seed_.motion == motion && seed_.component == 3 * place.argument + axis) result[1] = Base(1.0);
     }
     return result;
   }
 
-  Scalar coordinate(const Place& place, int axis) const {
-    const int i = 3 * place.point + axis;
-    return seeded(path_.x[i], Motion::position, i);
-  }
-
   Vec3<Scalar> rate(const Place& place, Motion motion) const {
-    if (place.point < 0) return Vec3<Scalar>::Zero();
-    const int i = 3 * place.point;
-    return {seeded(Base(), motion, i), seeded(Base(), motion, i + 1), seeded(Base(), motion, i + 2)};
+    if (place.argument < 0) return Vec3<Scalar>::Zero();
+    return {seeded(Base(), motion, place, 0), seeded(Base(), motion, place, 1),
+            seeded(Base(), motion, place, 2)};
   }
 
   const PathValues<Base>& path_;
-  std::span<const int> points_;
-  std::span<const Base> lambda_;
-  std::array<Seed, 2> seeds_;
-  std::array<Vec3<Scalar>, max_points_per_element> force_;
-  std::array<Scalar, 3> constraint_;
-  Scalar lagrangian_;
+  std::span<const Vec3<Base>> arguments_;
+  Seed seed_;
+  std::array<Vec3<Scalar>, max_arguments> force_;
 };
 
 }  // namespace eigentrail

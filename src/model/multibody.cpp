@@ -11,19 +11,48 @@ class TracedRoles {
   TracedRoles(const Parameters& parameters, int traced, Enters& enters)
       : parameters_(parameters), traced_(traced), enters_(enters) {}
 
-  void place(std::string_view, const Place& place, std::string_view) {
+  void place(std::string_view, const Place& place, std::string_view = {}) {
+    for (const Term& term : place.terms) {
+      if (term.weight.slot >= 0) add(term.weight, place_role);
+    }
+    if (place.moves()) return;
     for (const Quantity& q : place.fixed) add(q, place_role);
   }
-  void point(std::string_view, const Place&, std::string_view) {}
+  void point(std::string_view key, const Place& place, std::string_view help) {
+    this->place(key, place, help);
+  }
+  void direction(std::string_view key, const Place& place, std::string_view help) {
+    this->place(key, place, help);
+  }
+  void body(std::string_view, const std::array<Place, 3>&, std::string_view) {}
+  void joint(std::string_view key, const HingeAngle& angle, std::string_view) {
+    for (const Place* direction : {&angle.axis, &angle.from, &angle.to}) place(key, *direction);
+  }
   void quantity(const QuantityField& field, const Quantity& q) { add(q, field.enters); }
   void vector(const QuantityField& field, const std::array<Quantity, 3>& v) {
     for (const Quantity& q : v) add(q, field.enters);
   }
-  void axis(std::string_view, const Axis&, std::string_view) {}
+  template <std::size_t N>
+  void matrix(const QuantityField& field, const std::array<Quantity, N>& entries) {
+    for (const Quantity& q : entries) add(q, field.enters);
+  }
+  void constraint(const Constraint& constraint) {
+    place_role = enters_constraint;
+    for (const ConstraintRow& row : constraint.rows) {
+      add(row.offset, enters_constraint);
+      sides(row.a);
+      if (row.b) sides(*row.b);
+    }
+  }
 
-  Enters place_role;  ///< what a fixed place enters: forces or constraints of the element at hand
+  Enters place_role;  ///< what places enter: what the element at hand depends on, or constraints
 
  private:
+  void sides(const Difference& difference) {
+    place("", difference.first);
+    if (difference.second) place("", *difference.second);
+  }
+
   void add(const Quantity& q, const Enters& role) {
     if (!parameters_.depends_on(q.expression, traced_)) return;
     enters_.mass = enters_.mass || role.mass;
@@ -76,20 +105,26 @@ Structure Multibody::structure(int traced_parameter) const {
   Structure result;
   Enters changes;
   bool curved_constraints = false;
+  bool turning_damping = false;
   TracedRoles roles(data_.parameters, traced_parameter, changes);
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
-    roles.place_role = HasConstraint<Element> ? enters_constraint : enters_force;
+    constexpr Dependence depends = Element::depends;
+    roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
     for (const Placed<Element>& placed : list) Element::fields(placed.element, roles);
     if (list.empty()) return;
     result.damped = result.damped || Element::contribution.dissipative;
     result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
     result.circulatory = result.circulatory || Element::contribution.circulatory;
-    if constexpr (HasConstraint<Element>) curved_constraints = curved_constraints || Element::curved;
+    turning_damping = turning_damping || depends.turning;
   });
-  // Masses and damping coefficients of the registry do not depend on x; K and A follow the equilibrium.
+  for (const Constraint& constraint : data_.constraints) {
+    roles.constraint(constraint);
+    curved_constraints = curved_constraints || is_curved(constraint);
+  }
+  // Masses of the registry do not depend on x; K and A follow the equilibrium, and so does some damping.
   result.fixed_equilibrium = !changes.force && !changes.constraint;
   result.constant_mass = !changes.mass;
-  result.constant_damping = !changes.damping;
+  result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);
   result.constant_stiffness = result.fixed_equilibrium;
   result.constant_constraints = !changes.constraint && (result.fixed_equilibrium || !curved_constraints);
   return result;

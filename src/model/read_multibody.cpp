@@ -4,99 +4,55 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "model/draft.hpp"
 #include "model/multibody.hpp"
+#include "model/strips.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// What one scene is read into, and what its tables may refer to.
-struct Draft {
-  const Scene& scene;
-  const std::vector<Vector>& check_at;
-  std::set<int> used;
-  MultibodyData data;
-  std::vector<std::string> points;
-  std::vector<Expression> guess;
-  std::vector<std::string> constraint_names;
-
-  TableReader reader(const Table& table, const std::string& label) { return {scene, table, label, used}; }
-
-  Quantity quantity(const Expression& expression) {
-    data.quantities.push_back(expression);
-    return {expression, static_cast<int>(data.quantities.size()) - 1};
-  }
-  std::array<Quantity, 3> vector(const std::array<Expression, 3>& e) {
-    return {quantity(e[0]), quantity(e[1]), quantity(e[2])};
-  }
-
-  /// Values of an expression at the checked points of the trace, its ends first.
-  std::vector<double> check_values(const Expression& expression) const {
-    std::vector<double> values;
-    for (const Vector& declared : check_at) {
-      Vector si = declared;
-      const std::span<double> span(si.data(), static_cast<std::size_t>(si.size()));
-      scene.parameters.to_si(span);
-      values.push_back(expression.evaluate(std::span<const double>(span)));
-    }
-    return values;
-  }
-
-  void check_range(const TableReader& reader, const std::string& key, const Expression& expression,
-                   Range range) const {
-    const std::vector<double> values = check_values(expression);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::string found = "; found " + exact_text(values[i]) + where_on_trace(i);
-      if (!std::isfinite(values[i])) reader.fail(key, "is not a finite number" + found);
-      if (range == Range::positive && !(values[i] > 0.0)) reader.fail(key, "must be positive" + found);
-      if (range == Range::non_negative && values[i] < 0.0) reader.fail(key, "must not be negative" + found);
-    }
-  }
-
-  /// A vector of finite components; of non-zero length where `range` asks for more than any value.
-  void check_range(const TableReader& reader, const std::string& key, const std::array<Expression, 3>& vector,
-                   Range range) const {
-    for (const Expression& e : vector) check_range(reader, key, e, Range::any);
-    for (std::size_t i = 0; range != Range::any && i < check_at.size(); ++i) {
-      if (vector_at(vector, i).norm() > 0.0) continue;
-      reader.fail(key, "must not be the zero vector; it is" + where_on_trace(i));
-    }
-  }
-
-  Eigen::Vector3d vector_at(const std::array<Expression, 3>& v, std::size_t i) const {
-    return {check_values(v[0])[i], check_values(v[1])[i], check_values(v[2])[i]};
-  }
-
-  static std::string where_on_trace(std::size_t i) {
-    if (i == 0) return " where the trace begins";
-    return i == 1 ? " where the trace ends" : " within the range of the trace";
-  }
-
-  int point_index(const TableReader& reader, const std::string& key, const std::string& name) const {
-    const auto found = std::find(points.begin(), points.end(), name);
-    if (found == points.end())
-      reader.fail(key, "no point is called '" + name + "'; " + suggestion(name, points));
-    return static_cast<int>(found - points.begin());
-  }
-};
 
 /// Fills an element's fields from its table.
 class FieldReader {
  public:
   FieldReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {}
 
-  void place(std::string_view key_view, Place& place, std::string_view) {
-    const std::string key(key_view);
-    const NameOrPosition value = table_.name_or_position(key);
-    if (const auto* name = std::get_if<std::string>(&value)) {
-      place.point = draft_.point_index(table_, key, *name);
-    } else {
-      place.fixed = draft_.vector(std::get<1>(value));
-    }
+  void place(std::string_view key, Place& place, std::string_view) {
+    place = draft_.read_place(table_, std::string(key));
   }
 
-  void point(std::string_view key_view, Place& place, std::string_view) {
+  void point(std::string_view key, Place& place, std::string_view) {
+    place = draft_.read_moving_place(table_, std::string(key));
+  }
+
+  void direction(std::string_view key, Place& place, std::string_view) {
+    Carrier carrier;
+    const ExpressionVector along = draft_.read_direction(table_, std::string(key), carrier);
+    place = draft_.direction_on(carrier, along);
+  }
+
+  void body(std::string_view key, std::array<Place, 3>& directors, std::string_view) {
+    directors = draft_.directors(draft_.read_body(table_, std::string(key)));
+  }
+
+  /// The angle of a joint; a universal joint has two, and `about` says which.
+  void joint(std::string_view key_view, HingeAngle& angle, std::string_view) {
     const std::string key(key_view);
-    place.point = draft_.point_index(table_, key, table_.text(key));
+    const std::string name = table_.text(key);
+    const auto found = draft_.joint_angles.find(name);
+    if (found == draft_.joint_angles.end()) {
+      std::vector<std::string> names;
+      for (const auto& [label, angles] : draft_.joint_angles) names.push_back(label);
+      table_.fail(key, "no joint with an angle (revolute, universal, cylindrical) is called '" + name +
+                           "'; " + suggestion(name, names));
+    }
+    std::size_t which = 0;
+    if (found->second.size() > 1) {
+      const std::string about = table_.text("about");
+      if (about != "axis" && about != "cross_axis")
+        table_.fail("about", "expected \"axis\" or \"cross_axis\", found \"" + about + "\"");
+      which = about == "axis" ? 0 : 1;
+    }
+    angle = found->second[which];
   }
 
   void quantity(const QuantityField& field, Quantity& quantity) {
@@ -109,20 +65,22 @@ class FieldReader {
 
   void vector(const QuantityField& field, std::array<Quantity, 3>& vector) {
     const std::string key(field.key);
-    std::array<Expression, 3> components{0.0, 0.0, field.otherwise.value_or(0.0)};
+    ExpressionVector components{0.0, 0.0, field.otherwise.value_or(0.0)};
     if (!field.otherwise || table_.has(key)) components = table_.vector(key);
     draft_.check_range(table_, key, components, field.range);
     vector = draft_.vector(components);
   }
 
-  void axis(std::string_view key_view, Axis& axis, std::string_view) {
-    const std::string key(key_view);
-    const std::string name = table_.text(key);
-    const std::size_t index = std::string_view("xyz").find(name);
-    if (name.size() != 1 || index == std::string_view::npos) {
-      table_.fail(key, "expected \"x\", \"y\" or \"z\", found \"" + name + "\"");
+  void matrix(const QuantityField& field, std::array<Quantity, 4>& entries) {
+    const std::string key(field.key);
+    std::vector<std::vector<Expression>> rows(2, std::vector<Expression>(2, field.otherwise.value_or(0.0)));
+    if (!field.otherwise || table_.has(key)) rows = table_.matrix(key);
+    if (rows.size() != 2 || rows[0].size() != 2 || rows[1].size() != 2)
+      table_.fail(key, "expected a 2 x 2 matrix " + std::string(field.help));
+    for (std::size_t i = 0; i < 4; ++i) {
+      draft_.check_range(table_, key, rows[i / 2][i % 2], field.range);
+      entries[i] = draft_.quantity(rows[i / 2][i % 2]);
     }
-    axis.index = static_cast<int>(index);
   }
 
  private:
@@ -130,45 +88,54 @@ class FieldReader {
   TableReader& table_;
 };
 
-/// The moving points among an element's places.
-class PointCollector {
+/// Gives the moving vectors among an element's fields their places in its list of arguments.
+class ArgumentCollector {
  public:
-  explicit PointCollector(std::vector<int>& points) : points_(points) {}
-  void place(std::string_view, const Place& place, std::string_view) {
-    const bool known = std::find(points_.begin(), points_.end(), place.point) != points_.end();
-    if (place.point >= 0 && !known) points_.push_back(place.point);
+  explicit ArgumentCollector(std::vector<Place>& arguments) : arguments_(arguments) {}
+
+  void place(std::string_view, Place& place, std::string_view = {}) {
+    if (!place.moves()) return;
+    const auto same = [&](const Place& other) {
+      return std::equal(place.terms.begin(), place.terms.end(), other.terms.begin(), other.terms.end(),
+                        [](const Term& a, const Term& b) {
+                          return a.triple == b.triple && a.weight.slot == b.weight.slot;
+                        });
+    };
+    const auto known = std::find_if(arguments_.begin(), arguments_.end(), same);
+    place.argument = static_cast<int>(known - arguments_.begin());
+    if (known == arguments_.end()) arguments_.push_back(place);
   }
-  void point(std::string_view key, const Place& point, std::string_view help) { place(key, point, help); }
+  void point(std::string_view key, Place& point, std::string_view) { place(key, point); }
+  void direction(std::string_view key, Place& direction, std::string_view) { place(key, direction); }
+  void body(std::string_view key, std::array<Place, 3>& directors, std::string_view) {
+    for (Place& director : directors) place(key, director);
+  }
+  void joint(std::string_view key, HingeAngle& angle, std::string_view) {
+    for (Place* direction : {&angle.axis, &angle.from, &angle.to}) place(key, *direction);
+  }
   void quantity(const QuantityField&, const Quantity&) {}
   void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
-  void axis(std::string_view, const Axis&, std::string_view) {}
+  void matrix(const QuantityField&, const std::array<Quantity, 4>&) {}
 
  private:
-  std::vector<int>& points_;
+  std::vector<Place>& arguments_;
 };
 
+/// Adds an element, unless its effect is switched off.
 template <class Element>
-void add_element(Draft& draft, std::vector<Placed<Element>>& list, Element element, std::string label) {
-  Placed<Element> placed{std::move(element), std::move(label), {}, draft.data.n_constraints};
-  PointCollector collector(placed.points);
+void add_element(Draft& draft, Element element, std::string label) {
+  const auto& without = draft.request.without;
+  if (std::find(without.begin(), without.end(), Element::name) != without.end()) return;
+  Placed<Element> placed{
+      std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
+  ArgumentCollector collector(placed.arguments);
   Element::fields(placed.element, collector);
-  if constexpr (HasConstraint<Element>) {
-    for (int row = 0; row < Element::constraint_count; ++row) {
-      const std::string suffix = Element::constraint_count > 1 ? "[" + std::to_string(row) + "]" : "";
-      draft.constraint_names.push_back(placed.label + suffix);
-    }
-    draft.data.n_constraints += Element::constraint_count;
-  }
-  list.push_back(std::move(placed));
-}
-
-std::string numbered(std::string_view name, std::size_t index) {
-  return std::string(name) + " " + std::to_string(index + 1);
+  std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
 }
 
 /// Reads every [[name]] table of an element kind.
 template <class Element>
-void read_elements(Draft& draft, std::vector<Placed<Element>>& list) {
+void read_elements(Draft& draft) {
   const std::vector<const Table*> all = tables(draft.scene, std::string(Element::name));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string number = numbered(Element::name, i);
@@ -179,20 +146,20 @@ void read_elements(Draft& draft, std::vector<Placed<Element>>& list) {
     Element::fields(element, fields);
     const std::string label = table.has("name") ? printable(table.text("name")) : number;
     table.finish();
-    add_element(draft, list, std::move(element), label);
-    if (list.back().points.empty()) {
+    std::vector<Place> moving;
+    ArgumentCollector collector(moving);
+    Element::fields(element, collector);
+    if (moving.empty()) {
       throw scene_error(draft.scene, all[i]->where,
                         table.label() + ": joins no moving point; name one in it");
     }
+    add_element(draft, std::move(element), label);
   }
 }
 
 /// Points come first: everything else refers to them.
-void read_points(Draft& draft, std::vector<Quantity>& masses) {
+void read_points(Draft& draft) {
   const std::vector<const Table*> all = tables(draft.scene, "point");
-  if (all.empty()) {
-    throw InputError(draft.scene.path + ": a scene needs at least one [[point]], or a [matrix_family]");
-  }
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[point]] " + std::to_string(i + 1));
     const std::string name = table.text("name");
@@ -205,40 +172,46 @@ void read_points(Draft& draft, std::vector<Quantity>& masses) {
     for (const Expression& e : table.vector("position")) draft.guess.push_back(e);
     table.finish();
     draft.points.push_back(name);
-    masses.push_back(draft.quantity(mass));
+    draft.mass_names.push_back(name);
+    MassDistribution& masses = draft.masses.emplace_back();
+    masses.carriers[0] = draft.point_place(static_cast<int>(i));
+    masses.mass = draft.quantity(mass);
   }
-  auto& list = std::get<std::vector<Placed<PointMass>>>(draft.data.elements.lists);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    add_element(draft, list, PointMass{{static_cast<int>(i), {}}, masses[i]}, draft.points[i]);
+}
+
+void add_masses(Draft& draft) {
+  for (std::size_t i = 0; i < draft.masses.size(); ++i) {
+    if (draft.masses[i].size == 1) {
+      add_element(draft, PointMass{draft.masses[i]}, draft.mass_names[i]);
+    } else {
+      add_element(draft, RigidBody{{draft.masses[i]}}, draft.mass_names[i]);
+    }
   }
 }
 
 /// [frame] or [gravity]: one vector that acts on every mass. Returns it, or nothing when the scene has none.
 template <class Element>
-std::optional<std::array<Expression, 3>> read_field(Draft& draft, const std::string& key,
-                                                    const std::vector<Quantity>& masses) {
+std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key) {
   const std::vector<const Table*> found = tables(draft.scene, std::string(Element::name));
   if (found.empty()) return std::nullopt;
   const std::string label = "[" + std::string(Element::name) + "]";
   if (found.size() > 1)
     throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
   TableReader table = draft.reader(*found[0], label);
-  const std::array<Expression, 3> field = table.vector(key);
+  const ExpressionVector field = table.vector(key);
   draft.check_range(table, key, field, Range::any);
   table.finish();
   const std::array<Quantity, 3> quantities = draft.vector(field);
-  auto& list = std::get<std::vector<Placed<Element>>>(draft.data.elements.lists);
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    add_element(draft, list, Element{{static_cast<int>(i), {}}, masses[i], quantities},
-                std::string(Element::name) + " on " + draft.points[i]);
+  for (std::size_t i = 0; i < draft.masses.size(); ++i) {
+    add_element(draft, Element{draft.masses[i], quantities},
+                std::string(Element::name) + " on " + draft.mass_names[i]);
   }
   return field;
 }
 
 /// A frame that turns about another axis than gravity's direction would see gravity turn: no steady state.
-void check_gravity(const Draft& draft, const std::array<Expression, 3>& rotation,
-                   const std::array<Expression, 3>& gravity) {
-  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
+void check_gravity(const Draft& draft, const ExpressionVector& rotation, const ExpressionVector& gravity) {
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d w = draft.vector_at(rotation, i);
     const Eigen::Vector3d g = draft.vector_at(gravity, i);
     if (w.cross(g).norm() <= 1e-12 * w.norm() * g.norm()) continue;
@@ -249,20 +222,55 @@ void check_gravity(const Draft& draft, const std::array<Expression, 3>& rotation
   }
 }
 
+/// The effects that a scene's bodies do without: what it names, but for inertia and constraints.
+void check_without(const Draft& draft) {
+  std::vector<std::string> can;
+  draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
+    const std::string name(Element::name);
+    const bool present = !tables(draft.scene, name).empty();
+    if (present && !Element::contribution.inertia) can.push_back(name);
+  });
+  for (const std::string& name : draft.request.without) {
+    if (std::find(can.begin(), can.end(), name) != can.end()) continue;
+    throw InputError(draft.scene.path + ": '" + printable(name) +
+                     "' is no effect of this scene that can be left out (inertia and constraints cannot); " +
+                     suggestion(name, can));
+  }
+}
+
 ModelDescription describe(const Draft& draft) {
   ModelDescription description;
-  for (const std::string& point : draft.points) {
+  const auto add = [&](const std::string& name, const char* unit) {
     for (const char* axis : {".x", ".y", ".z"}) {
-      description.coordinate_names.push_back(point + axis);
-      description.coordinate_units.emplace_back("m");
+      description.coordinate_names.push_back(name + axis);
+      description.coordinate_units.emplace_back(unit);
     }
+  };
+  for (const std::string& point : draft.points) add(point, "m");
+  for (const BodyDraft& body : draft.bodies) {
+    add(body.name, "m");
+    for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
   }
   description.constraint_names = draft.constraint_names;
-  description.parameters = draft.scene.parameters;
+  description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+    constexpr Dependence depends = Element::depends;
+    constexpr int motions = int{depends.position} + int{depends.velocity} + int{depends.acceleration};
+    int evaluations = 0;
+    for (const Placed<Element>& placed : list)
+      evaluations += 3 * motions * static_cast<int>(placed.arguments.size());
     description.effects.push_back({std::string(Element::name), std::string(Element::description),
-                                   static_cast<int>(list.size()), Element::contribution});
+                                   static_cast<int>(list.size()), Element::contribution, evaluations});
   });
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    description.effects.push_back(
+        {std::string(kind.name), std::string(kind.description), 0, Contribution{.constraint = true}});
+  }
+  for (const Constraint& constraint : draft.data.constraints) {
+    Effect& effect = description.effects[Elements::kinds + static_cast<std::size_t>(constraint.kind)];
+    ++effect.count;
+    effect.evaluations += static_cast<int>(constraint.rows.size());
+  }
   return description;
 }
 
@@ -270,42 +278,60 @@ ModelDescription describe(const Draft& draft) {
 class HelpCollector {
  public:
   explicit HelpCollector(std::vector<FieldHelp>& fields) : fields_(fields) {}
-  void place(std::string_view key, const Place&, std::string_view help) {
-    fields_.push_back({std::string(key), "name or [x, y, z]", std::string(help)});
+  void place(std::string_view key, const Place&, std::string_view help) { add(key, "place", help); }
+  void point(std::string_view key, const Place&, std::string_view help) { add(key, "moving place", help); }
+  void direction(std::string_view key, const Place&, std::string_view help) { add(key, "direction", help); }
+  void body(std::string_view key, const std::array<Place, 3>&, std::string_view help) {
+    add(key, "name of a body", help);
   }
-  void point(std::string_view key, const Place&, std::string_view help) {
-    fields_.push_back({std::string(key), "name", std::string(help)});
+  void joint(std::string_view key, const HingeAngle&, std::string_view help) {
+    add(key, "name of a joint", help);
+    add("about", "\"axis\" or \"cross_axis\"", "which angle of a universal joint");
   }
   void quantity(const QuantityField& field, const Quantity&) { add(field, ""); }
   void vector(const QuantityField& field, const std::array<Quantity, 3>&) { add(field, "[x, y, z] "); }
-  void axis(std::string_view key, const Axis&, std::string_view help) {
-    fields_.push_back({std::string(key), "axis", std::string(help)});
-  }
+  void matrix(const QuantityField& field, const std::array<Quantity, 4>&) { add(field, "2 x 2 "); }
 
  private:
+  void add(std::string_view key, const std::string& shape, std::string_view help) {
+    fields_.push_back({std::string(key), shape, std::string(help)});
+  }
   void add(const QuantityField& field, const std::string& shape) {
-    fields_.push_back({std::string(field.key), shape + std::string(field.unit), std::string(field.help)});
+    add(field.key, shape + std::string(field.unit), field.help);
   }
   std::vector<FieldHelp>& fields_;
 };
 
 }  // namespace
 
-std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at,
-                                      const std::set<int>& used_elsewhere) {
-  Draft draft{scene, check_at, used_elsewhere, {}, {}, {}, {}};
-  std::vector<Quantity> masses;
-  read_points(draft, masses);
-  const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity", masses);
-  const auto gravity = read_field<Gravity>(draft, "acceleration", masses);
+std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request) {
+  Draft draft(scene, request);
+  read_points(draft);
+  read_bodies(draft);
+  if (draft.masses.empty()) {
+    throw InputError(scene.path + ": a scene needs at least one [[point]] or [[body]], or a [matrix_family]");
+  }
+  check_without(draft);
+  add_masses(draft);
+  const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity");
+  const auto gravity = read_field<Gravity>(draft, "acceleration");
   if (rotation && gravity) check_gravity(draft, *rotation, *gravity);
-  draft.data.elements.for_each([&]<class Element>(std::vector<Placed<Element>>& list, std::size_t) {
-    if constexpr (has_own_table<Element>) read_elements(draft, list);
+  read_constraints(draft);
+  draft.data.elements.for_each([&]<class Element>(std::vector<Placed<Element>>&, std::size_t) {
+    if constexpr (has_own_table<Element>) read_elements<Element>(draft);
   });
+  for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
+  if (rotation && !tables(scene, "spinning_disc").empty()) {
+    throw scene_error(
+        scene, tables(scene, "spinning_disc")[0]->where,
+        "[[spinning_disc]]: not together with [frame]; in a rotating frame the gyroscopic moments "
+        "come from the inertia of the body itself");
+  }
   reject_unused_parameters(scene, draft.used);
-  draft.data.parameters = scene.parameters;
-  draft.data.n_coordinates = 3 * static_cast<int>(draft.points.size());
-  return std::make_unique<Multibody>(describe(draft), std::move(draft.data), std::move(draft.guess));
+  draft.data.parameters = draft.parameters();
+  draft.data.n_coordinates = static_cast<int>(draft.guess.size());
+  ModelDescription description = describe(draft);
+  return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
 }
 
 std::vector<EffectHelp> effect_reference() {
@@ -314,10 +340,18 @@ std::vector<EffectHelp> effect_reference() {
     EffectHelp& help = reference.emplace_back();
     help.name = Element::name;
     help.description = Element::description;
-    HelpCollector collector(help.fields);
-    const Element element;
-    Element::fields(element, collector);
+    if constexpr (std::is_same_v<Element, BladeElement>) {
+      help.fields = strip_fields();
+    } else {
+      HelpCollector collector(help.fields);
+      const Element element;
+      Element::fields(element, collector);
+    }
   });
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    if (kind.read != nullptr)
+      reference.push_back({std::string(kind.name), std::string(kind.description), kind.fields});
+  }
   return reference;
 }
 

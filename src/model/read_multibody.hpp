@@ -7,7 +7,6 @@
 
 namespace eigentrail {
 
-std::unique_ptr<Model> read_multibody(const Scene& scene, const std::vector<Vector>& check_at,
-                                      const std::set<int>& used_elsewhere);
+std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request);
 
 }  // namespace eigentrail

@@ -5,14 +5,21 @@
 #include <tuple>
 #include <vector>
 
-#include "model/elements/constraints.hpp"
+#include "model/constraint.hpp"
+#include "model/elements/bearing.hpp"
+#include "model/elements/blade_element.hpp"
+#include "model/elements/damper.hpp"
 #include "model/elements/drag.hpp"
 #include "model/elements/follower_force.hpp"
 #include "model/elements/force.hpp"
 #include "model/elements/gravity.hpp"
+#include "model/elements/internal_damping.hpp"
+#include "model/elements/moment.hpp"
 #include "model/elements/point_mass.hpp"
 #include "model/elements/rotating_frame.hpp"
+#include "model/elements/spinning_disc.hpp"
 #include "model/elements/spring.hpp"
+#include "model/elements/torsion.hpp"
 #include "model/elements/transverse_force.hpp"
 
 namespace eigentrail {
@@ -21,9 +28,9 @@ namespace eigentrail {
 template <class Element>
 struct Placed {
   Element element;
-  std::string label;        ///< the scene's name for it, or "rod 2"
-  std::vector<int> points;  ///< moving points it joins, each once
-  int first_row = 0;        ///< of its constraints
+  std::string label;             ///< the scene's name for it, or "spring 2"
+  std::vector<Place> arguments;  ///< moving vectors it joins, each once; Place::argument is the index
+  Quantity strength = {};        ///< multiplies its forces; no slot: one
 };
 
 template <class... Element>
@@ -46,33 +53,30 @@ struct ElementTable {
 
 using Elements = ElementTable<  //
     PointMass,                  //
+    RigidBody,                  //
     RotatingFrame,              //
     Gravity,                    //
     DeadForce,                  //
     FollowerForce,              //
     TransverseForce,            //
+    Moment,                     //
     Spring,                     //
     GuidedSpring,               //
+    TorsionalSpring,            //
+    Damper,                     //
     Drag,                       //
-    Rod,                        //
-    Plane,                      //
-    FixedCoordinate>;
+    TorsionalDamper,            //
+    InternalDamping,            //
+    Bearing,                    //
+    SpinningDisc,               //
+    BladeElement>;
 
-/// Masses, the frame and gravity are read from [[point]], [frame] and [gravity]; all others from a table
-/// each.
+/// Whether each [[table]] of that name is one element. The others are read in their own way: masses, the
+/// frame and gravity act on every mass, and a blade is cut into strips.
 template <class Element>
 inline constexpr bool has_own_table =
-    !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RotatingFrame> &&
-    !std::is_same_v<Element, Gravity>;
-
-template <class Element>
-concept HasForce = requires {
-  Element::depends;
-};
-
-template <class Element>
-concept HasConstraint = requires {
-  Element::constraint_count;
-};
+    !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RigidBody> &&
+    !std::is_same_v<Element, RotatingFrame> && !std::is_same_v<Element, Gravity> &&
+    !std::is_same_v<Element, BladeElement>;
 
 }  // namespace eigentrail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -26,6 +27,20 @@ bool starts_name(char c) {
 }
 bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+/// Largest number of values that postfix code holds at a time.
+int stack_depth(const std::vector<Expression::Instruction>& code) {
+  int depth = 0;
+  int most = 0;
+  for (const Expression::Instruction& i : code) {
+    const bool pushes = i.op == Op::number || i.op == Op::parameter;
+    const bool binary = i.op == Op::add || i.op == Op::subtract || i.op == Op::multiply ||
+                        i.op == Op::divide || i.op == Op::power;
+    depth += pushes ? 1 : (binary ? -1 : 0);
+    most = std::max(most, depth);
+  }
+  return most;
 }
 
 constexpr int max_depth = 100;
@@ -222,6 +237,77 @@ class ExpressionParser {
 
 Expression Expression::parse(std::string_view text, const std::vector<std::string>& names) {
   return ExpressionParser(text, names).parse();
+}
+
+Expression Expression::of_parameter(int index) {
+  Expression result;
+  result.code_ = {{Op::parameter, 0.0, index}};
+  result.parameters_ = {index};
+  return result;
+}
+
+Expression Expression::folded() const {
+  return is_constant() ? Expression(evaluate(std::span<const double>())) : *this;
+}
+
+Expression Expression::compose(Op op, const Expression& a) {
+  Expression result = a;
+  result.code_.push_back({op});
+  return result.folded();
+}
+
+Expression Expression::compose(Op op, const Expression& a, const Expression& b) {
+  Expression result = a;
+  result.code_.insert(result.code_.end(), b.code_.begin(), b.code_.end());
+  result.code_.push_back({op});
+  std::vector<int> both;
+  std::set_union(a.parameters_.begin(), a.parameters_.end(), b.parameters_.begin(), b.parameters_.end(),
+                 std::back_inserter(both));
+  result.parameters_ = std::move(both);
+  if (stack_depth(result.code_) > max_stack) {
+    throw ExpressionError(
+        "a quantity made of this expression is too deep to evaluate; give parts of it a name "
+        "in [parameters]",
+        0);
+  }
+  return result.folded();
+}
+
+Expression operator+(const Expression& a, const Expression& b) {
+  if (a.is(0.0)) return b;
+  return b.is(0.0) ? a : Expression::compose(Op::add, a, b);
+}
+
+Expression operator-(const Expression& a, const Expression& b) {
+  if (a.is(0.0)) return -b;
+  return b.is(0.0) ? a : Expression::compose(Op::subtract, a, b);
+}
+
+Expression operator*(const Expression& a, const Expression& b) {
+  if (a.is(0.0) || b.is(0.0)) return {0.0};
+  if (a.is(1.0)) return b;
+  return b.is(1.0) ? a : Expression::compose(Op::multiply, a, b);
+}
+
+Expression operator/(const Expression& a, const Expression& b) {
+  if (a.is(0.0)) return {0.0};
+  return b.is(1.0) ? a : Expression::compose(Op::divide, a, b);
+}
+
+Expression operator-(const Expression& a) {
+  return Expression::compose(Op::negate, a);
+}
+
+Expression sin(const Expression& a) {
+  return Expression::compose(Op::sin, a);
+}
+
+Expression cos(const Expression& a) {
+  return Expression::compose(Op::cos, a);
+}
+
+Expression sqrt(const Expression& a) {
+  return Expression::compose(Op::sqrt, a);
 }
 
 }  // namespace eigentrail

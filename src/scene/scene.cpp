@@ -272,21 +272,52 @@ std::vector<Expression> TableReader::list(const std::string& key) {
   return result;
 }
 
+const Array& TableReader::items(const Value& value, const std::string& key, const std::string& expected) {
+  const auto* array = std::get_if<Array>(&value.data);
+  if (array == nullptr) fail(key, "expected " + expected + "; found " + value.kind());
+  return *array;
+}
+
+std::vector<std::vector<Expression>> TableReader::matrix(const std::string& key) {
+  const std::string expected = "a list of numbers, or a list of rows of them";
+  const Array& rows = items(require(key, expected), key, expected);
+  if (rows.empty() || std::get_if<Array>(&rows.front().data) == nullptr) return {list(key)};
+  std::vector<std::vector<Expression>> result;
+  for (const Value& row : rows) {
+    auto& entries = result.emplace_back();
+    for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key));
+  }
+  return result;
+}
+
 std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const std::string& key) {
   const std::string expected = "a list of matrices, each a list of rows, lowest power first";
-  const auto items = [&](const Value& value) -> const Array& {
-    const auto* array = std::get_if<Array>(&value.data);
-    if (array == nullptr) fail(key, "expected " + expected + "; found " + value.kind());
-    return *array;
-  };
   std::vector<std::vector<std::vector<Expression>>> result;
-  for (const Value& matrix : items(require(key, expected))) {
+  for (const Value& matrix : items(require(key, expected), key, expected)) {
     auto& rows = result.emplace_back();
-    for (const Value& row : items(matrix)) {
+    for (const Value& row : items(matrix, key, expected)) {
       auto& entries = rows.emplace_back();
-      for (const Value& entry : items(row)) entries.push_back(to_expression(entry, key));
+      for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key));
     }
   }
+  return result;
+}
+
+bool TableReader::is_table(const std::string& key) {
+  const Value* value = find(key);
+  return value != nullptr && std::get_if<Table>(&value->data) != nullptr;
+}
+
+TableReader TableReader::table(const std::string& key) {
+  const Value& value = require(key, "a table");
+  const auto* table = std::get_if<Table>(&value.data);
+  if (table == nullptr) fail(key, "expected a table { ... }, found " + value.kind());
+  return {scene_, *table, label_ + " " + key, used_};
+}
+
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> result;
+  for (const auto& [key, value] : table_.entries) result.push_back(key);
   return result;
 }
 

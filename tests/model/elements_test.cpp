@@ -36,14 +36,78 @@ const std::vector<ElementCase> cases = {
     {"rod_to_place", "[[rod]]\nfrom = [0, \"p\", 0]\nto = \"b\"\nlength = 1.3\n"},
     {"plane", "[[plane]]\npoint = \"a\"\nnormal = [1, \"p\", 3]\noffset = \"p^2\"\n"},
     {"fixed", "[[fixed]]\npoint = \"b\"\ncoordinate = \"y\"\nvalue = \"p\"\n"},
+    {"preloaded_spring",
+     "[[spring]]\nfrom = \"a\"\nto = \"c.tip\"\nstiffness = \"10*p\"\nfree_length = 0.4\npreload = "
+     "\"3*p\"\n"},
+    {"frame_and_bodies",
+     "[frame]\nangular_velocity = [\"0.3*p\", 0.1, \"p\"]\n# a body is there: [[body]]\n"},
+    {"gravity_on_bodies", "[gravity]\nacceleration = [\"p\", 2, -3]\n# a body is there: [[body]]\n"},
+    {"drag_on_a_marker", "[[drag]]\npoint = { body = \"d\", at = [0.1, \"p\", 0.2] }\ncoefficient = \"p\"\n"},
+    {"damper", "[[damper]]\nfrom = \"a\"\nto = \"c.tip\"\ncoefficient = \"p\"\n"},
+    {"damper_between_bodies", "[[damper]]\nfrom = \"d\"\nto = \"c.tip\"\ncoefficient = \"p\"\n"},
+    {"moment", "[[moment]]\nbody = \"c\"\nalong = [1, \"p\", 2]\nmagnitude = \"3*p\"\n"},
+    {"follower_moment", "[[moment]]\nbody = \"c\"\nalong = \"d.y\"\nmagnitude = \"3*p\"\n"},
+    {"internal_damping",
+     "[[internal_damping]]\npoint = \"c.tip\"\nabout = [0.1, 0.2, \"p\"]\naxis = [1, 0.2, 0.1]\ncoefficient "
+     "= "
+     "\"p\"\nspeed = \"20*p\"\n"},
+    {"bearing",
+     "[[bearing]]\npoint = \"c.tip\"\nseat = \"a\"\nfirst = [0, 1, \"p\"]\nsecond = [0, 0, 2]\nstiffness = "
+     "[[\"5*p\", 1], [-2, 7]]\ndamping = [[1, \"p\"], [0.2, 2]]\n"},
+    {"spinning_disc",
+     "[[spinning_disc]]\naxis = { body = \"d\", along = [1, 2, \"p\"] }\npolar_inertia = "
+     "0.3\nspeed = \"9*p\"\n"},
+    {"torsional_spring",
+     "[[revolute]]\nname = \"hinge\"\nfrom = \"c.tip\"\nto = \"d\"\naxis = [1, 2, 3]\n"
+     "[[torsional_spring]]\njoint = \"hinge\"\nstiffness = \"4*p\"\nfree_angle = \"0.3*p\"\npreload = 2\n"},
+    {"torsional_damper",
+     "[[cylindrical]]\nname = \"hinge\"\nfrom = [0.1, 0, 0]\nto = \"d\"\naxis = \"d.y\"\n"
+     "[[torsional_damper]]\njoint = \"hinge\"\ncoefficient = \"4*p\"\n"},
+    {"torsion_about_either_axis",
+     "[[universal]]\nname = \"cross\"\nfrom = \"c.tip\"\nto = \"d\"\naxis = \"c.x\"\ncross_axis = "
+     "\"c.z\"\n"
+     "[[torsional_spring]]\njoint = \"cross\"\nabout = \"axis\"\nstiffness = \"4*p\"\n"
+     "[[torsional_spring]]\njoint = \"cross\"\nabout = \"cross_axis\"\nstiffness = 3\nfree_angle = \"p\"\n"},
+    {"blade_element",
+     "[frame]\nangular_velocity = [0, 0, \"9*p\"]\n"
+     "[[blade_element]]\nbody = \"c\"\nroot = [0.1, 0, 0]\ntip = [\"2*p\", 0, 0]\nleading = [0, 1, "
+     "0.1]\nlift = "
+     "[0, 0, 1]\nchord = \"0.3*p\"\nprofile_drag = 0.02\npitch = \"0.2*p\"\ninflow = [0, 0.1, -1]\nstrips = "
+     "2\n"},
+    {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
+    {"revolute_held",
+     "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "
+     "\"p\"\n"},
+    {"prismatic", "[[prismatic]]\nfrom = \"c\"\nto = \"d\"\naxis = \"c.x\"\nlength = \"p\"\n"},
+    {"prismatic_free", "[[prismatic]]\nfrom = [0, 0, \"p\"]\nto = \"d\"\naxis = [\"p\", 1, 0]\n"},
+    {"weld", "[[weld]]\nfrom = \"c.tip\"\nto = \"d\"\n"},
+    {"point_on_line", "[[point_on_line]]\nfrom = \"c\"\nto = \"a\"\naxis = \"c.y\"\n"},
+    {"point_on_plane",
+     "[[point_on_plane]]\nfrom = \"c.tip\"\nto = \"d\"\nnormal = \"c.y\"\ndistance = \"p^2\"\n"},
 };
+
+/// Two bodies in general position, for the cases that name one.
+const std::string bodies =
+    "[[body]]\nname = \"c\"\nmass = \"1 + p\"\ncentre = [0.1, \"0.2*p\", -0.3]\ninertia = [[2, 0.1, 0.2], "
+    "[0.1, 3, \"0.1*p\"], [0.2, \"0.1*p\", 2.5]]\nposition = [0.4, 0.1, \"-0.7*p\"]\n"
+    "euler = { sequence = \"zyx\", angles = [0.4, \"0.3*p\", -0.2] }\nmarkers = { tip = [1, 0.1, \"p\"] }\n"
+    "[[body]]\nname = \"d\"\nmass = 2\ninertia = [1, 1.2, 0.9]\nposition = [-0.4, 1.1, 0.7]\n"
+    "axis_angle = { axis = [1, 2, 3], angle = \"p\" }\n";
+
+bool names_a_body(const std::string& tables) {
+  for (const char* name : {"[[body]]", "\"c\"", "\"c.", "\"d\"", "\"d."}) {
+    if (tables.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
 
 std::string scene_with(const std::string& tables) {
   return "[trace]\nparameter = \"p\"\nfrom = 0.5\nto = 1\n"
          "[parameters]\np = 0.7\n" +
          tables +
          "[[point]]\nname = \"a\"\nmass = \"2 + p\"\nposition = [0.3, -0.2, 0.9]\n"
-         "[[point]]\nname = \"b\"\nmass = 1.5\nposition = [-0.6, 0.8, 0.1]\n";
+         "[[point]]\nname = \"b\"\nmass = 1.5\nposition = [-0.6, 0.8, 0.1]\n" +
+         (names_a_body(tables) ? bodies : "");
 }
 
 class Elements : public testing::TestWithParam<ElementCase> {
@@ -116,8 +180,12 @@ TEST_P(Elements, SeriesAlongAPathReproduceTheMatricesAheadWithFifthOrder) {
   // x, lambda and p all move; the truncated series of order 4 misses the matrices at distance h by O(h^5).
   Path moving;
   moving.parameters = VectorSeries{{0.7, 1.0}};
-  moving.x = VectorSeries::Zero(6, 3);
-  moving.x << x, Vector{{0.4, -0.3, 0.2, 0.1, 0.5, -0.6}}, Vector{{0.1, 0.2, -0.1, 0.3, 0.0, 0.1}};
+  moving.x = VectorSeries::Zero(x.size(), 3);
+  moving.x.col(0) = x;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    moving.x(i, 1) = 0.5 * std::sin(1.3 * static_cast<double>(i) + 1.0);
+    moving.x(i, 2) = 0.3 * std::cos(2.1 * static_cast<double>(i));
+  }
   moving.lambda = VectorSeries::Constant(lambda.size(), 2, 1.7);
   Linearization series;
   ASSERT_FALSE(setting.model->linearize(moving, 4, series, counts));
@@ -141,6 +209,29 @@ TEST_P(Elements, SeriesAlongAPathReproduceTheMatricesAheadWithFifthOrder) {
   } else {
     EXPECT_GT(std::log2(coarse / fine), 4.5) << "errors " << coarse << ", " << fine;
   }
+}
+
+/// The same templates on 113 bits: what double precision rounds away is all that differs.
+TEST_P(Elements, AgreesWithExtendedPrecision) {
+  Linearization lin;
+  SteadyResidual residual;
+  ASSERT_FALSE(setting.model->linearize(path, 0, lin, counts));
+  ASSERT_FALSE(setting.model->residual(path, 0, residual, counts));
+  const BasicPath<Extended> exact{path.parameters.cast<Extended>(), path.x.cast<Extended>(),
+                                  path.lambda.cast<Extended>()};
+  BasicLinearization<Extended> exact_lin;
+  BasicSteadyResidual<Extended> exact_residual;
+  ASSERT_FALSE(setting.model->extended_linearization(exact, exact_lin));
+  ASSERT_FALSE(setting.model->extended_residual(exact, exact_residual));
+  const auto close = [](const Matrix& a, const Matrix& b) {
+    return (a - b).norm() <= 1e-14 * (1.0 + b.norm());
+  };
+  EXPECT_TRUE(close(lin.M[0], to_double(exact_lin.M[0].dense())));
+  EXPECT_TRUE(close(lin.C[0], to_double(exact_lin.C[0].dense())));
+  EXPECT_TRUE(close(lin.K[0], to_double(exact_lin.K[0].dense())));
+  EXPECT_TRUE(close(lin.A[0], to_double(exact_lin.A[0].dense())));
+  EXPECT_TRUE(close(residual.force, to_double(exact_residual.force)));
+  EXPECT_TRUE(close(residual.constraint, to_double(exact_residual.constraint)));
 }
 
 TEST_P(Elements, DeclaredContributionsAgreeWithTheMatrices) {
@@ -176,46 +267,81 @@ TEST(Registry, EveryEffectHasACase) {
   }
 }
 
+/// Gives every field of an element a vector or a number of its own.
+class Filler {
+ public:
+  explicit Filler(std::vector<Place>& arguments) : arguments_(arguments) {}
+
+  void place(std::string_view, Place& place, std::string_view = {}) {
+    const int index = static_cast<int>(arguments_.size());
+    place = {{{index, {}}}, {}, index};
+    arguments_.push_back(place);
+  }
+  void point(std::string_view key, Place& p, std::string_view) { place(key, p); }
+  void direction(std::string_view key, Place& d, std::string_view) { place(key, d); }
+  void body(std::string_view key, std::array<Place, 3>& directors, std::string_view) {
+    for (Place& d : directors) place(key, d);
+  }
+  void joint(std::string_view key, HingeAngle& angle, std::string_view) {
+    for (Place* d : {&angle.axis, &angle.from, &angle.to}) place(key, *d);
+  }
+  void quantity(const QuantityField&, Quantity& q) { q = {1.0, slot_++}; }
+  void vector(const QuantityField&, std::array<Quantity, 3>& v) {
+    for (Quantity& q : v) q = {1.0, slot_++};
+  }
+  void matrix(const QuantityField&, std::array<Quantity, 4>& m) {
+    for (Quantity& q : m) q = {1.0, slot_++};
+  }
+
+ private:
+  std::vector<Place>& arguments_;
+  int slot_ = 0;
+};
+
 /// The derivative in a direction an element does not declare must vanish: a forgotten declaration would
-/// silently drop a matrix.
+/// silently drop a matrix, or take one for constant that is not.
 TEST(Registry, DeclaredDependencesAreComplete) {
   using Base = Series<double, 0>;
   using Scalar = Series<Base, 1>;
   PathValues<Base> values;
-  for (int i = 0; i < 12; ++i) values.x.emplace_back(0.3 + 0.17 * i * i);
-  for (int i = 0; i < 20; ++i) values.values.emplace_back(1.1 + 0.3 * i);
-  const auto place = [](int point) { return Place{point, {}}; };
-  int slot = 0;
-  const auto number = [&slot] { return Quantity{{}, slot++ % 20}; };
-  const auto vector = [&] { return std::array<Quantity, 3>{number(), number(), number()}; };
+  for (int i = 0; i < 5; ++i)
+    values.triples.push_back({Base(0.3 + 0.17 * i * i), Base(0.9 - 0.4 * i), Base(0.2 + std::sin(3.0 * i))});
+  for (int i = 0; i < 20; ++i) values.values.emplace_back(1.1 + 0.3 * i + 0.2 * std::sin(5.0 * i));
+  PathValues<Base> elsewhere = values;
+  for (auto& triple : elsewhere.triples) triple += Vec3<Base>(Base(0.21), Base(-0.33), Base(0.1) * triple[0]);
 
-  const auto check = [&](const auto& element, std::vector<int> points) {
-    using Element = std::decay_t<decltype(element)>;
-    for (const auto& [declared, motion] : {std::pair(Element::depends.position, Motion::position),
-                                           std::pair(Element::depends.velocity, Motion::velocity),
-                                           std::pair(Element::depends.acceleration, Motion::acceleration)}) {
-      double largest = 0.0;
-      for (const int point : points) {
-        for (int axis = 0; axis < 3; ++axis) {
-          ElementView<Scalar> view(values, points, {}, {Seed{motion, 3 * point + axis}});
-          element.force(view);
-          for (std::size_t i = 0; i < points.size(); ++i) {
-            for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(view.force(i)[j][1][0]));
-          }
+  eigentrail::Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
+    Element element;
+    std::vector<Place> arguments;
+    Filler filler(arguments);
+    Element::fields(element, filler);
+    const auto derivatives = [&](const PathValues<Base>& at, Motion motion) {
+      std::vector<Vec3<Base>> positions;
+      for (const Place& place : arguments) positions.push_back(at.vector(place));
+      std::vector<double> all;
+      for (int component = 0; component < 3 * static_cast<int>(arguments.size()); ++component) {
+        ElementView<Scalar> view(at, positions, Seed{motion, component});
+        element.force(view);
+        for (std::size_t i = 0; i < arguments.size(); ++i) {
+          for (int j = 0; j < 3; ++j) all.push_back(view.force(i)[j][1][0]);
         }
       }
-      EXPECT_EQ(declared, largest > 0.0) << Element::name << " motion " << static_cast<int>(motion);
+      return Vector(Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size())));
+    };
+    constexpr Dependence depends = Element::depends;
+    for (const auto& [declared, motion] :
+         {std::pair(depends.position, Motion::position), std::pair(depends.velocity, Motion::velocity),
+          std::pair(depends.acceleration, Motion::acceleration)}) {
+      EXPECT_EQ(declared, derivatives(values, motion).norm() > 0.0)
+          << Element::name << " motion " << static_cast<int>(motion);
     }
-  };
-  check(PointMass{place(0), number()}, {0});
-  check(RotatingFrame{place(0), number(), vector()}, {0});
-  check(Gravity{place(0), number(), vector()}, {0});
-  check(DeadForce{place(0), vector()}, {0});
-  check(FollowerForce{place(0), place(1), place(2), number(), number(), vector()}, {0, 1, 2});
-  check(TransverseForce{place(0), place(1), number(), number()}, {0, 1});
-  check(Spring{place(0), place(1), number(), number()}, {0, 1});
-  check(GuidedSpring{place(0), vector(), number(), number()}, {0});
-  check(Drag{place(0), number()}, {0});
+    const Vector rates = derivatives(values, Motion::velocity);
+    EXPECT_EQ(depends.turning,
+              (rates - derivatives(elsewhere, Motion::velocity)).norm() > 1e-12 * rates.norm())
+        << Element::name;
+    const Vector masses = derivatives(values, Motion::acceleration);
+    EXPECT_EQ((masses - derivatives(elsewhere, Motion::acceleration)).norm(), 0.0) << Element::name;
+  });
 }
 
 TEST(Registry, CoincidingSpringEndsAreReportedByName) {

@@ -35,6 +35,8 @@ struct TraceOptions {
       {};  ///< which path to go on along at each branch point, in order, 1 to 3; a single
            ///< number holds for all; 1 is straight on, also after the last number
 
+  std::vector<std::string> without = {};  ///< effects of the scene that are switched off
+
   /// Other parameters at other values than the scene declares, in their units. Not an option of a scene: one
   /// model serves many traces at different values, in several threads.
   std::map<std::string, double> values = {};
@@ -62,6 +64,7 @@ struct TraceOptions {
           "which path to go on along where another one crosses: 1 straight on, 2 or 3 the other one's two "
           "directions; a number for all such points, or a list \"1, 2\"",
           self.branch);
+    visit("without", "effects of the scene that are switched off, separated by commas", self.without);
     visit("certify", "give evidence at every step that no modes were exchanged", self.certify);
   }
 };
@@ -94,8 +97,9 @@ struct TraceSetup {
   int traced() const { return scene.parameters.index(options.parameter).value(); }
 };
 
-/// Reads the options and builds the model of a scene. Throws InputError for every fault of either.
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides);
+/// Reads the options and builds the model of a scene, with `strengths` of its effects as further parameters.
+/// Throws InputError for every fault of either.
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths = false);
 
 /// Every option as text, for provenance; options that were not given read "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);

@@ -206,6 +206,27 @@ Series<T, Q> atan(const Series<T, Q>& x) {
   return detail::integrate(T(atan(x[0])), x, 1.0 / (1.0 + x * x));
 }
 
+/// The number that a series, nested or not, begins with.
+template <class Number>
+double leading_value(const Number& x) {
+  return static_cast<double>(x);
+}
+template <class T, int Q>
+double leading_value(const Series<T, Q>& x) {
+  return leading_value(x[0]);
+}
+
+/// Angle of the point (cosine, sine) times any length, on the branch of std::atan2 at the leading values. The
+/// point is turned back by about that angle first, so that what is left is small.
+template <class Scalar>
+Scalar angle_of(const Scalar& sine, const Scalar& cosine) {
+  using std::atan, std::cos, std::sin;
+  const Scalar turn(std::atan2(leading_value(sine), leading_value(cosine)));
+  const Scalar c = cos(turn);
+  const Scalar s = sin(turn);
+  return turn + atan((sine * c - cosine * s) / (cosine * c + sine * s));
+}
+
 /// x^n for a whole number n by repeated squaring: exact at x_0 = 0, where exp(n log x) is not defined.
 template <class Scalar>
 Scalar integer_power(Scalar base, int n) {

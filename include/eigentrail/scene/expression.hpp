@@ -63,6 +63,9 @@ class Expression {
 
   Expression(double constant = 0.0) : code_{{Op::number, constant}} {}  // NOLINT: numbers are expressions
 
+  /// The parameter of that index.
+  static Expression of_parameter(int index);
+
   /// Compiles `text`; a name in it means the parameter at the same index of `names`.
   /// Throws ExpressionError with the offset of the fault.
   static Expression parse(std::string_view text, const std::vector<std::string>& names);
@@ -76,8 +79,24 @@ class Expression {
   /// Indices of the parameters that occur, each once, ascending.
   const std::vector<int>& parameters() const { return parameters_; }
 
+  // Composition; what is constant is computed at once, and zeros and ones leave no code behind. All throw
+  // ExpressionError where the result needs a deeper stack than `max_stack`.
+  friend Expression operator+(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a, const Expression& b);
+  friend Expression operator*(const Expression& a, const Expression& b);
+  friend Expression operator/(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a);
+  friend Expression sin(const Expression& a);
+  friend Expression cos(const Expression& a);
+  friend Expression sqrt(const Expression& a);
+
  private:
   friend class ExpressionParser;
+  bool is(double number) const { return is_constant() && code_.size() == 1 && code_[0].number == number; }
+  Expression folded() const;
+  static Expression compose(Op op, const Expression& a);
+  static Expression compose(Op op, const Expression& a, const Expression& b);
+
   std::vector<Instruction> code_;  ///< postfix
   std::vector<int> parameters_;
 };

@@ -56,6 +56,16 @@ class TableReader {
 
   NameOrPosition name_or_position(const std::string& key);
 
+  /// A matrix, a list of rows; a plain list of numbers is one row.
+  std::vector<std::vector<Expression>> matrix(const std::string& key);
+
+  /// Whether the value of a key is a table, and a reader of it.
+  bool is_table(const std::string& key);
+  TableReader table(const std::string& key);
+
+  /// Keys of the table in the order of the file.
+  std::vector<std::string> keys() const;
+
   std::string text(const std::string& key);
 
   /// true or false.
@@ -75,6 +85,7 @@ class TableReader {
  private:
   const Value* find(const std::string& key);
   const Value& require(const std::string& key, const std::string& expected);
+  const Array& items(const Value& value, const std::string& key, const std::string& expected);
   Expression to_expression(const Value& value, const std::string& key);
   std::array<Expression, 3> to_vector(const Value& value, const std::string& key);
 

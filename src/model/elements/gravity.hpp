@@ -1,7 +1,7 @@
-// Uniform gravity on a point mass: f = m g.
+// Uniform gravity on everything that has mass: f = m g, and m c_i g on the directors of a body.
 #pragma once
 
-#include "model/element.hpp"
+#include "model/elements/mass_distribution.hpp"
 
 namespace eigentrail {
 
@@ -11,20 +11,21 @@ struct Gravity {
   static constexpr Contribution contribution{.conservative = true};
   static constexpr Dependence depends{};
 
-  Place point;
-  Quantity mass;
+  MassDistribution masses;
   std::array<Quantity, 3> acceleration;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.point("point", self.point, "every point with mass");
-    visit.quantity({"mass", "kg", enters_force, "mass of the point", Range::non_negative}, self.mass);
+    MassDistribution::fields(self.masses, visit, enters_force);
     visit.vector({"acceleration", "m/s^2", enters_force, "acceleration of gravity"}, self.acceleration);
   }
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    at.add_force(point, at.value(mass) * at.value(acceleration));
+    const Vec3<Scalar> g = at.value(acceleration);
+    for (int i = 0; i < masses.size; ++i) {
+      at.add_force(masses.carriers[static_cast<std::size_t>(i)], at.value(masses.moment(i, 0)) * g);
+    }
   }
 };
 

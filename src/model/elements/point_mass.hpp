@@ -1,29 +1,35 @@
-// Point mass: inertia force -m a (seed paper, Eq. 140).
+// Inertia of points and of rigid bodies (seed paper, Eq. 140, for points).
 #pragma once
 
-#include "model/element.hpp"
+#include "model/elements/mass_distribution.hpp"
 
 namespace eigentrail {
 
+/// Point mass: inertia force -m a.
 struct PointMass {
   static constexpr std::string_view name = "point";
   static constexpr std::string_view description = "a point with mass: inertia force -m a";
   static constexpr Contribution contribution{.inertia = true};
   static constexpr Dependence depends{.acceleration = true};
 
-  Place point;
-  Quantity mass;
+  MassDistribution masses;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.point("name", self.point, "the point's name");
-    visit.quantity({"mass", "kg", enters_mass, "mass of the point", Range::non_negative}, self.mass);
+    MassDistribution::fields(self.masses, visit, enters_mass);
   }
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    at.add_force(point, -at.value(mass) * at.acceleration(point));
+    masses.add_inertia_forces(at, [&](const Place& carrier) { return at.acceleration(carrier); });
   }
+};
+
+/// Rigid body: the same for origin and directors.
+struct RigidBody : PointMass {
+  static constexpr std::string_view name = "body";
+  static constexpr std::string_view description =
+      "a rigid body: constant mass matrix of its origin and directors";
 };
 
 }  // namespace eigentrail

@@ -1,8 +1,8 @@
-// Steadily rotating frame: centrifugal and Coriolis forces on a point mass,
+// Steadily rotating frame: centrifugal and Coriolis forces on everything that has mass,
 // f = -m (w x (w x p) + 2 w x v)   (seed paper, Eqs. 136, 138; the sign of 139 is a misprint).
 #pragma once
 
-#include "model/element.hpp"
+#include "model/elements/mass_distribution.hpp"
 
 namespace eigentrail {
 
@@ -13,15 +13,12 @@ struct RotatingFrame {
   static constexpr Contribution contribution{.conservative = true, .gyroscopic = true};
   static constexpr Dependence depends{.position = true, .velocity = true};
 
-  Place point;
-  Quantity mass;
+  MassDistribution masses;
   std::array<Quantity, 3> angular_velocity;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.point("point", self.point, "every point with mass");
-    visit.quantity({"mass", "kg", enters_damping_and_force, "mass of the point", Range::non_negative},
-                   self.mass);
+    MassDistribution::fields(self.masses, visit, enters_damping_and_force);
     visit.vector({"angular_velocity", "rad/s", enters_damping_and_force,
                   "angular velocity of the frame, about an axis through the origin"},
                  self.angular_velocity);
@@ -30,10 +27,11 @@ struct RotatingFrame {
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     const Vec3<Scalar> w = at.value(angular_velocity);
-    const Vec3<Scalar> p = at.position(point);
-    const Vec3<Scalar> v = at.velocity(point);
-    const Vec3<Scalar> guided = w.cross(w.cross(p).eval()) + 2.0 * w.cross(v);
-    at.add_force(point, -at.value(mass) * guided);
+    masses.add_inertia_forces(at, [&](const Place& carrier) -> Vec3<Scalar> {
+      const Vec3<Scalar> p = at.position(carrier);
+      const Vec3<Scalar> v = at.velocity(carrier);
+      return w.cross(w.cross(p).eval()) + 2.0 * w.cross(v);
+    });
   }
 };
 

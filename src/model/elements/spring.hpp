@@ -5,8 +5,8 @@
 
 namespace eigentrail {
 
-/// Between two places: tension k (|d| - free_length) along d = to - from. Coinciding ends have no direction;
-/// the evaluation then reports a number that is not finite.
+/// Between two places: tension k (|d| - free_length) + preload along d = to - from. Coinciding ends have no
+/// direction; the evaluation then reports a number that is not finite.
 struct Spring {
   static constexpr std::string_view name = "spring";
   static constexpr std::string_view description = "linear spring between two places";
@@ -14,7 +14,7 @@ struct Spring {
   static constexpr Dependence depends{.position = true};
 
   Place from, to;
-  Quantity stiffness, free_length;
+  Quantity stiffness, free_length, preload;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -23,13 +23,16 @@ struct Spring {
     visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
     visit.quantity({"free_length", "m", enters_force, "length without force", Range::non_negative},
                    self.free_length);
+    visit.quantity({"preload", "N", enters_force, "tension at the free length", Range::any, 0.0},
+                   self.preload);
   }
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     const Vec3<Scalar> d = at.position(to) - at.position(from);
     const Scalar length = d.norm();
-    const Vec3<Scalar> tension = (at.value(stiffness) * (1.0 - at.value(free_length) / length)) * d;
+    const Vec3<Scalar> tension =
+        (at.value(stiffness) * (1.0 - at.value(free_length) / length) + at.value(preload) / length) * d;
     at.add_force(from, tension);
     at.add_force(to, -tension);
   }

@@ -1,0 +1,50 @@
+// Ideal constraints as data. Every row is the product of two vectors that are linear in the coordinates,
+//
+//     c = (a1 - a2) . (b1 - b2) - offset,
+//
+// or one component of such a vector, c = (a1 - a2)_i - offset: lengths, right angles, coinciding places. With
+// points and directors as coordinates all joints are made of these, so A is linear and (A^T lambda)_/x
+// constant in x, and both are written down without differentiation.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+/// first - second, or first alone.
+struct Difference {
+  Place first;
+  std::optional<Place> second;
+
+  bool moves() const { return first.moves() || (second && second->moves()); }
+};
+
+struct ConstraintRow {
+  Difference a;
+  std::optional<Difference> b;  ///< absent: the row is component `axis` of a
+  int axis = 0;
+  Quantity offset;
+};
+
+/// A constraint of the scene: its rows, one multiplier each.
+struct Constraint {
+  int kind = 0;  ///< index into constraint_kinds()
+  std::string label;
+  std::vector<ConstraintRow> rows;
+  int first_row = 0;
+};
+
+/// Whether A depends on x.
+inline bool is_curved(const Constraint& constraint) {
+  for (const ConstraintRow& row : constraint.rows) {
+    if (row.b && row.a.moves() && row.b->moves()) return true;
+  }
+  return false;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,217 @@
+#include "model/draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+
+std::string numbered(std::string_view name, std::size_t index) {
+  return std::string(name) + " " + std::to_string(index + 1);
+}
+
+Quantity Draft::quantity(const Expression& expression) {
+  data.quantities.push_back(expression);
+  return {expression, static_cast<int>(data.quantities.size()) - 1};
+}
+
+Quantity Draft::strength(const std::string& effect) {
+  if (!request.strengths) return {};
+  const auto known = strengths.find(effect);
+  if (known != strengths.end()) return known->second;
+  const int index = static_cast<int>(scene.parameters.size() + strengths.size());
+  strength_names.push_back(effect);
+  return strengths[effect] = quantity(Expression::of_parameter(index));
+}
+
+Parameters Draft::parameters() const {
+  std::vector<Parameter> list;
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i) list.push_back(scene.parameters[i]);
+  for (const std::string& effect : strength_names) {
+    Parameter& strength = list.emplace_back();
+    strength.name = strength_parameter(effect);
+    strength.value = 1.0;
+  }
+  return Parameters(std::move(list));
+}
+
+Place Draft::on_body(int body, const ExpressionVector& at) {
+  const int origin = bodies[static_cast<std::size_t>(body)].triple;
+  Place place = direction_on({body, -1}, at);
+  place.terms.insert(place.terms.begin(), {origin, {}});
+  return place;
+}
+
+Place Draft::direction_on(const Carrier& carrier, const ExpressionVector& along) {
+  if (carrier.body < 0) return fixed_place(along);
+  Place place;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool zero = along[i].is_constant() && along[i].evaluate(std::span<const double>()) == 0.0;
+    if (zero) continue;
+    const int triple = bodies[static_cast<std::size_t>(carrier.body)].triple + 1 + static_cast<int>(i);
+    const bool one = along[i].is_constant() && along[i].evaluate(std::span<const double>()) == 1.0;
+    place.terms.push_back({triple, one ? Quantity() : quantity(along[i])});
+  }
+  return place;
+}
+
+std::array<Place, 3> Draft::directors(int body) const {
+  const int origin = bodies[static_cast<std::size_t>(body)].triple;
+  return {point_place(origin + 1), point_place(origin + 2), point_place(origin + 3)};
+}
+
+std::vector<std::string> Draft::place_names() const {
+  std::vector<std::string> names = points;
+  for (const BodyDraft& body : bodies) {
+    names.push_back(body.name);
+    for (const auto& [marker, at] : body.markers) names.push_back(body.name + "." + marker);
+  }
+  return names;
+}
+
+Place Draft::named_place(TableReader& table, const std::string& key, const std::string& name,
+                         Carrier* carrier) {
+  const auto point = std::find(points.begin(), points.end(), name);
+  if (point != points.end()) {
+    const int index = static_cast<int>(point - points.begin());
+    if (carrier != nullptr) *carrier = {-1, index};
+    return point_place(index);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const int body = static_cast<int>(i);
+    if (carrier != nullptr) *carrier = {body, -1};
+    if (bodies[i].name == name) return on_body(body, {});
+    if (name.rfind(bodies[i].name + ".", 0) != 0) continue;
+    const auto marker = bodies[i].markers.find(name.substr(bodies[i].name.size() + 1));
+    if (marker != bodies[i].markers.end()) return on_body(body, marker->second);
+  }
+  const std::string what = bodies.empty() ? "no point is called '" : "no point, body or marker is called '";
+  table.fail(key, what + name + "'; " + suggestion(name, place_names()));
+}
+
+Place Draft::read_place(TableReader& table, const std::string& key, Carrier* carrier) {
+  if (table.is_table(key)) {
+    TableReader on = table.table(key);
+    const int body = read_body(on, "body");
+    const ExpressionVector at = on.vector("at");
+    check_range(on, "at", at, Range::any);
+    on.finish();
+    if (carrier != nullptr) *carrier = {body, -1};
+    return on_body(body, at);
+  }
+  const NameOrPosition value = table.name_or_position(key);
+  if (const auto* name = std::get_if<std::string>(&value)) return named_place(table, key, *name, carrier);
+  if (carrier != nullptr) *carrier = {};
+  return fixed_place(std::get<ExpressionVector>(value));
+}
+
+Place Draft::read_moving_place(TableReader& table, const std::string& key, Carrier* carrier) {
+  if (!table.is_table(key)) return named_place(table, key, table.text(key), carrier);
+  return read_place(table, key, carrier);
+}
+
+int Draft::read_body(TableReader& table, const std::string& key) {
+  const std::string name = table.text(key);
+  std::vector<std::string> names;
+  for (const BodyDraft& body : bodies) names.push_back(body.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  table.fail(key, names.empty() ? "no body is called '" + name + "': the scene has no [[body]]"
+                                : "no body is called '" + name + "'; " + suggestion(name, names));
+}
+
+ExpressionVector Draft::read_direction(TableReader& table, const std::string& key, Carrier& carrier) {
+  ExpressionVector along;
+  carrier = {};
+  if (table.is_table(key)) {
+    TableReader on = table.table(key);
+    carrier.body = read_body(on, "body");
+    along = on.vector("along");
+    on.finish();
+  } else {
+    const NameOrPosition value = table.name_or_position(key);
+    if (const auto* name = std::get_if<std::string>(&value)) {
+      std::vector<std::string> axes;
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          axes.push_back(bodies[i].name + "." + "xyz"[k]);
+          if (axes.back() == *name) {
+            carrier.body = static_cast<int>(i);
+            along = unit_vector(k);
+          }
+        }
+      }
+      if (carrier.body < 0) {
+        table.fail(key, "expected [x, y, z], or an axis of a body such as \"blade.x\", found \"" + *name +
+                            "\"" + (axes.empty() ? "" : "; " + suggestion(*name, axes)));
+      }
+    } else {
+      along = std::get<ExpressionVector>(value);
+    }
+  }
+  check_range(table, key, along, Range::positive);
+  return normalized(along);
+}
+
+ExpressionVector Draft::in_frame(const Carrier& carrier, const ExpressionVector& along) const {
+  return carrier.body < 0 ? along : turned(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
+}
+
+ExpressionVector Draft::in_axes_of(const Carrier& carrier, const ExpressionVector& along) const {
+  return carrier.body < 0 ? along
+                          : turned_back(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
+}
+
+void Draft::add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows) {
+  const auto& kinds = constraint_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == kind; });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    constraint_names.push_back(label + (rows.size() > 1 ? "[" + std::to_string(i) + "]" : ""));
+  }
+  const int first = data.n_constraints;
+  data.n_constraints += static_cast<int>(rows.size());
+  data.constraints.push_back({static_cast<int>(found - kinds.begin()), label, std::move(rows), first});
+}
+
+std::vector<double> Draft::check_values(const Expression& expression) const {
+  std::vector<double> values;
+  for (const Vector& declared : request.check_at) {
+    Vector si = declared;
+    const std::span<double> span(si.data(), static_cast<std::size_t>(si.size()));
+    scene.parameters.to_si(span);
+    values.push_back(expression.evaluate(std::span<const double>(span)));
+  }
+  return values;
+}
+
+void Draft::check_range(const TableReader& reader, const std::string& key, const Expression& expression,
+                        Range range) const {
+  const std::vector<double> values = check_values(expression);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string found = "; found " + exact_text(values[i]) + where_on_trace(i);
+    if (!std::isfinite(values[i])) reader.fail(key, "is not a finite number" + found);
+    if (range == Range::positive && !(values[i] > 0.0)) reader.fail(key, "must be positive" + found);
+    if (range == Range::non_negative && values[i] < 0.0) reader.fail(key, "must not be negative" + found);
+  }
+}
+
+void Draft::check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
+                        Range range) const {
+  for (const Expression& e : vector) check_range(reader, key, e, Range::any);
+  for (std::size_t i = 0; range != Range::any && i < request.check_at.size(); ++i) {
+    if (vector_at(vector, i).norm() > 0.0) continue;
+    reader.fail(key, "must not be the zero vector; it is" + where_on_trace(i));
+  }
+}
+
+Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {
+  return {check_values(v[0])[i], check_values(v[1])[i], check_values(v[2])[i]};
+}
+
+std::string Draft::where_on_trace(std::size_t i) {
+  if (i == 0) return " where the trace begins";
+  return i == 1 ? " where the trace ends" : " within the range of the trace";
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,118 @@
+// What a multibody scene is read into, and what its tables may refer to.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "eigentrail/model/build.hpp"
+#include "model/assembly.hpp"
+#include "model/expression_vector.hpp"
+
+namespace eigentrail {
+
+/// A body as the scene describes it.
+struct BodyDraft {
+  std::string name;
+  int triple = 0;                                   ///< of the origin; the directors follow
+  ExpressionVector position;                        ///< of the origin, starting guess
+  ExpressionRotation rotation;                      ///< starting guess
+  std::map<std::string, ExpressionVector> markers;  ///< in the body's axes
+};
+
+/// The body that a place or direction moves with; none: a point, or the frame.
+struct Carrier {
+  int body = -1;
+  int point = -1;
+
+  bool is_frame() const { return body < 0 && point < 0; }
+};
+
+struct Draft {
+  Draft(const Scene& scene, const ModelRequest& request) : scene(scene), request(request) {
+    used = request.used_elsewhere;
+  }
+
+  const Scene& scene;
+  const ModelRequest& request;
+  std::set<int> used;
+  MultibodyData data;
+  std::vector<std::string> points;  ///< by triple, before those of bodies
+  std::vector<BodyDraft> bodies;
+  std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of their names
+  std::vector<std::string> mass_names;
+  std::vector<Expression> guess;  ///< one per coordinate
+  std::vector<std::string> constraint_names;
+  std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by the joint's label
+  std::map<std::string, Quantity> strengths;                    ///< by effect, where they are asked for
+  std::vector<std::string> strength_names;                      ///< in the order of their parameters
+
+  TableReader reader(const Table& table, const std::string& label) { return {scene, table, label, used}; }
+
+  Quantity quantity(const Expression& expression);
+  /// What multiplies the forces of an effect.
+  Quantity strength(const std::string& effect);
+  /// The scene's parameters and those of the strengths.
+  Parameters parameters() const;
+  std::array<Quantity, 3> vector(const ExpressionVector& e) {
+    return {quantity(e[0]), quantity(e[1]), quantity(e[2])};
+  }
+
+  // Places and directions. `carrier`, where given, becomes what they move with.
+
+  Place point_place(int point) const { return {{{point, {}}}, {}, -1}; }
+  Place fixed_place(const ExpressionVector& at) { return {{}, vector(at), -1}; }
+  /// The place `at`, in the axes of a body.
+  Place on_body(int body, const ExpressionVector& at);
+  /// The direction `along`, in the axes of the carrier.
+  Place direction_on(const Carrier& carrier, const ExpressionVector& along);
+  std::array<Place, 3> directors(int body) const;
+
+  /// A name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
+  Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
+  /// The same without fixed places.
+  Place read_moving_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
+  /// A direction [x, y, z] of the frame, an axis "blade.x" of a body, or { body = "blade", along = [x, y, z]
+  /// }. Returns its components in the axes of its carrier, as unit vector.
+  ExpressionVector read_direction(TableReader& table, const std::string& key, Carrier& carrier);
+  int read_body(TableReader& table, const std::string& key);
+
+  /// Components in the frame, at the starting guess, of a direction in the axes of a carrier; and back.
+  ExpressionVector in_frame(const Carrier& carrier, const ExpressionVector& along) const;
+  ExpressionVector in_axes_of(const Carrier& carrier, const ExpressionVector& along) const;
+
+  /// Adds the rows of a constraint; `label` names its multipliers.
+  void add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows);
+
+  // Checks at the points of the trace that the request lists.
+
+  std::vector<double> check_values(const Expression& expression) const;
+  void check_range(const TableReader& reader, const std::string& key, const Expression& expression,
+                   Range range) const;
+  /// A vector of finite components; of non-zero length where `range` asks for more than any value.
+  void check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
+                   Range range) const;
+  Eigen::Vector3d vector_at(const ExpressionVector& v, std::size_t i) const;
+  static std::string where_on_trace(std::size_t i);
+
+ private:
+  std::vector<std::string> place_names() const;
+  Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
+};
+
+/// A name for the i-th table of a kind: "spring 2".
+std::string numbered(std::string_view name, std::size_t index);
+
+/// Reads [[body]] tables (read_bodies.cpp), and the tables of all constraints (read_constraints.cpp).
+void read_bodies(Draft& draft);
+void read_constraints(Draft& draft);
+
+/// Every kind of constraint, with its keys; the counters of a run are in this order.
+struct ConstraintKind {
+  std::string_view name;
+  std::string_view description;
+  std::vector<FieldHelp> fields;
+  std::vector<ConstraintRow> (*read)(Draft& draft, TableReader& table, std::vector<HingeAngle>& angles);
+};
+const std::vector<ConstraintKind>& constraint_kinds();
+
+}  // namespace eigentrail

@@ -1,0 +1,74 @@
+// Quasi-steady aerodynamics of a blade, strip by strip (blade-element theory; Johnson, Helicopter Theory,
+// 1980, Sect. 2.4; Ormiston & Hodges 1972).
+//
+// A section moves with U = v + w x p - inflow through the air, w the frame's angular velocity. With t the
+// direction from trailing to leading edge and n that of lift, both turned by the pitch about the span n x t,
+//
+//     lift  1/2 rho c a (-U_n) (-U_n t + U_t n)       across U, of size 1/2 rho c a |U|^2 sin(alpha)
+//     drag -1/2 rho c c_d0 |U| (U_t t + U_n n)        against it
+//
+// per length: polynomials in U but for |U|, and for small angles the usual linear theory.
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+struct BladeElement {
+  static constexpr std::string_view name = "blade_element";
+  static constexpr std::string_view description = "quasi-steady lift and drag of the strips of a blade";
+  static constexpr Contribution contribution{
+      .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
+  static constexpr Dependence depends{.position = true, .velocity = true, .turning = true};
+
+  Place point, leading, lift;
+  std::array<Quantity, 3> angular_velocity, inflow;
+  Quantity width, chord, density, lift_slope, profile_drag, pitch;
+
+  /// `point` is the middle of a strip and `width` its length; the scene's table gives the ends of the blade.
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.place("point", self.point, "middle of the strip");
+    visit.direction("leading", self.leading, "direction from trailing to leading edge");
+    visit.direction("lift", self.lift, "direction of lift");
+    visit.quantity({"width", "m", enters_damping_and_force, "length of the strip"}, self.width);
+    visit.quantity({"chord", "m", enters_damping_and_force, "chord", Range::non_negative}, self.chord);
+    visit.quantity(
+        {"density", "kg/m^3", enters_damping_and_force, "density of the air", Range::non_negative, 1.225},
+        self.density);
+    visit.quantity({"lift_slope", "1/rad", enters_damping_and_force, "slope of the lift coefficient"},
+                   self.lift_slope);
+    visit.quantity(
+        {"profile_drag", "", enters_damping_and_force, "profile drag coefficient", Range::non_negative, 0.0},
+        self.profile_drag);
+    visit.quantity({"pitch", "rad", enters_damping_and_force,
+                    "pitch of the sections, nose up, besides that of the body", Range::any, 0.0},
+                   self.pitch);
+    visit.vector(
+        {"inflow", "m/s", enters_damping_and_force, "velocity of the air in the frame", Range::any, 0.0},
+        self.inflow);
+    visit.vector({"angular_velocity", "rad/s", enters_damping_and_force, "of the frame", Range::any, 0.0},
+                 self.angular_velocity);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    using std::cos, std::sin, std::sqrt;
+    const Vec3<Scalar> w = at.value(angular_velocity);
+    const Vec3<Scalar> U = at.velocity(point) + w.cross(at.position(point)) - at.value(inflow);
+    const Vec3<Scalar> t0 = at.position(leading);
+    const Vec3<Scalar> n0 = at.position(lift);
+    const Scalar c = cos(at.value(pitch));
+    const Scalar s = sin(at.value(pitch));
+    const Vec3<Scalar> t = c * t0 + s * n0;
+    const Vec3<Scalar> n = c * n0 - s * t0;
+    const Scalar Ut = U.dot(t);
+    const Scalar Un = U.dot(n);
+    const Scalar half = 0.5 * at.value(density) * at.value(chord) * at.value(width);
+    const Scalar slope = half * at.value(lift_slope);
+    const Scalar drag = half * at.value(profile_drag) * sqrt(Ut * Ut + Un * Un);
+    at.add_force(point, (slope * Un * Un - drag * Ut) * t - (slope * Un * Ut + drag * Un) * n);
+  }
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,45 @@
+// Internal damping of a rotating shaft, seen from a frame that does not rotate: the damping acts on
+// velocities in the shaft, which turns with speed w about the axis e,  f = -c (d' - w e x d),  d = point -
+// about. The second term circulates and drives the shaft unstable at high speed.
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+struct InternalDamping {
+  static constexpr std::string_view name = "internal_damping";
+  static constexpr std::string_view description = "damping within a rotating shaft";
+  static constexpr Contribution contribution{.circulatory = true, .dissipative = true};
+  static constexpr Dependence depends{.position = true, .velocity = true};
+
+  Place point, about;
+  std::array<Quantity, 3> axis;
+  Quantity coefficient, speed;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.point("point", self.point, "a point of the shaft");
+    visit.place("about", self.about, "where it would be on the straight shaft");
+    visit.vector({"axis", "", enters_damping_and_force, "axis of rotation, of any length", Range::positive},
+                 self.axis);
+    visit.quantity({"coefficient", "N s/m", enters_damping_and_force, "force per velocity in the shaft"},
+                   self.coefficient);
+    visit.quantity({"speed", "rad/s", enters_force, "speed of the shaft"}, self.speed);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    const Vec3<Scalar> raw = at.value(axis);
+    const Vec3<Scalar> e = (1.0 / raw.norm()) * raw;
+    const Vec3<Scalar> d = at.position(point) - at.position(about);
+    const Vec3<Scalar> rate = at.velocity(point) - at.velocity(about) - at.value(speed) * e.cross(d);
+    // Along the axis the shaft does not turn, and a shaft is stiff.
+    const Vec3<Scalar> across = rate - e.dot(rate) * e;
+    const Vec3<Scalar> force = -at.value(coefficient) * across;
+    at.add_force(point, force);
+    at.add_force(about, -force);
+  }
+};
+
+}  // namespace eigentrail

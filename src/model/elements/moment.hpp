@@ -1,0 +1,39 @@
+// Moment on a body, along a direction that is fixed in the frame (a dead moment) or turns with a body (a
+// follower moment).
+#pragma once
+
+#include "model/element.hpp"
+
+namespace eigentrail {
+
+/// A moment t does the work t . w dt = 1/2 sum t x d_i . d_i' dt on the unit directors d_i of a body that
+/// turns with w: it is the forces t x d_i / 2 on them. Neither kind has a potential in general.
+struct Moment {
+  static constexpr std::string_view name = "moment";
+  static constexpr std::string_view description =
+      "moment on a body along a direction of the frame or of a body";
+  static constexpr Contribution contribution{.circulatory = true};
+  static constexpr Dependence depends{.position = true};
+
+  std::array<Place, 3> directors;
+  Place along;
+  Quantity magnitude;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.body("body", self.directors, "the body it acts on");
+    visit.direction("along", self.along, "its axis, of any length");
+    visit.quantity({"magnitude", "N m", enters_force, "the moment"}, self.magnitude);
+  }
+
+  template <class Scalar>
+  void force(ElementView<Scalar>& at) const {
+    const Vec3<Scalar> axis = at.position(along);
+    const Vec3<Scalar> moment = (at.value(magnitude) / axis.norm()) * axis;
+    for (const Place& director : directors) {
+      at.add_force(director, 0.5 * moment.cross(at.position(director)));
+    }
+  }
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,54 @@
+// Vectors and rotations whose components are expressions of the parameters.
+#pragma once
+
+#include <array>
+
+#include "eigentrail/scene/expression.hpp"
+
+namespace eigentrail {
+
+using ExpressionVector = std::array<Expression, 3>;
+
+/// Columns: the axes of a body in the frame.
+using ExpressionRotation = std::array<ExpressionVector, 3>;
+
+inline ExpressionVector operator+(const ExpressionVector& a, const ExpressionVector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline ExpressionVector operator-(const ExpressionVector& a, const ExpressionVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline ExpressionVector operator*(const Expression& s, const ExpressionVector& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+inline Expression dot(const ExpressionVector& a, const ExpressionVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline ExpressionVector cross(const ExpressionVector& a, const ExpressionVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline ExpressionVector normalized(const ExpressionVector& a) {
+  return (Expression(1.0) / sqrt(dot(a, a))) * a;
+}
+
+/// Components in the frame of a vector given in the axes of a body, R a.
+inline ExpressionVector turned(const ExpressionRotation& R, const ExpressionVector& a) {
+  return a[0] * R[0] + a[1] * R[1] + a[2] * R[2];
+}
+
+/// Components in the axes of a body of a vector given in the frame, R^T a.
+inline ExpressionVector turned_back(const ExpressionRotation& R, const ExpressionVector& a) {
+  return {dot(R[0], a), dot(R[1], a), dot(R[2], a)};
+}
+
+inline ExpressionVector unit_vector(std::size_t axis) {
+  ExpressionVector e;
+  e[axis] = 1.0;
+  return e;
+}
+
+inline ExpressionRotation no_rotation() {
+  return {unit_vector(0), unit_vector(1), unit_vector(2)};
+}
+
+}  // namespace eigentrail

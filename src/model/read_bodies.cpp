@@ -1,0 +1,220 @@
+// Reads [[body]]: mass, inertia, position, orientation, markers.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "model/draft.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Rodrigues' formula for a unit axis: R v = cos v + sin (k x v) + (1 - cos) (k . v) k.
+ExpressionRotation about_axis(const ExpressionVector& k, const Expression& angle) {
+  const Expression c = cos(angle);
+  const Expression s = sin(angle);
+  ExpressionRotation R;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ExpressionVector e = unit_vector(i);
+    R[i] = c * e + s * cross(k, e) + ((Expression(1.0) - c) * k[i]) * k;
+  }
+  return R;
+}
+
+ExpressionRotation product(const ExpressionRotation& a, const ExpressionRotation& b) {
+  return {turned(a, b[0]), turned(a, b[1]), turned(a, b[2])};
+}
+
+ExpressionRotation read_axis_angle(Draft& draft, TableReader table) {
+  const ExpressionVector axis = table.vector("axis");
+  const Expression angle = table.expression("angle");
+  draft.check_range(table, "axis", axis, Range::positive);
+  draft.check_range(table, "angle", angle, Range::any);
+  table.finish();
+  return about_axis(normalized(axis), angle);
+}
+
+/// Turns one after the other about the axes of the body, each as the turns before have left it.
+ExpressionRotation read_euler(Draft& draft, TableReader table) {
+  const std::string sequence = table.text("sequence");
+  const ExpressionVector angles = table.vector("angles");
+  draft.check_range(table, "angles", angles, Range::any);
+  table.finish();
+  const auto is_axis = [](char c) { return c >= 'x' && c <= 'z'; };
+  if (sequence.size() != 3 || !std::all_of(sequence.begin(), sequence.end(), is_axis) ||
+      sequence[0] == sequence[1] || sequence[1] == sequence[2]) {
+    table.fail("sequence",
+               "expected three axes, no two neighbours alike, such as \"zyx\" or \"zxz\"; found \"" +
+                   sequence + "\"");
+  }
+  ExpressionRotation R = no_rotation();
+  for (std::size_t i = 0; i < 3; ++i) {
+    R = product(R, about_axis(unit_vector(static_cast<std::size_t>(sequence[i] - 'x')), angles[i]));
+  }
+  return R;
+}
+
+/// Two of the axes; the first of them exactly, the second as near as a right angle allows.
+ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector<std::size_t>& given) {
+  const std::array<std::string, 3> keys = {"x_axis", "y_axis", "z_axis"};
+  std::array<ExpressionVector, 2> axes;
+  for (std::size_t i = 0; i < 2; ++i) {
+    axes[i] = table.vector(keys[given[i]]);
+    draft.check_range(table, keys[given[i]], axes[i], Range::positive);
+  }
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    const Eigen::Vector3d a = draft.vector_at(axes[0], i);
+    const Eigen::Vector3d b = draft.vector_at(axes[1], i);
+    if (a.cross(b).norm() > 1e-9 * a.norm() * b.norm()) continue;
+    table.fail(keys[given[1]],
+               "must not be parallel to " + keys[given[0]] + "; it is" + Draft::where_on_trace(i));
+  }
+  const ExpressionVector first = normalized(axes[0]);
+  const ExpressionVector second = normalized(axes[1] - dot(axes[1], first) * first);
+  const std::size_t last = 3 - given[0] - given[1];
+  const bool cyclic = given[1] == (given[0] + 1) % 3;
+  ExpressionRotation R;
+  R[given[0]] = first;
+  R[given[1]] = second;
+  R[last] = cyclic ? cross(first, second) : cross(second, first);
+  return R;
+}
+
+ExpressionRotation read_orientation(Draft& draft, TableReader& table) {
+  const bool axis_angle = table.has("axis_angle");
+  const bool euler = table.has("euler");
+  std::vector<std::size_t> axes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (table.has(std::string(1, "xyz"[i]) + "_axis")) axes.push_back(i);
+  }
+  const int ways = static_cast<int>(axis_angle) + static_cast<int>(euler) + static_cast<int>(!axes.empty());
+  if (ways > 1 || axes.size() == 1 || axes.size() == 3) {
+    table.fail(axes.empty() ? "euler" : std::string(1, "xyz"[axes[0]]) + "_axis",
+               "an orientation is given once: axis_angle, euler, or two of x_axis, y_axis, z_axis");
+  }
+  if (axis_angle) return read_axis_angle(draft, table.table("axis_angle"));
+  if (euler) return read_euler(draft, table.table("euler"));
+  return axes.empty() ? no_rotation() : read_axes(draft, table, axes);
+}
+
+using ExpressionMatrix = std::array<std::array<Expression, 3>, 3>;
+
+/// [Ixx, Iyy, Izz], or a symmetric matrix; about the centre of mass, in the body's axes.
+ExpressionMatrix read_inertia(Draft& draft, TableReader& table) {
+  ExpressionMatrix J;
+  if (!table.has("inertia")) return J;
+  const auto rows = table.matrix("inertia");
+  const bool diagonal = rows.size() == 1 && rows[0].size() == 3;
+  const bool full = rows.size() == 3 &&
+                    std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() == 3; });
+  if (!diagonal && !full) table.fail("inertia", "expected [Ixx, Iyy, Izz] or a 3 x 3 matrix");
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (full) J[i][j] = rows[i][j];
+      if (diagonal && i == j) J[i][i] = rows[0][i];
+      draft.check_range(table, "inertia", J[i][j], Range::any);
+    }
+  }
+  return J;
+}
+
+/// A mass distribution has second moments tr(J)/2 - J that are not negative: each principal moment of inertia
+/// is at most the sum of the other two.
+void check_inertia(const Draft& draft, const TableReader& table, const ExpressionMatrix& J) {
+  for (std::size_t k = 0; k < draft.request.check_at.size(); ++k) {
+    Eigen::Matrix3d inertia;
+    for (std::size_t i = 0; i < 3; ++i) {
+      inertia.row(static_cast<Eigen::Index>(i)) = draft.vector_at(J[i], k).transpose();
+    }
+    const double scale = inertia.cwiseAbs().maxCoeff();
+    if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-12 * scale) {
+      table.fail("inertia", "must be symmetric; it is not" + Draft::where_on_trace(k));
+    }
+    const Eigen::Matrix3d second = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second, Eigen::EigenvaluesOnly);
+    if (solver.eigenvalues()[0] >= -1e-12 * scale) continue;
+    table.fail("inertia", "no body has it: one principal moment exceeds the sum of the other two" +
+                              Draft::where_on_trace(k));
+  }
+}
+
+/// G of a body: moments of mass about its origin.
+MassDistribution mass_distribution(Draft& draft, int body, const Expression& mass,
+                                   const ExpressionVector& centre, const ExpressionMatrix& J) {
+  MassDistribution masses;
+  masses.size = 4;
+  const int origin = draft.bodies[static_cast<std::size_t>(body)].triple;
+  for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft.point_place(origin + i);
+  masses.mass = draft.quantity(mass);
+  const Expression half_trace = Expression(0.5) * (J[0][0] + J[1][1] + J[2][2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    masses.first[i] = draft.quantity(mass * centre[i]);
+    masses.second[i] = draft.quantity(half_trace - J[i][i] + mass * centre[i] * centre[i]);
+  }
+  const std::array<std::array<std::size_t, 2>, 3> mixed = {{{0, 1}, {0, 2}, {1, 2}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [i, j] = mixed[k];
+    masses.second[3 + k] = draft.quantity(mass * centre[i] * centre[j] - J[i][j]);
+  }
+  return masses;
+}
+
+void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const ExpressionVector& centre) {
+  body.markers["centre"] = centre;
+  if (!table.has("markers")) return;
+  TableReader markers = table.table("markers");
+  for (const std::string& name : markers.keys()) {
+    if (name == "centre") markers.fail(name, "is the centre of mass already; choose another name");
+    const ExpressionVector at = markers.vector(name);
+    draft.check_range(markers, name, at, Range::any);
+    body.markers[name] = at;
+  }
+}
+
+/// The six products of directors: unit vectors at right angles.
+void add_directors(Draft& draft, int body) {
+  const std::array<Place, 3> d = draft.directors(body);
+  std::vector<ConstraintRow> rows;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      rows.push_back({{d[i], {}}, Difference{d[j], {}}, 0, draft.quantity(i == j ? 1.0 : 0.0)});
+    }
+  }
+  draft.add_constraint("directors", draft.bodies[static_cast<std::size_t>(body)].name + ".directors",
+                       std::move(rows));
+}
+
+}  // namespace
+
+void read_bodies(Draft& draft) {
+  const std::vector<const Table*> all = tables(draft.scene, "body");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = draft.reader(*all[i], "[[body]] " + std::to_string(i + 1));
+    BodyDraft body;
+    body.name = table.text("name");
+    if (body.name.empty()) table.fail("name", "must not be empty");
+    const auto& taken = draft.mass_names;
+    if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
+      table.fail("name", "another body or point is called '" + body.name + "' already");
+    }
+    const Expression mass = table.expression("mass");
+    draft.check_range(table, "mass", mass, Range::non_negative);
+    const ExpressionVector centre = table.has("centre") ? table.vector("centre") : ExpressionVector{};
+    draft.check_range(table, "centre", centre, Range::any);
+    const ExpressionMatrix J = read_inertia(draft, table);
+    check_inertia(draft, table, J);
+    body.position = table.vector("position");
+    body.rotation = read_orientation(draft, table);
+    read_markers(draft, table, body, centre);
+    table.finish();
+    body.triple = static_cast<int>(draft.guess.size()) / 3;
+    for (const Expression& e : body.position) draft.guess.push_back(e);
+    for (const ExpressionVector& director : body.rotation) {
+      for (const Expression& e : director) draft.guess.push_back(e);
+    }
+    draft.mass_names.push_back(body.name);
+    draft.bodies.push_back(std::move(body));
+    draft.masses.push_back(mass_distribution(draft, static_cast<int>(i), mass, centre, J));
+    add_directors(draft, static_cast<int>(i));
+  }
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,126 @@
+#include "model/strips.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_strips = 64;
+constexpr int usual_strips = 4;
+
+/// Nodes and weights of Gauss-Legendre quadrature on [0, 1] (Golub & Welsch 1969).
+std::vector<std::array<double, 2>> gauss_points(int n) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 1; k < n; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
+  std::vector<std::array<double, 2>> points;
+  for (int k = 0; k < n; ++k) {
+    const double first = solver.eigenvectors()(0, k);
+    points.push_back({0.5 * (1.0 + solver.eigenvalues()[k]), first * first});
+  }
+  return points;
+}
+
+/// What all strips of a blade share.
+struct Blade {
+  int body = 0;
+  ExpressionVector root, tip, leading, lift;  ///< in the body's axes
+  int strips = usual_strips;
+};
+
+Blade read_blade(Draft& draft, TableReader& table) {
+  Blade blade;
+  blade.body = draft.read_body(table, "body");
+  const auto read = [&](const char* key, Range range) {
+    const ExpressionVector v = table.vector(key);
+    draft.check_range(table, key, v, range);
+    return v;
+  };
+  blade.root = read("root", Range::any);
+  blade.tip = read("tip", Range::any);
+  draft.check_range(table, "tip", blade.tip - blade.root, Range::positive);
+  blade.leading = normalized(read("leading", Range::positive));
+  const ExpressionVector lift = read("lift", Range::positive);
+  const ExpressionVector across = lift - dot(lift, blade.leading) * blade.leading;
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    if (draft.vector_at(across, i).norm() <= 1e-9 * draft.vector_at(lift, i).norm())
+      table.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
+  }
+  blade.lift = normalized(across);
+  if (table.has("strips")) {
+    const Expression strips = table.expression("strips");
+    const double n = strips.is_constant() ? strips.evaluate(std::span<const double>()) : 0.0;
+    if (!(n >= 1.0) || n > most_strips || n != std::floor(n))
+      table.fail("strips", "expected a whole number from 1 to " + std::to_string(most_strips));
+    blade.strips = static_cast<int>(n);
+  }
+  return blade;
+}
+
+}  // namespace
+
+std::vector<std::pair<BladeElement, std::string>> read_strips(
+    Draft& draft, const std::optional<ExpressionVector>& rotation) {
+  std::vector<std::pair<BladeElement, std::string>> result;
+  const std::vector<const Table*> all = tables(draft.scene, std::string(BladeElement::name));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = draft.reader(*all[i], "[[blade_element]] " + std::to_string(i + 1));
+    const Blade blade = read_blade(draft, table);
+    const auto read = [&](const char* key, Range range, std::optional<double> otherwise = std::nullopt) {
+      const Expression e = otherwise ? table.expression(key, *otherwise) : table.expression(key);
+      draft.check_range(table, key, e, range);
+      return e;
+    };
+    const Expression chord = read("chord", Range::non_negative);
+    const Expression density = read("density", Range::non_negative, 1.225);
+    const Expression lift_slope = read("lift_slope", Range::any, 2.0 * std::numbers::pi);
+    const Expression drag = read("profile_drag", Range::non_negative, 0.0);
+    const Expression pitch = read("pitch", Range::any, 0.0);
+    const ExpressionVector inflow = table.has("inflow") ? table.vector("inflow") : ExpressionVector{};
+    draft.check_range(table, "inflow", inflow, Range::any);
+    const std::string label =
+        table.has("name") ? printable(table.text("name")) : numbered(BladeElement::name, i);
+    table.finish();
+    const ExpressionVector span = blade.tip - blade.root;
+    const Expression length = sqrt(dot(span, span));
+    const Carrier carrier{blade.body, -1};
+    int number = 0;
+    for (const auto& [at, weight] : gauss_points(blade.strips)) {
+      BladeElement strip;
+      strip.point = draft.on_body(blade.body, blade.root + Expression(at) * span);
+      strip.leading = draft.direction_on(carrier, blade.leading);
+      strip.lift = draft.direction_on(carrier, blade.lift);
+      strip.angular_velocity = draft.vector(rotation.value_or(ExpressionVector{}));
+      strip.inflow = draft.vector(inflow);
+      strip.width = draft.quantity(Expression(weight) * length);
+      strip.chord = draft.quantity(chord);
+      strip.density = draft.quantity(density);
+      strip.lift_slope = draft.quantity(lift_slope);
+      strip.profile_drag = draft.quantity(drag);
+      strip.pitch = draft.quantity(pitch);
+      result.emplace_back(strip, label + ", strip " + std::to_string(++number));
+    }
+  }
+  return result;
+}
+
+std::vector<FieldHelp> strip_fields() {
+  return {{"body", "name of a body", "the blade"},
+          {"root", "[x, y, z] m", "where the lifting part begins, in the body's axes"},
+          {"tip", "[x, y, z] m", "where it ends"},
+          {"leading", "[x, y, z]", "direction from trailing to leading edge, in the body's axes"},
+          {"lift", "[x, y, z]", "direction of lift, in the body's axes"},
+          {"chord", "m", "chord"},
+          {"lift_slope", "1/rad", "slope of the lift coefficient; 2 pi"},
+          {"profile_drag", "", "profile drag coefficient; 0"},
+          {"pitch", "rad", "pitch of the sections, nose up, besides that of the body; 0"},
+          {"inflow", "[x, y, z] m/s", "velocity of the air in the frame; 0"},
+          {"density", "kg/m^3", "density of the air; 1.225"},
+          {"strips", "", "number of strips, 1 to 64; 4"}};
+}
+
+}  // namespace eigentrail
