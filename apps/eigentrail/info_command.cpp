@@ -88,15 +88,15 @@ void print_for_people(const LociFile& loci) {
               loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
               attribute(loci, "tolerance").c_str(),
               rounded(std::stod(attribute(loci, "reference")), 4).c_str(), order_of_series(loci).c_str());
-  std::vector<std::vector<std::string>> rows{
-      {"mode", "s at the start", "s at the end", "certified", "worst residual", "worst condition"}};
+  std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
+                                              "certified", "worst residual", "worst condition"}};
   const auto end_value = [&loci](Eigen::Index node, std::size_t mode) {
     const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
     return std::isnan(s.real()) ? std::string("-") : complex_text(s.real(), s.imag(), 8);
   };
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
     const double share = loci.certified_share(i);
-    rows.push_back({loci.modes[i], end_value(0, i),
+    rows.push_back({loci.modes[i], printable(loci.mode_names[i]), end_value(0, i),
                     end_value(static_cast<Eigen::Index>(loci.n_nodes()) - 1, i),
                     std::isnan(share) ? "-" : rounded(100.0 * share, 4) + " %",
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
@@ -127,6 +127,7 @@ void print_json(const LociFile& loci) {
     info["to"] = loci.p.back();
   }
   info["modes"] = loci.modes;
+  info["mode_names"] = loci.mode_names;
   info["coordinates"] = loci.coordinates;
   info["constraints"] = loci.constraints;
   nlohmann::ordered_json certified;

@@ -132,7 +132,8 @@ std::string followed_modes(const TraceResult& result) {
 }
 
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
-                   const TraceResult& result, const Ends& ends, const std::vector<StableRange>& ranges) {
+                   const TraceResult& result, const Ends& ends, const std::vector<std::string>& names,
+                   const std::vector<StableRange>& ranges) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   std::printf("  %s  %s -> %s%s, tolerance %s, %s, %d of %d modes, %lld freedoms\n",
@@ -145,14 +146,15 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
                 result.n_infinite);
   }
   std::vector<std::vector<std::string>> rows{
-      {"mode", "s at " + exact_text(options.from), "s at " + exact_text(result.reached)}};
+      {"mode", "s at " + exact_text(options.from), "s at " + exact_text(result.reached), "what moves"}};
   const auto text = [](const std::map<int, Complex>& ends_of, int mode) {
     const auto found = ends_of.find(mode);
     return found == ends_of.end() ? std::string("-")
                                   : complex_text(found->second.real(), found->second.imag(), 8);
   };
   for (int mode = 0; mode < result.n_columns; ++mode) {
-    rows.push_back({std::to_string(mode + 1), text(ends.first, mode), text(ends.last, mode)});
+    rows.push_back({std::to_string(mode + 1), text(ends.first, mode), text(ends.last, mode),
+                    printable(names[static_cast<std::size_t>(mode)])});
   }
   print_table(rows);
   print_findings(options, result);
@@ -205,7 +207,7 @@ int run_trace(const TraceArguments& arguments) {
   progress.finish();
 
   if (!arguments.quiet) {
-    print_summary(scene, model, options, result, ends, ranges);
+    print_summary(scene, model, options, result, ends, writer->mode_names(), ranges);
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   if (result.status == TraceStatus::completed) return done;

@@ -332,7 +332,9 @@ void read_constraints(Draft& draft) {
       Rows rows = kind.read(draft, table, angles);
       const std::string label = table.has("name") ? printable(table.text("name")) : numbered(name, i);
       table.finish();
-      if (draft.joint_angles.count(label) > 0) table.fail("name", "another joint is called '" + label + "'");
+      const bool taken = std::any_of(draft.data.constraints.begin(), draft.data.constraints.end(),
+                                     [&](const Constraint& c) { return c.label == label; });
+      if (taken) table.fail("name", "another constraint is called '" + label + "' already");
       if (!angles.empty()) draft.joint_angles[label] = std::move(angles);
       draft.add_constraint(kind.name, label, std::move(rows));
     }

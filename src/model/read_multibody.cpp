@@ -238,6 +238,15 @@ void check_without(const Draft& draft) {
   }
 }
 
+/// Direction of the frame's rotation where the trace first has one.
+std::optional<Eigen::Vector3d> axis_of(const Draft& draft, const ExpressionVector& rotation) {
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    const Eigen::Vector3d w = draft.vector_at(rotation, i);
+    if (w.norm() > 0.0) return w.normalized();
+  }
+  return std::nullopt;
+}
+
 ModelDescription describe(const Draft& draft) {
   ModelDescription description;
   const auto add = [&](const std::string& name, const char* unit) {
@@ -250,6 +259,11 @@ ModelDescription describe(const Draft& draft) {
   for (const BodyDraft& body : draft.bodies) {
     add(body.name, "m");
     for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
+  }
+  for (std::size_t i = 0; i < draft.masses.size(); ++i) {
+    const MassDistribution& masses = draft.masses[i];
+    description.masses.push_back(
+        {draft.mass_names[i], masses.carriers[0].terms[0].triple, static_cast<Eigen::Index>(masses.size)});
   }
   description.constraint_names = draft.constraint_names;
   description.parameters = draft.data.parameters;
@@ -331,6 +345,7 @@ std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& re
   draft.data.parameters = draft.parameters();
   draft.data.n_coordinates = static_cast<int>(draft.guess.size());
   ModelDescription description = describe(draft);
+  if (rotation) description.rotation_axis = axis_of(draft, *rotation);
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
 }
 

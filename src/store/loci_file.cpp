@@ -255,6 +255,11 @@ LociFile read_loci(const std::string& path) {
     loci.modes = file.read_texts("mode");
     loci.coordinates = file.read_texts("coordinate");
     if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
+    loci.mode_names.resize(loci.modes.size());
+    if (file.has("mode_name")) {
+      loci.mode_names = file.read_texts("mode_name");
+      require(loci.mode_names.size() == loci.modes.size(), loci, "mode_name");
+    }
     read_points(file, loci);
     read_steps(file, loci);
     read_events(file, loci);

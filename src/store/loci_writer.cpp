@@ -13,6 +13,7 @@
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
+#include "store/mode_motions.hpp"
 #include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
 
@@ -22,12 +23,16 @@ namespace {
 constexpr auto flush_interval = std::chrono::seconds(1);
 constexpr std::size_t flush_nodes = 256;
 
-const std::array<std::string, 38> reserved = {"node",
+const std::array<std::string, 42> reserved = {"node",
                                               "step",
                                               "mode",
                                               "function",
                                               "end",
                                               "coordinate",
+                                              "coordinate_unit",
+                                              "motion",
+                                              "kinetic_energy_share",
+                                              "mode_name",
                                               "constraint",
                                               "order",
                                               "event",
@@ -81,7 +86,15 @@ struct Buffer {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> mode_names(std::size_t first, std::size_t end) {
+/// The unit of all coordinates; where they differ the dataset `coordinate_unit` has them.
+std::string common_unit(const ModelDescription& description) {
+  const auto& units = description.coordinate_units;
+  const bool same =
+      std::all_of(units.begin(), units.end(), [&](const auto& unit) { return unit == units[0]; });
+  return same ? units[0] : "coordinate_unit";
+}
+
+std::vector<std::string> numbered_modes(std::size_t first, std::size_t end) {
   std::vector<std::string> names;
   for (std::size_t i = first; i < end; ++i) names.push_back("mode " + std::to_string(i + 1));
   return names;
@@ -113,6 +126,7 @@ struct LociWriter::Implementation {
   std::uint64_t points = 0, steps = 0;  ///< written so far
   std::chrono::steady_clock::time_point last_flush = std::chrono::steady_clock::now();
   std::vector<ComplexVector> last_shapes = {};
+  ModeMotions motions;
 
   /// Growing datasets by the dimension along which they may have to be extended.
   std::map<std::string, std::vector<std::pair<std::string, unsigned>>> extensible = {};
@@ -144,12 +158,14 @@ struct LociWriter::Implementation {
     create_dimension("node", ElementType::integer, count_from(0, 0), "path point", true);
     create_dimension("step", ElementType::integer, count_from(0, 0), "step from a path point to the next",
                      true);
-    create_dimension("mode", ElementType::text, mode_names(0, n_modes), "mode", true);
+    create_dimension("mode", ElementType::text, numbered_modes(0, n_modes), "mode", true);
     create_dimension("function", ElementType::integer, count_from(0, n_functions),
                      "smooth function of a mode or of a block of modes", true);
     create_dimension("end", ElementType::text, std::vector<std::string>{"left", "right"},
                      "end of a step, or of a stable range");
     create_dimension("coordinate", ElementType::text, description.coordinate_names, "coordinate");
+    write_dataset(file, {"coordinate_unit", "1", "unit of the coordinate"}, {"coordinate"},
+                  description.coordinate_units);
     create_dimension("order", ElementType::integer, count_from(0, static_cast<std::size_t>(order) + 1),
                      "power of the distance from the end of the step");
     if (has_constraints)
@@ -183,7 +199,7 @@ struct LociWriter::Implementation {
                    "normwise backward error of the eigenpair, or of its block");
     create_growing("condition", ElementType::real, {"node", "mode"}, "1",
                    "relative condition number of the eigenvalue, or of its block");
-    create_growing("equilibrium", ElementType::real, {"node", "coordinate"}, description.coordinate_units[0],
+    create_growing("equilibrium", ElementType::real, {"node", "coordinate"}, common_unit(description),
                    "steady equilibrium x0");
     if (has_constraints) {
       create_growing("multiplier", ElementType::real, {"node", "constraint"}, "1",
@@ -242,7 +258,7 @@ struct LociWriter::Implementation {
     if (wanted <= current) return;
     flush();
     if (dimension == "mode") {
-      file.write_rows(dimension, current, mode_names(current, wanted));
+      file.write_rows(dimension, current, numbered_modes(current, wanted));
     } else {
       file.write_rows(dimension, current, count_from(current, wanted - current));
     }
@@ -259,7 +275,9 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
                        const TraceOptions& options, const TraceStart& start) {
   write_complete(path, [&](const std::string& partial) {
     implementation_ =
-        std::make_unique<Implementation>(Implementation{Hdf5File::create(partial), options.parameter});
+        std::make_unique<Implementation>(Implementation{.file = Hdf5File::create(partial),
+                                                        .parameter = options.parameter,
+                                                        .motions = ModeMotions(model.description())});
     implementation_->n_modes = implementation_->n_functions = static_cast<std::size_t>(start.n_modes);
     Hdf5File& file = implementation_->file;
     write_provenance(file, loci_format, loci_schema_version, scene, options);
@@ -352,6 +370,7 @@ void LociWriter::append(const TracePoint& point) {
   self.grow("function", self.n_functions, functions);
   if (point.step != nullptr) self.append_step(*point.step);
   self.append_modes(point);
+  self.motions.append(point);
   Buffer& buffer = self.buffer;
   buffer.parameter.push_back(point.node.p);
   const auto x = point.node.path.x.col(0);
@@ -393,9 +412,14 @@ void LociWriter::Implementation::flush() {
   buffer = {};
 }
 
+std::vector<std::string> LociWriter::mode_names() const {
+  return implementation_->motions.names(implementation_->n_modes);
+}
+
 void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges) {
   implementation_->flush();
   write_events(implementation_->file, result.events);
+  implementation_->motions.write(implementation_->file, implementation_->n_modes);
   write_stable_ranges(implementation_->file, implementation_->parameter, ranges);
   write_summary(implementation_->file, result);
   implementation_->file.flush();

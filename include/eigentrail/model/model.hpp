@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,12 +52,22 @@ struct Structure {
   bool known_equilibrium = false;     ///< the initial guess is the equilibrium: KINSOL is never called
 };
 
+/// A point (one triple of coordinates) or a body (four: its origin and its directors) of a multibody model.
+/// Its mass matrix is G x 1 with constant moments G of that size.
+struct MassCarrier {
+  std::string name;
+  Eigen::Index first_triple = 0;
+  Eigen::Index n_triples = 1;
+};
+
 /// Unchanging facts about a model.
 struct ModelDescription {
   std::vector<std::string> coordinate_names;  ///< size n
   std::vector<std::string> coordinate_units;  ///< size n
   std::vector<std::string> constraint_names;  ///< size m
   std::vector<Effect> effects;
+  std::vector<MassCarrier> masses;               ///< of a multibody model
+  std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector, where the frame rotates
   Parameters parameters;
 };
 

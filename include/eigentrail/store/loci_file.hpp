@@ -33,6 +33,7 @@ struct LociFile : RecordedPath {
   std::vector<std::string> scene_parameters;  ///< names of all
   std::string parameter_unit;                 ///< "1" when it has none
   std::vector<std::string> modes;
+  std::vector<std::string> mode_names;  ///< what moves in each mode; empty where nothing is known
   std::vector<std::string> coordinates, constraints;
   std::vector<LociEvent> events;
   /// Stable and marginal ranges; absent in a file whose trace did not come to its end, or came before them.

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/events/stable_ranges.hpp"
@@ -28,6 +29,9 @@ class LociWriter {
   /// Adds a point and the step that led to it; they reach the disk with the next flush, after at most a
   /// second of further points.
   void append(const TracePoint& point);
+
+  /// A name for each mode that says what moves in it; empty where nothing is known.
+  std::vector<std::string> mode_names() const;
 
   /// Writes what is buffered, the events, the stable ranges, and the outcome and counts of the run.
   void finish(const TraceResult& result, const std::vector<StableRange>& ranges);

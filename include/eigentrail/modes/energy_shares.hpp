@@ -1,0 +1,48 @@
+// What moves in a mode: shares of its kinetic energy by body and by direction, and a name that follows.
+//
+// In a rotating frame the directions are those of a blade: along its radius s, along the axis of rotation a,
+// and along a x s. Motion along a and rotation about a x s are flap, motion along a x s and rotation about a
+// are lag, rotation about s is torsion, motion along s is axial. Elsewhere they are the frame's x, y, z.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eigentrail/model/model.hpp"
+
+namespace eigentrail {
+
+/// A direction of motion of one mass.
+struct MassMotion {
+  std::string mass;  ///< name of the point or body
+  std::string kind;  ///< "flap", "lag", "axial", "torsion", or "along x" ... "about z"
+};
+
+class EnergyShares {
+ public:
+  /// Directions are those at the equilibrium `x` (n) with mass matrix M, and stay what they are.
+  EnergyShares(const ModelDescription& description, const SystemMatrix& M, const Vector& x);
+
+  /// All that masses of the model may do; empty for a family of matrices, of which nothing is known.
+  const std::vector<MassMotion>& motions() const { return motions_; }
+
+  /// Shares of z* M z by motion (rows) for mode shapes z about x (columns of `shapes`, n x k); they add up to
+  /// one. Products of inertia between two rotations are split in halves.
+  Matrix of(const SystemMatrix& M, const Vector& x, const ComplexMatrix& shapes) const;
+
+  /// A name for each of some modes, given their shares (motions x modes) in the order in which equal names
+  /// are numbered: "flap", "lag 2", "flap-torsion", "hub along x".
+  std::vector<std::string> names(const Matrix& shares) const;
+
+ private:
+  struct Carrier {
+    MassCarrier mass;
+    bool blade = false;      ///< names of a blade's directions
+    Eigen::Index first = 0;  ///< of its motions
+    Eigen::Matrix3d axes;    ///< rows: s, a, a x s; or x, y, z
+  };
+  std::vector<Carrier> carriers_;
+  std::vector<MassMotion> motions_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,154 @@
+#include "eigentrail/modes/energy_shares.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace eigentrail {
+namespace {
+
+using Eigen::Index;
+using Moments = Eigen::Matrix4d;
+using ComplexVec3 = Eigen::Vector3cd;
+
+constexpr double on_axis = 1e-9;  ///< radius over distance from the origin
+
+/// Names of the motions of a blade along and about its axes (s, a, a x s).
+constexpr std::array<const char*, 3> blade_along = {"axial", "flap", "lag"};
+constexpr std::array<const char*, 3> blade_about = {"torsion", "lag", "flap"};
+
+Eigen::Vector3d triple(const Vector& x, Index i) {
+  return x.segment<3>(3 * i);
+}
+
+/// G of a mass, from the constant mass matrix G x 1.
+Moments moments(const SystemMatrix& M, const MassCarrier& mass) {
+  Moments G = Moments::Zero();
+  for (Index i = 0; i < mass.n_triples; ++i) {
+    for (Index j = 0; j < mass.n_triples; ++j)
+      G(i, j) = M(3 * (mass.first_triple + i), 3 * (mass.first_triple + j));
+  }
+  return G;
+}
+
+/// Centre of mass.
+Eigen::Vector3d centre(const MassCarrier& mass, const Moments& G, const Vector& x) {
+  Eigen::Vector3d at = triple(x, mass.first_triple);
+  for (Index i = 1; i < mass.n_triples && G(0, 0) > 0.0; ++i)
+    at += (G(0, i) / G(0, 0)) * triple(x, mass.first_triple + i);
+  return at;
+}
+
+/// Velocity of the centre of mass and angular velocity.
+struct RigidMotion {
+  ComplexVec3 velocity = ComplexVec3::Zero();
+  ComplexVec3 rotation = ComplexVec3::Zero();
+};
+
+RigidMotion rigid_motion(const MassCarrier& mass, const Moments& G, const Vector& x,
+                         const ComplexVector& shape) {
+  RigidMotion motion;
+  motion.velocity = shape.segment<3>(3 * mass.first_triple);
+  for (Index i = 1; i < mass.n_triples; ++i) {
+    const ComplexVec3 rate = shape.segment<3>(3 * (mass.first_triple + i));
+    const ComplexVec3 director = triple(x, mass.first_triple + i).cast<Complex>();
+    if (G(0, 0) > 0.0) motion.velocity += (G(0, i) / G(0, 0)) * rate;
+    motion.rotation += 0.5 * director.cross(rate);
+  }
+  return motion;
+}
+
+/// Inertia about the centre of mass in the frame: tr(E) 1 - E with the second moments E.
+Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector& x) {
+  if (mass.n_triples == 1) return Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d E = G.bottomRightCorner<3, 3>();
+  if (G(0, 0) > 0.0) E -= G.col(0).tail<3>() * G.row(0).tail<3>() / G(0, 0);
+  Eigen::Matrix3d R;
+  for (Index i = 0; i < 3; ++i) R.col(i) = triple(x, mass.first_triple + 1 + i);
+  const Eigen::Matrix3d in_frame = R * E * R.transpose();
+  return in_frame.trace() * Eigen::Matrix3d::Identity() - in_frame;
+}
+
+}  // namespace
+
+EnergyShares::EnergyShares(const ModelDescription& description, const SystemMatrix& M, const Vector& x) {
+  for (const MassCarrier& mass : description.masses) {
+    Carrier carrier{mass, false, static_cast<Index>(motions_.size()), Eigen::Matrix3d::Identity()};
+    const Eigen::Vector3d at = centre(mass, moments(M, mass), x);
+    if (description.rotation_axis) {
+      const Eigen::Vector3d a = *description.rotation_axis;
+      const Eigen::Vector3d radius = at - a.dot(at) * a;
+      carrier.blade = radius.norm() > on_axis * (1.0 + at.norm());
+      if (carrier.blade) {
+        const Eigen::Vector3d s = radius.normalized();
+        carrier.axes << s.transpose(), a.transpose(), a.cross(s).transpose();
+      }
+    }
+    carriers_.push_back(carrier);
+    for (std::size_t k = 0; k < 3; ++k)
+      motions_.push_back({mass.name, carrier.blade ? blade_along[k] : std::string("along ") + "xyz"[k]});
+    for (std::size_t k = 0; k < 3 && mass.n_triples > 1; ++k)
+      motions_.push_back({mass.name, carrier.blade ? blade_about[k] : std::string("about ") + "xyz"[k]});
+  }
+}
+
+Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMatrix& shapes) const {
+  Matrix shares = Matrix::Zero(static_cast<Index>(motions_.size()), shapes.cols());
+  for (const Carrier& carrier : carriers_) {
+    const Moments G = moments(M, carrier.mass);
+    const Eigen::Matrix3d J = carrier.axes * inertia(carrier.mass, G, x) * carrier.axes.transpose();
+    for (Index mode = 0; mode < shapes.cols(); ++mode) {
+      const RigidMotion motion = rigid_motion(carrier.mass, G, x, shapes.col(mode));
+      const ComplexVec3 v = carrier.axes.cast<Complex>() * motion.velocity;
+      shares.col(mode).segment<3>(carrier.first) = G(0, 0) * v.cwiseAbs2();
+      if (carrier.mass.n_triples == 1) continue;
+      const ComplexVec3 w = carrier.axes.cast<Complex>() * motion.rotation;
+      shares.col(mode).segment<3>(carrier.first + 3) =
+          (w.conjugate().array() * (J.cast<Complex>() * w).array()).real();
+    }
+  }
+  for (Index mode = 0; mode < shapes.cols(); ++mode) {
+    const double total = shares.col(mode).sum();
+    if (total > 0.0) shares.col(mode) /= total;
+  }
+  return shares;
+}
+
+std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
+  constexpr double dominant = 0.75;  // of the energy: one kind of motion, or one mass, says it all
+  std::vector<std::string> names;
+  for (Index mode = 0; mode < shares.cols(); ++mode) {
+    std::map<std::string, double> by_kind, by_mass;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      by_kind[motions_[i].kind] += shares(static_cast<Index>(i), mode);
+      by_mass[motions_[i].mass] += shares(static_cast<Index>(i), mode);
+    }
+    const auto ranked = [](const std::map<std::string, double>& sums) {
+      std::vector<std::pair<std::string, double>> list(sums.begin(), sums.end());
+      std::stable_sort(list.begin(), list.end(),
+                       [](const auto& a, const auto& b) { return a.second > b.second; });
+      return list;
+    };
+    const auto kinds = ranked(by_kind);
+    const auto masses = ranked(by_mass);
+    if (kinds.empty() || !(kinds[0].second > 0.0)) {
+      names.emplace_back();
+      continue;
+    }
+    std::string name = kinds[0].first;
+    if (kinds[0].second < dominant && kinds.size() > 1) name += "-" + kinds[1].first;
+    if (masses.size() > 1 && masses[0].second > dominant) name = masses[0].first + " " + name;
+    names.push_back(std::move(name));
+  }
+  // Equal names are numbered.
+  std::map<std::string, int> total, seen;
+  for (const std::string& name : names) ++total[name];
+  for (std::string& name : names) {
+    const std::string base = name;
+    if (!base.empty() && total[base] > 1) name += " " + std::to_string(++seen[base]);
+  }
+  return names;
+}
+
+}  // namespace eigentrail
