@@ -166,7 +166,7 @@ def draw(program):
         number = int(name[-1])
         left.loglog(numbers, values, color=colours[kind], marker=markers[number - 1], markersize=5, linewidth=1.3,
                     linestyle="-" if kind == "hanging" else "--", label=name)
-    left.loglog(numbers, [2.0 / n**2 * 0.35 * 10 for n in numbers], color="0.5", linewidth=1, linestyle=":",
+    left.loglog(numbers, [7.0 / n**2 for n in numbers], color="0.5", linewidth=1, linestyle=":",
                 label=r"slope $-2$")
     left.set(xlabel="number of links", ylabel="relative error of the frequency", xticks=numbers,
              xticklabels=[str(n) for n in numbers])
@@ -180,7 +180,7 @@ def draw(program):
         right.plot(x[k], -depth, ".", color=colour, markersize=4)
     right.set(xlabel="displacement", ylabel="height, m", title="hanging chain, 20 links (dots)")
     right.title.set_fontsize(9)
-    right.legend(frameon=False, fontsize=8, loc="upper left")
+    right.legend(frameon=False, fontsize=8, loc="upper right")
     for axes in (left, right):
         axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(pathlib.Path(__file__).resolve().parent / "chain.svg", metadata={"Date": None})
