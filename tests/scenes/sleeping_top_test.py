@@ -68,6 +68,17 @@ class SleepingTop(SceneTest):
             for event in found:
                 self.assertAlmostEqual(float(event["parameter"]), LEAST_SPIN, delta=1e-9)
 
+    def test_how_the_least_spin_moves(self):
+        """Logarithmic derivatives of sqrt(4 m g l (I + m l^2))/I3."""
+        expected = {"g": 0.5 / G, "mass": 0.5 * (1.0 / MASS + HEIGHT**2 / TIP), "height": 0.5 / HEIGHT + MASS * HEIGHT / TIP,
+                    "transverse": 0.5 / TIP, "polar": -1.0 / POLAR}
+        file = self.open(self.trace_scene().name)
+        names = [name.decode() for name in file["scene_parameter"]]
+        shift = file["event_shift"][0]
+        for name, slope in expected.items():
+            unit = 1e-3 if name == "height" else 1.0  # per mm
+            self.assertAlmostEqual(shift[names.index(name)] / (LEAST_SPIN * slope * unit), 1.0, delta=1e-6, msg=name)
+
     def test_stable_range_ends_there(self):
         text = self.run_well("info", self.trace_scene())
         self.assertRegex(text, r"marginal +spin = 100 -> 58\.76325382")
