@@ -139,8 +139,9 @@ class Sketch:
         for table in self.scene.tables("point_on_line"):
             at, axis = self.posture.place(table["from"]), self.posture.direction(table["axis"])
             on = self.posture.place(table["to"])
-            reach = max(abs(axis @ (on - at)) + 5 * self.u, 0.2 * self.size)
-            self.line([at - reach * axis, at + reach * axis], color="0.5", linewidth=1, zorder=0.5)
+            ends = axis @ (on - at)
+            self.line([at + (min(ends, 0) - 5 * self.u) * axis, at + (max(ends, 0) + 5 * self.u) * axis], color="0.5",
+                      linewidth=1, zorder=0.5)
             self.box(self.flat(on), self.view @ axis, 1.4, 0.8, "white")
 
     def direction(self, direction):
