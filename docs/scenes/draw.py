@@ -104,8 +104,8 @@ def draw_events(axes, loci, part, settings, done):
         value = f"{p:.4g}"
         label = None if (kind, value) in done else f"{described(kind, direction)} at {value}"
         done.add((kind, value))
-        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])), linestyle="none", marker=marker, color=colour, markersize=7,
-                  markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
+        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])), linestyle="none", marker=marker, color=colour,
+                  markersize=7, markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
 
 
 def result_picture(name, settings, runs):
@@ -146,8 +146,8 @@ def result_picture(name, settings, runs):
     for mark in settings.get("marks", []):
         for axes in all_axes:
             axes.axvline(mark["at"], color="0.6", linewidth=0.8, linestyle=":", zorder=1)
-        all_axes[0].annotate(mark["text"], (mark["at"], mark.get("height", 0.05)), xycoords=("data", "axes fraction"), xytext=(4, 0),
-                             textcoords="offset points", fontsize=8.5, color="0.3")
+        all_axes[0].annotate(mark["text"], (mark["at"], mark.get("height", 0.05)), xycoords=("data", "axes fraction"),
+                             xytext=(4, 0), textcoords="offset points", fontsize=8.5, color="0.3")
     for axes in all_axes:
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_xlim(*settings.get("range", (min(min(l.p) for l, _ in runs), max(max(l.p) for l, _ in runs))))

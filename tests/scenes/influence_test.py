@@ -1,5 +1,5 @@
-"""`explain --sensitivity` on the scenes: what each effect does to a mode where the trace begins, the equilibrium and the constraint
-forces following, against differences of the closed forms."""
+"""`explain --sensitivity` on the scenes: what each effect does to a mode where the trace begins, the equilibrium and the
+constraint forces following, against differences of the closed forms."""
 
 import cmath
 import math
@@ -47,13 +47,16 @@ class Influence(SceneTest):
             finally:
                 four_bar_test.G = usual
 
-        by = lambda e: (math.log(frequency(*(1 + STEP * x for x in e))) - math.log(frequency(*(1 - STEP * x for x in e)))) / (2 * STEP)
-        gravity, spring = by((1, 0)), by((0, 1))
+        def by(*shares):
+            ahead, behind = (frequency(*(1 + side * STEP * share for share in shares)) for side in (1, -1))
+            return math.log(ahead / behind) / (2 * STEP)
+
+        gravity, spring = by(1, 0), by(0, 1)
         self.assertAlmostEqual(gravity + spring, 0.5, places=7)  # both together: the same equilibrium, all forces grown
         self.check("four_bar", {"body": -0.5j, "gravity": 1j * gravity, "spring": 1j * spring})
 
     def test_of_a_governor(self):
-        """The arms rise as the frame's forces grow and sink as gravity does, and with them the sleeve's share of the inertia."""
+        """The arms rise as the frame's forces grow and sink as gravity does, and with them the sleeve's share of inertia."""
         g = watt_governor_test
         mass_ratio, square = g.SLEEVE / g.BALL, (300.0 * g.RPM) ** 2
 
