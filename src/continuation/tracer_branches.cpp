@@ -251,7 +251,8 @@ Tracer::Trouble Tracer::check_path(double h, const PathNode& next) const {
   const HermiteInterpolant x(h, node_.path.x.cast<Complex>(), next.path.x.cast<Complex>());
   const double error = x.error_without_last().norm();
   const double way = (next.path.x.col(0) - node_.path.x.col(0)).norm();
-  if (error <= share * way + negligible * largest_position_) return {};
+  const double largest = std::max(largest_position_, node_.path.x.col(0).norm());
+  if (error <= share * way + negligible * largest) return {};
   return {Trouble::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
 }
 

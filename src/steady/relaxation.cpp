@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <sstream>
 
 #include "core/positive_or_one.hpp"
@@ -73,6 +74,23 @@ class Relaxation {
     return false;
   }
 
+  /// The same from a guess that may be a symmetric one, such as links in line: where it fails, from places about
+  /// it that are not.
+  bool project_from_guess(Vector& x, double length) {
+    const Vector guess = x;
+    if (project(x, length)) return true;
+    const std::string unmet = unmet_;
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (const double reach : {0.01, 0.03, 0.1, 0.1, 0.3, 0.3}) {
+      x = guess + reach * length * Vector::NullaryExpr(guess.size(), [&] { return uniform(engine); });
+      if (project(x, length)) return true;
+    }
+    x = guess;
+    unmet_ = unmet;
+    return false;
+  }
+
   const std::string& unmet() const { return unmet_; }
 
   std::optional<Place> at(const Vector& x) {
@@ -133,7 +151,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
                        Vector& x, Vector& lambda, EvaluationCounts& counts) {
   Relaxation relaxation(model, parameters, counts);
   const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
-  if (!relaxation.project(x, length)) return {false, relaxation.unmet()};
+  if (!relaxation.project_from_guess(x, length)) return {false, relaxation.unmet()};
   std::optional<Place> here = relaxation.at(x);
   double delta = first_delta;
   double largest_force = 0.0;

@@ -15,6 +15,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"symmetric", symmetric},
                                           {"growth", growth},
                                           {"chains", chains},
+                                          {"blades", blades},
                                           {"threads", threads}};
   return all;
 }

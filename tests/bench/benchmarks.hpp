@@ -39,6 +39,7 @@ Figures order(const BenchOptions& options);
 Figures order_choice(const BenchOptions& options);
 // chain_bench.cpp
 Figures chains(const BenchOptions& options);
+Figures blades(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

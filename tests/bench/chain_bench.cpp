@@ -30,29 +30,40 @@ std::string account(const TraceResult& result) {
          share(c.differentiation_seconds) + ", certificate " + share(c.certificate_seconds) + " of the run";
 }
 
+/// Times both kinds of matrices on ten modes.
+void compare_kinds(Setting setting, const std::string& what, const BenchOptions& options, Figures& figures) {
+  const TraceOptions traced = ten_modes_of(setting);
+  const TimedTrace by_sparse = time_trace(setting, traced, options.repeats);
+  const std::unique_ptr<Model> model = std::move(setting.model);
+  setting.model = std::make_unique<OtherKind>(*model, OtherKind::Kind::dense);
+  const TimedTrace by_dense = time_trace(setting, traced, options.repeats);
+  const RunCounts& counts = by_sparse.result.counts;
+  const std::string size = ", " + what + ", 10 modes";
+  figures.push_back({"dense / sparse matrices, time of a trace" + size,
+                     by_dense.seconds / by_sparse.seconds,
+                     {},
+                     time_text(by_dense.seconds) + ", " + account(by_dense.result) + " / " +
+                         time_text(by_sparse.seconds) + ", " + account(by_sparse.result)});
+  figures.push_back({"share of equilibrium and reduction" + size,
+                     (counts.equilibrium_seconds + counts.reduction_seconds) / by_sparse.result.seconds,
+                     at_most(0.5)});
+}
+
 }  // namespace
 
 Figures chains(const BenchOptions& options) {
   Figures figures;
   for (const int points : options.smoke ? std::vector<int>{12} : std::vector<int>{12, 20, 40, 55}) {
-    Setting setting = make_setting(rotating_chains(points));
-    const TraceOptions traced = ten_modes_of(setting);
-    const TimedTrace by_sparse = time_trace(setting, traced, options.repeats);
-    const std::unique_ptr<Model> model = std::move(setting.model);
-    setting.model = std::make_unique<OtherKind>(*model, OtherKind::Kind::dense);
-    const TimedTrace by_dense = time_trace(setting, traced, options.repeats);
-    const RunCounts& counts = by_sparse.result.counts;
-    const std::string size = ", " + std::to_string(9 * points) + " coordinates, " +
-                             std::to_string(3 * points) + " freedoms, 10 modes";
-    figures.push_back({"dense / sparse matrices, time of a trace" + size,
-                       by_dense.seconds / by_sparse.seconds,
-                       {},
-                       time_text(by_dense.seconds) + ", " + account(by_dense.result) + " / " +
-                           time_text(by_sparse.seconds) + ", " + account(by_sparse.result)});
-    figures.push_back({"share of equilibrium and reduction" + size,
-                       (counts.equilibrium_seconds + counts.reduction_seconds) / by_sparse.result.seconds,
-                       at_most(0.5)});
+    compare_kinds(make_setting(rotating_chains(points)),
+                  std::to_string(9 * points) + " coordinates, " + std::to_string(3 * points) + " freedoms",
+                  options, figures);
   }
+  return figures;
+}
+
+Figures blades(const BenchOptions& options) {
+  Figures figures;
+  compare_kinds(make_setting(three_blades()), "40 bodies, 480 coordinates, 78 freedoms", options, figures);
   return figures;
 }
 

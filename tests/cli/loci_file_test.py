@@ -28,6 +28,9 @@ LAYOUT = {
     "condition": (("node", "mode"), "1"),
     "equilibrium": (("node", "coordinate"), "m"),
     "multiplier": (("node", "constraint"), "1"),
+    "coordinate_unit": (("coordinate",), "1"),
+    "kinetic_energy_share": (("end", "mode", "motion"), "1"),
+    "mode_name": (("mode",), "1"),
     "step_length": (("step",), "1"),
     "step_parameter": (("step", "end", "order"), "rad/s"),
     "dense_output": (("step", "function", "end", "order"), "1"),
@@ -58,11 +61,11 @@ LAYOUT = {
     "stable_largest_at": (("range",), "rad/s"),
 }
 DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event", "range",
-              "scene_parameter"}
+              "scene_parameter", "motion"}
 COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux",
            "event_shape", "event_sensitivity"}
 WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "event_direction", "stable_mode"}
-TEXTS = {"events", "stable_kind", "stable_cause", "scene_parameter_unit"}
+TEXTS = {"events", "stable_kind", "stable_cause", "scene_parameter_unit", "coordinate_unit", "mode_name"}
 
 
 def type_of(name):

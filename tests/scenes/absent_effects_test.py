@@ -1,0 +1,60 @@
+"""Every scene of the library pays only for what it names, and less for every effect that is left out."""
+import re
+import unittest
+
+from program import SCENES, ProgramTest
+
+KEPT = {"point", "body", "directors"}
+
+
+def formulas(explanation):
+    """Formulas per linearization, by active effect, and the absent ones."""
+    active = {}
+    block = explanation.split("effects\n")[1].split("sizes at")[0]
+    for line in block.splitlines():
+        row = re.match(r"\s+(\w+)\s+(\d+)\s+(\d+)\s+\S", line)
+        if row:
+            active[row.group(1)] = int(row.group(3))
+    absent = re.search(r"absent, never evaluated: (.*)", block).group(1).split(", ")
+    return active, absent
+
+
+class AbsentEffectsTest(ProgramTest):
+    def scenes(self):
+        return [path for path in sorted(SCENES.glob("*.toml"))
+                if "[matrix_family]" not in path.read_text(encoding="utf-8")]
+
+    def test_absent_effects_are_never_evaluated(self):
+        for scene in self.scenes():
+            with self.subTest(scene.name):
+                active, absent = formulas(self.run_well("explain", scene))
+                summary = self.run_well("trace", scene, "-o", "x.h5", "--force")
+                line = re.search(r"evaluations  (.*)", summary).group(1)
+                evaluated = {item.rsplit(" ", 1)[0] for item in line.split(", ")}
+                self.assertEqual(evaluated, set(active))
+                self.assertFalse(evaluated & set(absent))
+
+    def test_leaving_an_effect_out_takes_its_formulas_away_and_no_others(self):
+        tried = 0
+        for scene in self.scenes():
+            active, _ = formulas(self.run_well("explain", scene))
+            for effect in active:
+                result = self.run_program("explain", scene, "--without", effect)
+                if "is no effect of this scene that can be left out" in result.stderr:
+                    self.assertIn(effect, KEPT | set(self.constraints()))
+                    continue
+                with self.subTest(scene=scene.name, without=effect):
+                    fewer, absent = formulas(result.stdout)
+                    self.assertIn(effect, absent)
+                    self.assertEqual(fewer, {name: n for name, n in active.items() if name != effect})
+                    tried += 1
+        self.assertGreater(tried, 10)
+
+    @staticmethod
+    def constraints():
+        return ["rod", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic", "weld",
+                "point_on_line", "point_on_plane"]
+
+
+if __name__ == "__main__":
+    unittest.main()
