@@ -1,0 +1,185 @@
+"""Draws the pictures of scenes: python3 docs/scenes/draw.py PROGRAM NAME...
+
+Traces data/scenes/NAME.toml and writes docs/scenes/NAME.svg, eigenvalues against the parameter from the dense output,
+and docs/scenes/NAME_sketch.svg, the scene at its equilibrium. docs/scenes/pictures.toml has what cannot be guessed.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENES = HERE.parent.parent / "data" / "scenes"
+sys.path.insert(0, str(HERE.parent))
+
+import h5py
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from rotating_mass import eigenvalues, parameter
+from scene_file import Posture, SceneFile
+from sketch import Sketch
+
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"]
+DASHES = ["-", "--", "-.", (0, (1, 1)), (0, (5, 1, 1, 1, 1, 1))]
+EVENTS = {"flutter": ("X", "#b2182b"), "divergence": ("s", "#b2182b"), "collision": ("P", "#b2182b"),
+          "pitchfork": ("D", "#762a83"), "fold": (">", "#762a83"), "crossing": ("o", "0.4"), "veering": ("d", "0.4"),
+          "extremum": ("^", "0.4"), "damping_ratio": ("v", "0.4"), "resonance": ("*", "#e69f00")}
+# What a picture shows of the special points unless it is asked for others.
+SHOWN = ["flutter", "divergence", "pitchfork", "fold", "resonance"]
+
+
+class Loci:
+    """A loci file in memory, and its dense output at many places."""
+
+    def __init__(self, path, per_step=None):
+        with h5py.File(path) as file:
+            self.data = {name: file[name][()] for name in file}
+            self.attributes = dict(file.attrs)
+            self.name = self.attributes["parameter"]
+            self.unit = file[self.name].attrs["units"]
+        steps = len(self.data["step_length"])
+        count = per_step or max(12, 600 // steps)
+        t = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, count))  # close at the ends, where a step may end at a root
+        places = [(step, x) for step in range(steps) for x in t]
+        self.p = np.array([parameter(self.data, *place) for place in places])
+        self.s = np.array([eigenvalues(self.data, *place) for place in places])
+        self.s[~np.isfinite(self.s)] = complex(np.nan, np.nan)
+        self.kinds = [line.decode().split(",")[0] for line in self.data["events"]]
+
+    def unstable(self):
+        """Ranges of the parameter on which a mode grows."""
+        p = self.data[self.name]
+        low, high = min(p), max(p)
+        ranges = sorted(sorted(pair) for pair in zip(self.data["stable_from"], self.data["stable_to"]))
+        at, gaps = low, []
+        for a, b in ranges:
+            if a > at + 1e-9 * (high - low):
+                gaps.append((at, a))
+            at = max(at, b)
+        if high > at + 1e-9 * (high - low):
+            gaps.append((at, high))
+        return gaps
+
+    def coordinates(self, node):
+        names = [name.decode() for name in self.data["coordinate"]]
+        return dict(zip(names, self.data["equilibrium"][node]))
+
+
+def trace(program, scene, options, folder, number):
+    out = pathlib.Path(folder) / f"{scene.stem}_{number}.h5"
+    subprocess.run([program, "trace", str(scene), "-o", str(out), "--quiet", *options], check=False)
+    return Loci(out)
+
+
+def draw_modes(axes, loci, part, settings, run):
+    names = settings.get("modes", [])
+    chosen = settings.get("show_modes", range(1, loci.s.shape[1] + 1))
+    for mode in chosen:
+        k = mode - 1 + run["first_style"]
+        label = names[mode - 1] if mode <= len(names) and run["first_style"] == 0 else None
+        if "modes" in run and mode <= len(run["modes"]):
+            label = run["modes"][mode - 1] or None
+        axes.plot(loci.p, part(loci.s[:, mode - 1]), color=COLOURS[k % len(COLOURS)], linestyle=DASHES[k % len(DASHES)],
+                  linewidth=1.6, label=label, zorder=2)
+
+
+def draw_events(axes, loci, part, settings, done):
+    shown = settings.get("events", SHOWN)
+    for kind, p, s in zip(loci.kinds, loci.data["event_parameter"], loci.data["event_eigenvalue"]):
+        if kind not in shown or not np.isfinite(s):
+            continue
+        marker, colour = EVENTS[kind]
+        value = f"{p:.4g}"
+        label = None if (kind, value) in done else f"{kind.replace('_', ' ')} at {value}"
+        done.add((kind, value))
+        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])), linestyle="none", marker=marker, color=colour, markersize=7,
+                  markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
+
+
+def result_picture(name, settings, runs):
+    largest = max(np.nanmax(np.abs(loci.s)) for loci, _ in runs)
+    damped = any(np.nanmax(np.abs(loci.s.real)) > 1e-6 * largest for loci, _ in runs)
+    coordinate = settings.get("coordinate")
+    panels = 1 + damped + (coordinate is not None)
+    figure, all_axes = plt.subplots(1, panels, figsize=(4.6 * panels if panels > 1 else 5.6, 3.5), layout="constrained",
+                                    squeeze=False)
+    all_axes = list(all_axes[0])
+    first = runs[0][0]
+    unit = "" if first.unit in ("", "1") else f", {first.unit}"
+    xlabel = settings.get("parameter", first.name.replace("_", " ")) + unit
+    parts = [("frequency", lambda s: np.imag(s), "Im s, rad/s")]
+    if damped:
+        parts.append(("growth", lambda s: np.real(s), "Re s, 1/s"))
+    for axes, (key, part, ylabel) in zip(all_axes[panels - len(parts):], parts):
+        done = set()
+        for loci, run in runs:
+            draw_modes(axes, loci, part, settings, run)
+            draw_events(axes, loci, part, settings, done)
+        axes.set(xlabel=xlabel, ylabel=ylabel)
+        if key in settings:
+            axes.set_ylim(*settings[key])
+        elif key == "frequency":
+            axes.set_ylim(bottom=0)
+        else:
+            axes.axhline(0, color="0.5", linewidth=0.8, zorder=1)
+    if coordinate is not None:
+        axes = all_axes[0]
+        for loci, run in runs:
+            q = [loci.coordinates(i)[coordinate["name"]] for i in range(len(loci.data["node"]))]
+            k = run["first_style"]
+            axes.plot(loci.data[loci.name], np.array(q) * coordinate.get("scale", 1.0), color=COLOURS[k % len(COLOURS)],
+                      linestyle=DASHES[k % len(DASHES)], linewidth=1.6, label=run.get("label"))
+        axes.set(xlabel=xlabel, ylabel=coordinate.get("label", coordinate["name"]))
+    grey = first.unstable() if len(runs) == 1 and settings.get("shade", True) else []
+    for axes in all_axes:
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.set_xlim(*settings.get("range", (min(min(l.p) for l, _ in runs), max(max(l.p) for l, _ in runs))))
+        for i, (a, b) in enumerate(grey):
+            axes.axvspan(a, b, color="0.9", zorder=0, label="unstable" if i == 0 else None)
+        if axes is all_axes[0] or (axes is all_axes[1] and coordinate is not None):
+            if axes.get_legend_handles_labels()[0]:
+                axes.legend(frameon=False, loc=settings.get("legend", "best"), fontsize=8.5)
+    figure.savefig(HERE / f"{name}.svg", metadata={"Date": None})
+    plt.close(figure)
+
+
+def sketch_picture(name, settings, loci, text):
+    nodes = loci.data[loci.name]
+    node = int(np.argmin(abs(nodes - settings["sketch_at"]))) if "sketch_at" in settings else 0
+    scene = SceneFile(text, loci.name, nodes[node])
+    figure = Sketch(Posture(scene, loci.coordinates(node)), settings).draw()
+    figure.savefig(HERE / f"{name}_sketch.svg", metadata={"Date": None}, bbox_inches="tight", pad_inches=0.05)
+    plt.close(figure)
+
+
+def draw(program, name, settings):
+    scene = SCENES / f"{name}.toml"
+    runs = [{"options": settings.get("options", []), "label": settings.get("label")}, *settings.get("runs", [])]
+    with tempfile.TemporaryDirectory() as folder:
+        traced, style = [], 0
+        for i, run in enumerate(runs):
+            loci = trace(program, scene, list(map(str, run.get("options", []))), folder, i)
+            run["first_style"] = run.get("style", style)
+            style = run["first_style"] + loci.s.shape[1]
+            traced.append((loci, run))
+    result_picture(name, settings, traced)
+    text = scene.read_text(encoding="utf-8")
+    if "matrix_family" not in text:
+        sketch_picture(name, settings, traced[settings.get("sketch_run", 0)][0], text)
+
+
+def main():
+    program, *names = sys.argv[1:]
+    matplotlib.rcParams.update({"svg.hashsalt": "eigentrail", "font.size": 9.5})  # the same input gives the same file
+    settings = tomllib.loads((HERE / "pictures.toml").read_text(encoding="utf-8"))
+    for name in names:
+        draw(str(pathlib.Path(program).resolve()), name, settings.get(name, {}))
+
+
+if __name__ == "__main__":
+    main()
