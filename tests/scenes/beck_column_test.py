@@ -68,7 +68,7 @@ class BeckColumn(RotorTest):
         return head + chain + tail.replace("link 8", f"link {n}")
 
     def test_the_text_for_eight_links_is_the_scene(self):
-        self.assertEqual(self.links(LINKS), self.text())
+        self.assertEqual(self.links(LINKS), self.scene_text())
 
     def test_spectrum_of_the_chain_against_load(self):
         file = self.trace_scene("--to", "18")
@@ -83,8 +83,8 @@ class BeckColumn(RotorTest):
 
     def flutter_load(self, n):
         """Two frequencies meet; the pair that grows and the one that decays come from there."""
-        file = self.trace_scene("--modes", "3", "--from", "15", "--to", "24", tolerance="1e-8", text=self.links(n))
-        return min(load for load, s in self.events(file, "collision"))
+        file = self.trace_text(self.links(n), "--modes", "3", "--from", "15", "--to", "24", tolerance=1e-8)
+        return min(load for load, s in self.special_points(file, "collision"))
 
     def test_flutter_load_of_the_chain(self):
         def apart(load):
@@ -105,15 +105,15 @@ class BeckColumn(RotorTest):
 
     def test_a_dead_load_buckles_instead(self):
         """Euler's load pi^2/4 of a clamped column, divergence, when the force keeps its direction."""
-        force = self.text()[self.text().index("[[follower_force]]"):]
-        dead = self.text().replace(force, '[[force]]\npoint = "link 8.end"\ncomponents = ["-load", 0, 0]\n')
-        file = self.trace_scene("--to", "4", tolerance="1e-8", text=dead)
-        kinds = [(kind, p) for kind in ("divergence", "pitchfork") for p, _ in self.events(file, kind)]
+        force = self.scene_text()[self.scene_text().index("[[follower_force]]"):]
+        dead = self.scene_text().replace(force, '[[force]]\npoint = "link 8.end"\ncomponents = ["-load", 0, 0]\n')
+        file = self.trace_text(dead, "--to", "4", tolerance=1e-8)
+        kinds = [(kind, p) for kind in ("divergence", "pitchfork") for p, _ in self.special_points(file, kind)]
         self.assertTrue(kinds)
         self.assertAlmostEqual(kinds[0][1], math.pi**2 / 4, delta=0.02)
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "follower_force", "torsional_spring", "directors", "revolute")
+        self.check_effects("body", "follower_force", "torsional_spring", "directors", "revolute")
 
 
 if __name__ == "__main__":

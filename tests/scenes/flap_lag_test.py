@@ -6,7 +6,8 @@ import unittest
 import h5py
 import numpy as np
 
-from rotor_test_case import MET, RotorTest, companion
+from rotor_test_case import RotorTest, companion
+from scene_test_case import CLOSE
 
 DEGREE = math.pi / 180.0
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
@@ -84,8 +85,7 @@ class FlapLag(RotorTest):
     scene = "flap_lag"
 
     def blade(self, **changes):
-        given = {name: entry for name, entry in self.parameters().items() if not isinstance(entry, str)}
-        return Blade(given | changes)
+        return Blade(self.parameters(**changes))
 
     def test_equilibrium_against_pitch(self):
         file = self.trace_scene()
@@ -105,13 +105,13 @@ class FlapLag(RotorTest):
     def test_eigenvalues_against_frequencies_and_offset(self):
         for parameter, begin, end in (("p", 1.05, 1.4), ("w", 0.6, 1.6), ("offset", 0.0, 0.5)):
             with self.subTest(parameter):
-                file = self.trace_scene("--parameter", parameter, "--from", repr(begin), "--to", repr(end),
-                                        text=self.changed(pitch=12.0))
+                file = self.trace_text(self.changed(pitch=12.0), "--parameter", parameter, "--from", repr(begin),
+                                       "--to", repr(end))
                 self.assert_follows(file, lambda q: self.blade(**{"pitch": 12 * DEGREE, parameter: q}).spectrum(),
                                     parameter, np.linspace(begin, end, 30))
 
     def test_flutter_is_where_the_real_part_changes_sign(self):
-        (pitch, s), = self.events(self.trace_scene(), "flutter")
+        (pitch, s), = self.special_points(self.trace_scene(), "flutter")
         growth = lambda degrees: np.max(self.blade(pitch=degrees * DEGREE).spectrum().real)
         stable, unstable = pitch - 1.0, pitch + 1.0
         self.assertLess(growth(stable), 0.0)
@@ -119,16 +119,16 @@ class FlapLag(RotorTest):
         for _ in range(60):
             middle = 0.5 * (stable + unstable)
             stable, unstable = (middle, unstable) if growth(middle) < 0.0 else (stable, middle)
-        self.assertAlmostEqual(pitch, stable, delta=MET * pitch)
+        self.assertAlmostEqual(pitch, stable, delta=CLOSE * pitch)
         self.assertAlmostEqual(s.imag, np.max(self.blade(pitch=pitch * DEGREE).spectrum().imag), delta=0.2 * s.imag)
 
     def test_without_air_the_frequencies_are_p_and_w(self):
         text = self.changed(rho=0.0, p=1.1, w=0.7)
-        for s in self.spectra(self.trace_scene(text=text), [3.0, 20.0]):
-            np.testing.assert_allclose(np.sort(s.imag) / self.parameters()["omega"], [0.7, 1.1], rtol=MET)
+        for s in self.spectra(self.trace_text(text), [3.0, 20.0]):
+            np.testing.assert_allclose(np.sort(s.imag) / self.parameters()["omega"], [0.7, 1.1], rtol=CLOSE)
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "frame", "torsional_spring", "blade_element", "directors", "revolute")
+        self.check_effects("body", "frame", "torsional_spring", "blade_element", "directors", "revolute")
 
 
 if __name__ == "__main__":

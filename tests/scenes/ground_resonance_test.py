@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from rotor_test_case import MET, RotorTest, upper
+from rotor_test_case import RotorTest, upper
+from scene_test_case import CLOSE
 
 BLADES = 4
 RPM = math.pi / 30.0
@@ -56,24 +57,24 @@ class GroundResonance(RotorTest):
         worst = speeds[np.argmax([growth(rpm) for rpm in speeds])]
         self.assertGreater(growth(worst), 0.05)
         expected = [boundary(growth, 50.0, worst), boundary(growth, 450.0, worst)]
-        events = sorted(self.events(self.trace_scene(), "flutter"))
+        events = sorted(self.special_points(self.trace_scene(), "flutter"))
         self.assertEqual(len(events), 2)
-        np.testing.assert_allclose([rpm for rpm, _ in events], expected, rtol=MET)
+        np.testing.assert_allclose([rpm for rpm, _ in events], expected, rtol=CLOSE)
 
     def test_full_dampers_keep_it_stable(self):
         """Hammond (1974): with 4068 N m s/rad at every blade there is no instability."""
-        file = self.trace_scene("--from", "100", text=self.changed(lag_damper=4067.5))
-        self.assertEqual(self.events(file, "flutter"), [])
+        file = self.trace_text(self.changed(lag_damper=4067.5), "--from", "100")
+        self.assertEqual(self.special_points(file, "flutter"), [])
 
     def test_damping_that_turned_with_the_rotor_would_not_do(self):
         """A rival: support damping taken relative to the turning frame moves the boundaries by far more than the tolerance."""
-        turned = self.text().replace('speed = "-omega"', 'speed = 0')
-        right = sorted(rpm for rpm, _ in self.events(self.trace_scene(), "flutter"))
-        wrong = sorted(rpm for rpm, _ in self.events(self.trace_scene(text=turned), "flutter"))
+        turned = self.scene_text().replace('speed = "-omega"', 'speed = 0')
+        right = sorted(rpm for rpm, _ in self.special_points(self.trace_scene(), "flutter"))
+        wrong = sorted(rpm for rpm, _ in self.special_points(self.trace_text(turned), "flutter"))
         self.assertFalse(len(right) == len(wrong) and np.allclose(right, wrong, rtol=1e-3))
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "frame", "torsional_spring", "torsional_damper", "internal_damping", "bearing",
+        self.check_effects("body", "frame", "torsional_spring", "torsional_damper", "internal_damping", "bearing",
                          "directors", "revolute", "prismatic")
 
 

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from rotor_test_case import MET, RotorTest, companion
+from rotor_test_case import RotorTest, companion
+from scene_test_case import CLOSE
 
 
 def blade(p):
@@ -40,20 +41,20 @@ class HingedBlade(RotorTest):
 
     def test_flap_and_pitch_cross_where_the_offset_says(self):
         p = self.parameters()
-        crossings = self.events(self.trace_scene(), "crossing")
+        crossings = self.special_points(self.trace_scene(), "crossing")
         self.assertEqual(len(crossings), 1)
         e = p["offset"] * math.cos(p["precone"])
         expected = math.sqrt(12 * p["control"] / (p["mass"] * p["chord"]**2) / (1.5 * e / p["span"]))
-        self.assertAlmostEqual(crossings[0][0], expected, delta=MET * expected)
+        self.assertAlmostEqual(crossings[0][0], expected, delta=CLOSE * expected)
 
     def test_a_thick_blade_couples_flap_and_pitch(self):
         """G_zz = integral of z^2: flap and pitch are coupled by the Coriolis force 2 omega G_zz, flap loses stiffness."""
         p = self.parameters()
         thickness = 0.2
-        text = self.text().replace('["mass*chord^2/12", "mass*span^2/12", "mass*(span^2 + chord^2)/12"]',
+        text = self.scene_text().replace('["mass*chord^2/12", "mass*span^2/12", "mass*(span^2 + chord^2)/12"]',
                                    f'["mass*(chord^2 + {thickness}^2)/12", "mass*(span^2 + {thickness}^2)/12", '
                                    '"mass*(span^2 + chord^2)/12"]')
-        self.assertNotEqual(text, self.text())
+        self.assertNotEqual(text, self.scene_text())
         Gxx, Gyy, Gzz = (p["mass"] * a for a in (p["span"]**2 / 3, p["chord"]**2 / 12, thickness**2 / 12))
         S, e = p["mass"] * p["span"] / 2, p["offset"] * math.cos(p["precone"])
 
@@ -64,10 +65,10 @@ class HingedBlade(RotorTest):
             K = np.diag([omega**2 * (Gxx - Gzz + e * S), omega**2 * (Gyy - Gzz) + p["control"], omega**2 * e * S])
             return companion(M, C, K)
 
-        self.assert_follows(self.trace_scene(text=text), coupled, "omega", np.linspace(2.0, 50.0, 20))
+        self.assert_follows(self.trace_text(text), coupled, "omega", np.linspace(2.0, 50.0, 20))
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "frame", "torsional_spring", "directors", "revolute")
+        self.check_effects("body", "frame", "torsional_spring", "directors", "revolute")
 
 
 if __name__ == "__main__":

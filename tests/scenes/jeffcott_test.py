@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from rotor_test_case import MET, RotorTest
+from rotor_test_case import RotorTest
+from scene_test_case import CLOSE
 
 
 def whirl(p):
@@ -29,9 +30,9 @@ class Jeffcott(RotorTest):
         p = self.parameters(external=external)
         text = self.changed(external=external)
         expected = math.sqrt(p["k"] / p["mass"]) * (1 + external / p["internal"])
-        (omega, s), = self.events(self.trace_scene(text=text), "flutter")
-        self.assertAlmostEqual(omega, expected, delta=MET * expected)
-        self.assertAlmostEqual(s.imag, math.sqrt(p["k"] / p["mass"]), delta=MET * s.imag)
+        (omega, s), = self.special_points(self.trace_text(text), "flutter")
+        self.assertAlmostEqual(omega, expected, delta=CLOSE * expected)
+        self.assertAlmostEqual(s.imag, math.sqrt(p["k"] / p["mass"]), delta=CLOSE * s.imag)
 
     def test_threshold_speed(self):
         for external in (10.0, 60.0, 120.0, 155.0):
@@ -54,10 +55,10 @@ class Jeffcott(RotorTest):
 
     def test_without_internal_damping_it_is_stable_at_all_speeds(self):
         text = self.changed(internal=0.0)
-        self.assertEqual(self.events(self.trace_scene(text=text), "flutter"), [])
+        self.assertEqual(self.special_points(self.trace_text(text), "flutter"), [])
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("point", "fixed", "bearing", "internal_damping")
+        self.check_effects("point", "fixed", "bearing", "internal_damping")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from rotor_test_case import MET, RotorTest
+from rotor_test_case import RotorTest
+from scene_test_case import CLOSE
 
 
 def stiffness(p):
@@ -50,18 +51,18 @@ class OverhungDisc(RotorTest):
 
     def test_critical_speeds(self):
         p = self.parameters()
-        found = sorted(omega for omega, _ in self.events(self.trace_scene(), "resonance"))
+        found = sorted(omega for omega, _ in self.special_points(self.trace_scene(), "resonance"))
         expected = sorted(omega for n in (1, 2) for omega in critical_speeds(p, n) if omega <= 2000.0)
         self.assertEqual(len(found), len(expected), (found, expected))
         self.assertGreater(len(found), 3)
-        np.testing.assert_allclose(found, expected, rtol=MET)
+        np.testing.assert_allclose(found, expected, rtol=CLOSE)
 
     def test_disc_that_does_not_spin_has_pairs_of_equal_frequencies(self):
         s = np.sort(self.spectra(self.trace_scene(), [0.0])[0].imag)
-        np.testing.assert_allclose(s[::2], s[1::2], rtol=MET)
+        np.testing.assert_allclose(s[::2], s[1::2], rtol=CLOSE)
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "torsional_spring", "bearing", "spinning_disc", "directors", "prismatic", "universal")
+        self.check_effects("body", "torsional_spring", "bearing", "spinning_disc", "directors", "prismatic", "universal")
 
 
 if __name__ == "__main__":

@@ -1,21 +1,12 @@
-"""What the tests of rotor scenes share: tracing a scene of the library, and comparing its spectra with a closed form."""
+"""What the tests of rotor scenes share: the scene with other parameters, and its spectra beside those of other models."""
 
-import pathlib
 import re
-import sys
 import tomllib
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
 
 import h5py
 import numpy as np
 
-from command_test_case import CommandTest
-from program import SCENES
-
-# Traces run at TRACED; the spectra must then be met within MET.
-TRACED = "1e-11"
-MET = 1e-10
+from scene_test_case import CLOSE, SceneTest
 
 
 def value(entry):
@@ -40,29 +31,15 @@ def upper(s):
     return np.concatenate([s[real].real, s[~real & (s.imag > 0.0)]])
 
 
-class RotorTest(CommandTest):
-    scene = ""
-
+class RotorTest(SceneTest):
     def parameters(self, **changes):
         """The scene's parameters that are numbers, in SI."""
-        given = tomllib.loads((SCENES / f"{self.scene}.toml").read_text(encoding="utf-8"))["parameters"]
-        return {name: value(entry) for name, entry in given.items()} | changes
-
-    def trace_scene(self, *options, tolerance=TRACED, text=None):
-        """Traces the scene of the library, or this text; path of the loci file."""
-        source = SCENES / f"{self.scene}.toml"
-        if text is not None:
-            source = self.write("scene.toml", text)
-        output = self.folder / "loci.h5"
-        self.run_well("trace", source, "-o", output, "--force", "--quiet", "--tolerance", tolerance, *options)
-        return output
-
-    def text(self):
-        return (SCENES / f"{self.scene}.toml").read_text(encoding="utf-8")
+        given = tomllib.loads(self.scene_text())["parameters"]
+        return {name: value(entry) for name, entry in given.items() if not isinstance(entry, str)} | changes
 
     def changed(self, **values):
         """The scene's text with other values of its parameters, in the scene's units."""
-        text = self.text()
+        text = self.scene_text()
         for name, number in values.items():
             text, count = re.subn(rf"(?m)^({name} *= *(?:{{ *value *= *)?)[-+.\de]+", rf"\g<1>{number!r}", text)
             self.assertEqual(count, 1, name)
@@ -75,7 +52,7 @@ class RotorTest(CommandTest):
             found.setdefault(place, []).append(s)
         return [np.array([s for s in found[float(place)] if not np.isnan(s)]) for place in places]
 
-    def assert_same_spectrum(self, actual, expected, tolerance=MET, reference=0.0, message=""):
+    def assert_same_spectrum(self, actual, expected, tolerance=CLOSE, reference=0.0, message=""):
         """As sets: every expected eigenvalue takes the nearest one that is left."""
         self.assertEqual(len(actual), len(expected), f"{message}: {actual} and {expected}")
         left = list(actual)
@@ -84,7 +61,7 @@ class RotorTest(CommandTest):
             error = abs(left.pop(nearest) - s) / max(abs(s), reference)
             self.assertLess(error, tolerance, f"{message}: {s} is missing in {actual}")
 
-    def assert_follows(self, file, expected, parameter, places, tolerance=MET, reference=0.0):
+    def assert_follows(self, file, expected, parameter, places, tolerance=CLOSE, reference=0.0):
         """Nodes, and dense output at `places`, have the spectrum expected(value of the parameter in the scene's unit)."""
         with h5py.File(file) as loci:
             nodes, at_nodes = loci[parameter][:], loci["eigenvalue"][:]
@@ -93,7 +70,7 @@ class RotorTest(CommandTest):
         for p, s in zip(places, self.spectra(file, places)):
             self.assert_same_spectrum(s, expected(p), tolerance, reference, f"{parameter} = {p}")
 
-    def events(self, file, kind):
+    def special_points(self, file, kind):
         """Parameter and eigenvalue of the events of a kind."""
         with h5py.File(file) as loci:
             kinds = [text.decode().split(",")[0] for text in loci["events"][:]]
@@ -105,13 +82,3 @@ class RotorTest(CommandTest):
             names = [text.decode() for text in loci["coordinate"][:]]
             columns = [names.index(f"{name}.{axis}") for axis in "xyz"]
             return loci["equilibrium"][:][:, columns]
-
-    def assert_uses(self, *effects):
-        """`explain` names these effects, and the trace evaluates no other."""
-        explained = self.run_well("explain", SCENES / f"{self.scene}.toml")
-        named, absent = explained[explained.index("effects"):explained.index("sizes")].split("absent, never evaluated: ")
-        self.assertEqual({line.split()[0] for line in named.splitlines()[1:] if line.strip()}, set(effects))
-        self.assertFalse(set(absent.strip().split(", ")) & set(effects))
-        summary = self.run_well("trace", SCENES / f"{self.scene}.toml", "-o", "summary.h5", "--tolerance", "1e-4")
-        counts = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
-        self.assertEqual({entry.split()[0] for entry in counts.split(", ")}, set(effects))

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from rotor_test_case import MET, RotorTest
+from rotor_test_case import RotorTest
+from scene_test_case import CLOSE
 
 
 def moments(p):
@@ -25,7 +26,7 @@ class TeeteringRotor(RotorTest):
     scene = "teetering_rotor"
 
     def check(self, parameter, begin, end, unit=1.0, text=None, **changes):
-        file = self.trace_scene("--parameter", parameter, "--from", repr(begin), "--to", repr(end), text=text)
+        file = self.trace_text(text or self.scene_text(), "--parameter", parameter, "--from", repr(begin), "--to", repr(end))
         self.assert_follows(file, lambda q: teeter(self.parameters(**changes, **{parameter: q * unit})), parameter,
                             np.linspace(begin, end, 20))
         return file
@@ -47,18 +48,18 @@ class TeeteringRotor(RotorTest):
         text = self.changed(**flat)
         file = self.check("omega", 5.0, 60.0, text=text[:text.index("[events]")] + text[text.index("[frame]"):], **flat)
         for omega, s in zip(np.linspace(5, 60, 20), self.spectra(file, np.linspace(5, 60, 20))):
-            self.assertAlmostEqual(s[0] / omega, 1j, delta=MET)
+            self.assertAlmostEqual(s[0] / omega, 1j, delta=CLOSE)
 
     def test_once_per_revolution_is_where_spring_and_cone_balance(self):
         p = self.parameters()
         _, B, z = moments(p)
         expected = math.sqrt((p["spring"] - 2 * p["mass"] * p["g"] * z) / (2 * B))
-        (omega, s), = self.events(self.trace_scene(), "resonance")
-        self.assertAlmostEqual(omega, expected, delta=MET * expected)
-        self.assertAlmostEqual(s.imag, expected, delta=MET * expected)
+        (omega, s), = self.special_points(self.trace_scene(), "resonance")
+        self.assertAlmostEqual(omega, expected, delta=CLOSE * expected)
+        self.assertAlmostEqual(s.imag, expected, delta=CLOSE * expected)
 
     def test_only_what_it_names_is_evaluated(self):
-        self.assert_uses("body", "frame", "gravity", "torsional_spring", "directors", "revolute", "weld")
+        self.check_effects("body", "frame", "gravity", "torsional_spring", "directors", "revolute", "weld")
 
 
 if __name__ == "__main__":
