@@ -13,7 +13,7 @@ def value(entry):
     """The number of a parameter, in SI; units that the scenes use."""
     if not isinstance(entry, dict):
         return entry
-    return entry["value"] * {"deg": np.pi / 180.0, "rpm": np.pi / 30.0, "mm": 1e-3, "g0": 9.80665}.get(entry.get("unit"), 1.0)
+    return entry["value"] * {"deg": np.pi / 180.0, "rpm": np.pi / 30.0, "mm": 1e-3, "GPa": 1e9}.get(entry.get("unit"), 1.0)
 
 
 def companion(M, C, K):
