@@ -36,7 +36,9 @@ def block_roots(f):
 
 
 def gap(roots):
-    return min(abs(a - b) for i, a in enumerate(roots) for b in roots[:i])
+    """The least distance of two roots; those that coincide need not be told apart."""
+    distances = [abs(a - b) for i, a in enumerate(roots) for b in roots[:i]]
+    return min((d for d in distances if d > 1e-7 * max(abs(roots))), default=np.inf)
 
 
 def assigned(known, roots):

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "commands.hpp"
+#include "eigentrail/continuation/effect_influence.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 struct ExplainArguments {
   std::string scene;
+  bool sensitivity = false;
   std::map<std::string, std::string> options;
 };
 
@@ -39,10 +42,14 @@ void print_parameters(const Model& model, int traced) {
 
 void print_effects(const Model& model) {
   std::vector<std::vector<std::string>> active;
+  if (model.description().effects.size() > 1) {
+    active.push_back({"  effect", "number", "formulas per linearization", ""});
+  }
   std::string absent;
   for (const Effect& effect : model.description().effects) {
     if (effect.count > 0) {
-      active.push_back({"  " + effect.name, std::to_string(effect.count), effect.description});
+      active.push_back({"  " + effect.name, std::to_string(effect.count), std::to_string(effect.evaluations),
+                        effect.description});
     } else {
       absent += (absent.empty() ? "" : ", ") + effect.name;
     }
@@ -50,6 +57,45 @@ void print_effects(const Model& model) {
   std::printf("effects\n");
   print_table(active);
   if (!absent.empty()) std::printf("    absent, never evaluated: %s\n", absent.c_str());
+}
+
+/// Ranks the effects by what they do to each mode.
+void print_influences(const Influences& influences, const std::string& at) {
+  std::printf(
+      "influence of each effect on each mode at %s\n"
+      "    change of s, relative to abs(s), per relative growth of the effect; the equilibrium follows\n",
+      at.c_str());
+  for (Eigen::Index i = 0; i < influences.s.size(); ++i) {
+    const Complex s = influences.s[i];
+    std::vector<const EffectInfluence*> ranked;
+    for (const EffectInfluence& influence : influences.effects) ranked.push_back(&influence);
+    std::stable_sort(ranked.begin(), ranked.end(), [i](const auto* a, const auto* b) {
+      return std::abs(a->derivatives[i]) > std::abs(b->derivatives[i]);
+    });
+    std::printf("  mode %lld  %s\n", static_cast<long long>(i + 1),
+                complex_text(s.real(), s.imag(), 8).c_str());
+    std::vector<std::vector<std::string>> rows;
+    for (const EffectInfluence* influence : ranked) {
+      const Complex change = influence->derivatives[i] / (std::abs(s) > 0.0 ? std::abs(s) : 1.0);
+      if (std::isnan(change.real())) {
+        rows.push_back({"    " + influence->effect, "none: a multiple eigenvalue has no derivative"});
+      } else {
+        rows.push_back({"    " + influence->effect, rounded(std::abs(change), 3),
+                        "real " + rounded(change.real(), 3), "imag " + rounded(change.imag(), 3)});
+      }
+    }
+    print_table(rows);
+  }
+}
+
+void explain_sensitivity(const ExplainArguments& arguments) {
+  const TraceSetup setup =
+      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()}, true);
+  if (is_matrix_family(setup.scene))
+    throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
+  const Influences influences = effect_influences(setup);
+  if (!influences.fault.empty()) throw InputError(arguments.scene + ": " + influences.fault);
+  print_influences(influences, setup.options.parameter + " = " + exact_text(setup.options.from));
 }
 
 void print_structure(const Structure& structure, bool has_constraints, const std::string& parameter) {
@@ -141,6 +187,7 @@ int run_explain(const ExplainArguments& arguments) {
   print_solvers(*model, structure, {freedoms, modes, !options.modes, options.order.value_or(cheapest)},
                 !options.order);
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
+  if (arguments.sensitivity) explain_sensitivity(arguments);
   return done;
 }
 
@@ -151,12 +198,17 @@ void add_explain(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  for (const std::string name : {"parameter", "from", "to", "modes", "order"}) {
+  command->add_flag("--sensitivity", arguments->sensitivity,
+                    "rank the effects by their influence on each mode where the trace begins");
+  for (const std::string name : {"parameter", "from", "to", "modes", "order", "without"}) {
     command->add_option_function<std::string>(
         "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
         "as for trace (overrides the scene)");
   }
-  command->footer("Example:\n  eigentrail explain data/scenes/rotating_mass.toml");
+  command->footer(
+      "Examples:\n"
+      "  eigentrail explain data/scenes/rotating_mass.toml\n"
+      "  eigentrail explain data/scenes/rotating_mass.toml --sensitivity --without drag");
   command->callback([arguments, &exit_code] { exit_code = run_explain(*arguments); });
 }
 

@@ -88,14 +88,21 @@ def draw_modes(axes, loci, part, settings, run):
                   linewidth=1.6, label=label, zorder=2)
 
 
+def described(kind, direction):
+    if kind == "extremum":
+        return "least damping ratio" if direction > 0 else "largest damping ratio"
+    return kind.replace("_", " ")
+
+
 def draw_events(axes, loci, part, settings, done):
     shown = settings.get("events", SHOWN)
-    for kind, p, s in zip(loci.kinds, loci.data["event_parameter"], loci.data["event_eigenvalue"]):
+    for kind, p, s, direction in zip(loci.kinds, loci.data["event_parameter"], loci.data["event_eigenvalue"],
+                                     loci.data["event_direction"]):
         if kind not in shown or not np.isfinite(s):
             continue
         marker, colour = EVENTS[kind]
         value = f"{p:.4g}"
-        label = None if (kind, value) in done else f"{kind.replace('_', ' ')} at {value}"
+        label = None if (kind, value) in done else f"{described(kind, direction)} at {value}"
         done.add((kind, value))
         axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])), linestyle="none", marker=marker, color=colour, markersize=7,
                   markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
@@ -136,6 +143,11 @@ def result_picture(name, settings, runs):
                       linestyle=DASHES[k % len(DASHES)], linewidth=1.6, label=run.get("label"))
         axes.set(xlabel=xlabel, ylabel=coordinate.get("label", coordinate["name"]))
     grey = first.unstable() if len(runs) == 1 and settings.get("shade", True) else []
+    for mark in settings.get("marks", []):
+        for axes in all_axes:
+            axes.axvline(mark["at"], color="0.6", linewidth=0.8, linestyle=":", zorder=1)
+        all_axes[0].annotate(mark["text"], (mark["at"], mark.get("height", 0.05)), xycoords=("data", "axes fraction"), xytext=(4, 0),
+                             textcoords="offset points", fontsize=8.5, color="0.3")
     for axes in all_axes:
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_xlim(*settings.get("range", (min(min(l.p) for l, _ in runs), max(max(l.p) for l, _ in runs))))

@@ -139,8 +139,9 @@ class Sketch:
         for table in self.scene.tables("point_on_line"):
             at, axis = self.posture.place(table["from"]), self.posture.direction(table["axis"])
             on = self.posture.place(table["to"])
-            reach = max(abs(axis @ (on - at)) + 5 * self.u, 0.2 * self.size)
-            self.line([at - reach * axis, at + reach * axis], color="0.5", linewidth=1, zorder=0.5)
+            ends = axis @ (on - at)
+            self.line([at + (min(ends, 0) - 5 * self.u) * axis, at + (max(ends, 0) + 5 * self.u) * axis], color="0.5",
+                      linewidth=1, zorder=0.5)
             self.box(self.flat(on), self.view @ axis, 1.4, 0.8, "white")
 
     def direction(self, direction):
@@ -283,7 +284,9 @@ class Sketch:
         for table in self.scene.tables("gravity"):
             g = self.view @ self.scene.vector(table["acceleration"])
             if np.linalg.norm(g) > 0:
-                start = np.array([high[0] + 5 * self.u, (low[1] + high[1]) / 2 + 2.5 * self.u])
+                left = self.settings.get("gravity") == "left"
+                start = np.array([low[0] - 5 * self.u if left else high[0] + 5 * self.u,
+                                  (low[1] + high[1]) / 2 + 2.5 * self.u])
                 self.arrow(start, start + 5 * self.u * g / np.linalg.norm(g), "0.45", "g")
         for table in self.scene.tables("frame"):
             w = self.scene.vector(table["angular_velocity"])
@@ -295,6 +298,15 @@ class Sketch:
             self.line([a * e, b * e], color=FORCE, linewidth=0.9, dashes=(8, 2, 1, 2), zorder=0.4)
             self.turning(b * e, e, "Ω")
 
+    def shapes(self):
+        """Balls and discs of the settings, which say nothing about the physics: { at, radius } and { at, axis, radius }."""
+        for shape in self.settings.get("shapes", []):
+            at, radius = self.posture.place(shape["at"]), self.scene.number(shape["radius"])
+            if "axis" in shape:
+                self.disc(at, self.posture.direction(shape["axis"]), radius)
+            else:
+                self.axes.add_patch(Circle(self.flat(at), radius, facecolor=BODY, edgecolor=INK, linewidth=0.9, zorder=1.2))
+
     def names(self):
         """Texts of the settings: place, what it says, offset in points."""
         for label in self.settings.get("labels", []):
@@ -303,6 +315,7 @@ class Sketch:
 
     def draw(self):
         self.bodies()
+        self.shapes()
         self.points()
         self.rods()
         self.joints()

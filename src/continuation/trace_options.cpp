@@ -205,7 +205,7 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   table.fail(faults.front().key, message);
 }
 
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths) {
   check_top_level(scene);
   TraceSetup setup{std::move(scene), {}, nullptr};
   std::set<int> used;
@@ -219,7 +219,7 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides) {
     const double share = static_cast<double>(i - 1) / (checked_points - 1);
     points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
   }
-  setup.model = build_model(setup.scene, {points, used, options.without});
+  setup.model = build_model(setup.scene, {points, used, options.without, strengths});
   return setup;
 }
 

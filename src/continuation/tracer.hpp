@@ -49,7 +49,7 @@ class Tracer {
   bool start();
   /// From here on series have this order.
   void use_order(int order);
-  std::optional<std::vector<StartingMode>> starting_modes(const ReducedPencil& pencil);
+  std::optional<std::vector<StartingMode>> starting_modes(const PathPoint& point);
   bool start_tracks(PathPoint& point, const std::vector<StartingMode>& modes, std::optional<PathNode>& node);
 
   // tracer.cpp: the loop.

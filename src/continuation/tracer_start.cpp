@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "continuation/idle_freedom.hpp"
 #include "continuation/regrouping.hpp"
 #include "continuation/starting_tracks.hpp"
 #include "continuation/tracer.hpp"
@@ -29,7 +30,7 @@ bool Tracer::start() {
   const int cheapest = cheapest_order({result_.n_independent, options_.certify}, options_.tolerance);
   use_order(options_.order.value_or(cheapest));
   bridge_start(point);
-  const auto modes = starting_modes(point.pencil);
+  const auto modes = starting_modes(point);
   if (!modes) return false;
   std::optional<PathNode> node;
   if (!start_tracks(point, *modes, node)) return false;
@@ -52,7 +53,8 @@ void Tracer::use_order(int order) {
 
 /// All modes by ascending |s|, how many of them are followed, and the magnitudes that count as zero and
 /// infinite.
-std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPencil& pencil) {
+std::optional<std::vector<StartingMode>> Tracer::starting_modes(const PathPoint& point) {
+  const ReducedPencil& pencil = point.pencil;
   const StageTimer timer(result_.counts.modes_seconds);
   // Vectors of a few modes are cheaper one by one.
   const bool few = options_.modes && few_share * *options_.modes < static_cast<double>(pencil.size());
@@ -63,10 +65,13 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const ReducedPen
   result_.n_available = static_cast<int>(spectrum.modes.size());
   const std::string where = " at " + at_parameter(options_.from);
   if (spectrum.status == SpectrumStatus::singular_pencil) {
+    const std::string idle = idle_coordinate(problem_.model, point);
     stop(TraceStatus::singular_pencil,
-         "the pencil is singular" + where +
-             ": every number is an eigenvalue. A freedom "
-             "without mass, damping and stiffness causes this; remove or constrain it");
+         "the pencil is singular" + where + ": every number is an eigenvalue. " +
+             (idle.empty() ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
+                           : "A freedom that moves '" + idle +
+                                 "' has no mass or inertia, no damping and no stiffness; give it inertia, or hold it by "
+                                 "a joint"));
     return std::nullopt;
   }
   if (spectrum.status != SpectrumStatus::complete) {

@@ -98,7 +98,8 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
       placed.element.force(view);
       for (std::size_t i = 0; i < arguments.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-          blocks.add(matrix, placed.arguments[i], axis, from, component % 3, -view.force(i)[axis][1]);
+          blocks.add(matrix, placed.arguments[i], axis, from, component % 3,
+                     blocks.times(placed.strength, -view.force(i)[axis][1]));
         }
       }
     }
@@ -121,7 +122,8 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
   for (std::size_t i = 0; i < placed.arguments.size(); ++i) {
     for (const Term& row : placed.arguments[i].terms) {
       for (int axis = 0; axis < 3; ++axis) {
-        add_entry<Real, Q>(sum.force, 3 * row.triple + axis, blocks.times(row.weight, -view.force(i)[axis]),
+        add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
+                           blocks.times(row.weight, blocks.times(placed.strength, -view.force(i)[axis])),
                            finite);
       }
     }

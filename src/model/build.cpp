@@ -20,6 +20,10 @@ void check_top_level(const Scene& scene) {
   }
 }
 
+std::string strength_parameter(const std::string& effect) {
+  return "strength of " + effect;
+}
+
 bool is_matrix_family(const Scene& scene) {
   return scene.root.find("matrix_family") != nullptr;
 }

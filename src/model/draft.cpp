@@ -16,6 +16,26 @@ Quantity Draft::quantity(const Expression& expression) {
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }
 
+Quantity Draft::strength(const std::string& effect) {
+  if (!request.strengths) return {};
+  const auto known = strengths.find(effect);
+  if (known != strengths.end()) return known->second;
+  const int index = static_cast<int>(scene.parameters.size() + strengths.size());
+  strength_names.push_back(effect);
+  return strengths[effect] = quantity(Expression::of_parameter(index));
+}
+
+Parameters Draft::parameters() const {
+  std::vector<Parameter> list;
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i) list.push_back(scene.parameters[i]);
+  for (const std::string& effect : strength_names) {
+    Parameter& strength = list.emplace_back();
+    strength.name = strength_parameter(effect);
+    strength.value = 1.0;
+  }
+  return Parameters(std::move(list));
+}
+
 Place Draft::on_body(int body, const ExpressionVector& at) {
   const int origin = bodies[static_cast<std::size_t>(body)].triple;
   Place place = direction_on({body, -1}, at);

@@ -43,10 +43,16 @@ struct Draft {
   std::vector<Expression> guess;  ///< one per coordinate
   std::vector<std::string> constraint_names;
   std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by the joint's label
+  std::map<std::string, Quantity> strengths;                    ///< by effect, where they are asked for
+  std::vector<std::string> strength_names;                      ///< in the order of their parameters
 
   TableReader reader(const Table& table, const std::string& label) { return {scene, table, label, used}; }
 
   Quantity quantity(const Expression& expression);
+  /// What multiplies the forces of an effect.
+  Quantity strength(const std::string& effect);
+  /// The scene's parameters and those of the strengths.
+  Parameters parameters() const;
   std::array<Quantity, 3> vector(const ExpressionVector& e) {
     return {quantity(e[0]), quantity(e[1]), quantity(e[2])};
   }

@@ -126,7 +126,8 @@ template <class Element>
 void add_element(Draft& draft, Element element, std::string label) {
   const auto& without = draft.request.without;
   if (std::find(without.begin(), without.end(), Element::name) != without.end()) return;
-  Placed<Element> placed{std::move(element), std::move(label), {}};
+  Placed<Element> placed{
+      std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
   ArgumentCollector collector(placed.arguments);
   Element::fields(placed.element, collector);
   std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
@@ -251,17 +252,24 @@ ModelDescription describe(const Draft& draft) {
     for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
   }
   description.constraint_names = draft.constraint_names;
-  description.parameters = draft.scene.parameters;
+  description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+    constexpr Dependence depends = Element::depends;
+    constexpr int motions = int{depends.position} + int{depends.velocity} + int{depends.acceleration};
+    int evaluations = 0;
+    for (const Placed<Element>& placed : list)
+      evaluations += 3 * motions * static_cast<int>(placed.arguments.size());
     description.effects.push_back({std::string(Element::name), std::string(Element::description),
-                                   static_cast<int>(list.size()), Element::contribution});
+                                   static_cast<int>(list.size()), Element::contribution, evaluations});
   });
-  const auto& kinds = constraint_kinds();
-  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    const auto count = std::count_if(draft.data.constraints.begin(), draft.data.constraints.end(),
-                                     [&](const Constraint& c) { return c.kind == static_cast<int>(kind); });
-    description.effects.push_back({std::string(kinds[kind].name), std::string(kinds[kind].description),
-                                   static_cast<int>(count), Contribution{.constraint = true}});
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    description.effects.push_back(
+        {std::string(kind.name), std::string(kind.description), 0, Contribution{.constraint = true}});
+  }
+  for (const Constraint& constraint : draft.data.constraints) {
+    Effect& effect = description.effects[Elements::kinds + static_cast<std::size_t>(constraint.kind)];
+    ++effect.count;
+    effect.evaluations += static_cast<int>(constraint.rows.size());
   }
   return description;
 }
@@ -320,7 +328,7 @@ std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& re
         "come from the inertia of the body itself");
   }
   reject_unused_parameters(scene, draft.used);
-  draft.data.parameters = scene.parameters;
+  draft.data.parameters = draft.parameters();
   draft.data.n_coordinates = static_cast<int>(draft.guess.size());
   ModelDescription description = describe(draft);
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));

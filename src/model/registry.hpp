@@ -30,6 +30,7 @@ struct Placed {
   Element element;
   std::string label;             ///< the scene's name for it, or "spring 2"
   std::vector<Place> arguments;  ///< moving vectors it joins, each once; Place::argument is the index
+  Quantity strength = {};        ///< multiplies its forces; no slot: one
 };
 
 template <class... Element>

@@ -239,6 +239,13 @@ Expression Expression::parse(std::string_view text, const std::vector<std::strin
   return ExpressionParser(text, names).parse();
 }
 
+Expression Expression::of_parameter(int index) {
+  Expression result;
+  result.code_ = {{Op::parameter, 0.0, index}};
+  result.parameters_ = {index};
+  return result;
+}
+
 Expression Expression::folded() const {
   return is_constant() ? Expression(evaluate(std::span<const double>())) : *this;
 }

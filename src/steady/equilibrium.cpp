@@ -231,7 +231,16 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   for (const double rest : {1e-2, 1e-5, 1e-8}) {
     RelaxationOptions relaxation;
     relaxation.tolerance = rest;
-    if (!relax(model, parameters, relaxation, rested, reactions, counts)) return result;
+    const RelaxationResult relaxed_guess = relax(model, parameters, relaxation, rested, reactions, counts);
+    if (!relaxed_guess.unmet.empty()) {
+      result.report.message =
+          "no configuration near the starting guess meets all constraints: in the closest one "
+          "found " +
+          relaxed_guess.unmet +
+          "; check lengths, angles and starting positions, and constraints that contradict "
+          "each other";
+    }
+    if (!relaxed_guess.at_rest) return result;
     Equilibrium relaxed = solve_from(model, parameters, rested, reactions, options, counts);
     report.iterations += relaxed.report.iterations;
     report.factorizations += relaxed.report.factorizations;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "core/positive_or_one.hpp"
 
@@ -34,7 +35,8 @@ class Relaxation {
     path_.parameters = parameters;
   }
 
-  /// Moves x to the manifold by minimum-norm corrections, halved where they do not help.
+  /// Moves x to the manifold by minimum-norm corrections, halved where they do not help. Where that fails,
+  /// `unmet()` tells of the closest configuration.
   bool project(Vector& x, double length) {
     double share = 1.0;
     Vector start = x;
@@ -54,6 +56,7 @@ class Relaxation {
       const double size = miss.maxCoeff();
       if (!std::isfinite(size)) return false;
       if (size <= on_manifold) return true;
+      if (size < last) note_miss(residual.constraint.col(0), rows);
       if (size >= last) {
         share *= 0.5;
         if (share < 1e-3) return false;
@@ -69,6 +72,8 @@ class Relaxation {
     }
     return false;
   }
+
+  const std::string& unmet() const { return unmet_; }
 
   std::optional<Place> at(const Vector& x) {
     Place place;
@@ -91,9 +96,21 @@ class Relaxation {
   }
 
  private:
+  /// By how much coordinates must move at least to meet the constraint that is missed most.
+  void note_miss(const Vector& constraint, const Vector& rows) {
+    Eigen::Index worst = 0;
+    const double distance =
+        constraint.cwiseAbs().cwiseQuotient(rows.unaryExpr(&positive_or_one)).maxCoeff(&worst);
+    std::ostringstream text;
+    text << "the constraint '" << model_.description().constraint_names[static_cast<std::size_t>(worst)]
+         << "' is missed by " << distance << " (m for places, rad for directions)";
+    unmet_ = text.str();
+  }
+
   const Model& model_;
   EvaluationCounts& counts_;
   Path path_;
+  std::string unmet_;
 };
 
 /// The implicit step with the least damping from `delta` on that goes downhill.
@@ -112,11 +129,11 @@ Vector downhill_step(const Place& place, double scale, double& delta) {
 
 }  // namespace
 
-bool relax(const Model& model, const Vector& parameters, const RelaxationOptions& options, Vector& x,
-           Vector& lambda, EvaluationCounts& counts) {
+RelaxationResult relax(const Model& model, const Vector& parameters, const RelaxationOptions& options,
+                       Vector& x, Vector& lambda, EvaluationCounts& counts) {
   Relaxation relaxation(model, parameters, counts);
   const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
-  if (!relaxation.project(x, length)) return false;
+  if (!relaxation.project(x, length)) return {false, relaxation.unmet()};
   std::optional<Place> here = relaxation.at(x);
   double delta = first_delta;
   double largest_force = 0.0;
@@ -125,11 +142,11 @@ bool relax(const Model& model, const Vector& parameters, const RelaxationOptions
     lambda = here->lambda;
     // Without constraints the forces themselves vanish at rest.
     largest_force = std::max(largest_force, here->force);
-    if (here->pull.norm() <= options.tolerance * largest_force) return true;
+    if (here->pull.norm() <= options.tolerance * largest_force) return {true, {}};
     const double scale = positive_or_one(here->linearization.K[0].lpNorm<Eigen::Infinity>());
     Vector step = downhill_step(*here, scale, delta);
     const double size = step.lpNorm<Eigen::Infinity>();
-    if (!(size > 0.0)) return false;
+    if (!(size > 0.0)) return {};
     step *= std::min(1.0, options.longest_move * length / size);
     const Vector move = here->constraints.null_basis() * step;
     Vector ahead = here->x + move;
@@ -140,13 +157,13 @@ bool relax(const Model& model, const Vector& parameters, const RelaxationOptions
     const double behind = there ? (there->constraints.null_basis() * there->pull).dot(move) : -INFINITY;
     if (behind < -overshoot * before) {
       delta = std::max(4.0 * delta, 1e-3);
-      if (delta > largest_delta) return false;
+      if (delta > largest_delta) return {};
       continue;
     }
     delta = std::max(0.4 * delta, smallest_delta);
     here = std::move(there);
   }
-  return false;
+  return {};
 }
 
 }  // namespace eigentrail

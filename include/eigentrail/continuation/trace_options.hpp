@@ -97,8 +97,9 @@ struct TraceSetup {
   int traced() const { return scene.parameters.index(options.parameter).value(); }
 };
 
-/// Reads the options and builds the model of a scene. Throws InputError for every fault of either.
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides);
+/// Reads the options and builds the model of a scene, with `strengths` of its effects as further parameters.
+/// Throws InputError for every fault of either.
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths = false);
 
 /// Every option as text, for provenance; options that were not given read "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);

@@ -17,12 +17,18 @@ struct ModelRequest {
   std::vector<Vector> check_at;
   std::set<int> used_elsewhere = {};      ///< parameters that need no use in the model
   std::vector<std::string> without = {};  ///< effects of the scene that are switched off
+  /// Adds a parameter for every effect of the scene that is no constraint, strength_parameter(name), which is
+  /// one and multiplies its forces: sensitivities to it tell what the effect does.
+  bool strengths = false;
 };
 
 /// Builds the model that a scene describes: a multibody system, or a family of matrices when the scene has
 /// [matrix_family]. Throws InputError for every fault of the scene, unknown keys and unused parameters
 /// included.
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request);
+
+/// Name of the parameter that multiplies an effect; no scene can use it.
+std::string strength_parameter(const std::string& effect);
 
 /// Rejects top-level keys that no scene has, naming the nearest known one. Done before anything else is read,
 /// so that a misspelt table is not reported as a missing one.

@@ -33,6 +33,7 @@ struct Effect {
   std::string description;    ///< one line
   int count = 0;              ///< how often the scene names it; 0: absent, never evaluated
   Contribution contribution;  ///< of each of them
+  int evaluations = 0;        ///< of its formula (constraints: rows) for all of them in one linearization
 };
 
 /// What is known about the pencil before a number is computed, for a given traced parameter.

@@ -63,6 +63,9 @@ class Expression {
 
   Expression(double constant = 0.0) : code_{{Op::number, constant}} {}  // NOLINT: numbers are expressions
 
+  /// The parameter of that index.
+  static Expression of_parameter(int index);
+
   /// Compiles `text`; a name in it means the parameter at the same index of `names`.
   /// Throws ExpressionError with the offset of the fault.
   static Expression parse(std::string_view text, const std::vector<std::string>& names);

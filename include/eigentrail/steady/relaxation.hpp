@@ -22,8 +22,15 @@ struct RelaxationOptions {
   double longest_move = 0.2;  ///< of a step, in units of the largest coordinate, > 0
 };
 
-/// Relaxes x from any guess; `lambda` becomes the least-squares multipliers. Returns whether it came to rest.
-bool relax(const Model& model, const Vector& parameters, const RelaxationOptions& options, Vector& x,
-           Vector& lambda, EvaluationCounts& counts);
+struct [[nodiscard]] RelaxationResult {
+  bool at_rest = false;
+  /// Where no configuration was found that meets the constraints: which one is missed most by the closest,
+  /// and by how much. Empty otherwise.
+  std::string unmet;
+};
+
+/// Relaxes x from any guess; `lambda` becomes the least-squares multipliers.
+RelaxationResult relax(const Model& model, const Vector& parameters, const RelaxationOptions& options,
+                       Vector& x, Vector& lambda, EvaluationCounts& counts);
 
 }  // namespace eigentrail

@@ -1,0 +1,90 @@
+#include "eigentrail/continuation/effect_influence.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+
+#include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a multiple eigenvalue.
+constexpr double multiple = 1e-8;
+
+/// A mode with both its vectors, and P'(s).
+struct ModeVectors {
+  Complex s;
+  ComplexVector right, left;
+  Complex denominator;  ///< y* P'(s) z
+  double magnitude;     ///< what it is measured by
+};
+
+ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
+  const ComplexMatrix P = s * s * pencil.M[0] + s * pencil.C[0] + pencil.K[0];
+  const ComplexMatrix derivative = 2.0 * s * pencil.M[0] + pencil.C[0].cast<Complex>();
+  const Eigen::JacobiSVD<ComplexMatrix> svd(P, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Index last = P.cols() - 1;
+  const ComplexVector z = svd.matrixV().col(last);
+  const ComplexVector y = svd.matrixU().col(last);
+  return {s, z, y, y.dot(derivative * z), derivative.norm()};
+}
+
+Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
+  const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
+    return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));
+  };
+  if (!(std::abs(mode.denominator) > multiple * mode.magnitude))
+    return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Index n = pencil.size();
+  const ComplexMatrix change =
+      mode.s * mode.s * along(pencil.M, n) + mode.s * along(pencil.C, n) + along(pencil.K, n);
+  return -mode.left.dot(change * mode.right) / mode.denominator;
+}
+
+}  // namespace
+
+Influences effect_influences(const TraceSetup& setup) {
+  Influences result;
+  PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  problem.order = 1;
+  RunCounts counts;
+  const double from = setup.options.from;
+  const Vector guess = setup.model->initial_guess(parameters_at(problem, from));
+  PathPoint point = reduce_at(problem, from, {guess, Vector()}, Matrix(), counts);
+  if (point.status != PointStatus::computed) {
+    result.fault = point.message;
+    return result;
+  }
+  const Spectrum spectrum = compute_eigenvalues(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) {
+    result.fault = "there are no modes where the trace begins";
+    return result;
+  }
+  std::vector<ModeVectors> modes;
+  for (const StartingMode& mode : spectrum.modes) {
+    if (setup.options.modes && static_cast<int>(modes.size()) == *setup.options.modes) break;
+    modes.push_back(vectors_of(point.pencil, mode.s));
+  }
+  result.s.resize(static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) result.s[static_cast<Eigen::Index>(i)] = modes[i].s;
+  const Parameters& parameters = setup.model->description().parameters;
+  for (const Effect& effect : setup.model->description().effects) {
+    const auto strength = parameters.index(strength_parameter(effect.name));
+    if (!strength) continue;
+    const auto node = differentiate_point(problem, point, *strength, counts);
+    if (!node) {
+      result.fault =
+          "the derivative with respect to the " + strength_parameter(effect.name) + " is not finite";
+      return result;
+    }
+    EffectInfluence influence{effect.name, ComplexVector(result.s.size())};
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      influence.derivatives[static_cast<Eigen::Index>(i)] = derivative(modes[i], node->pencil);
+    result.effects.push_back(std::move(influence));
+  }
+  return result;
+}
+
+}  // namespace eigentrail
