@@ -61,6 +61,17 @@ class GroundResonance(RotorTest):
         self.assertEqual(len(events), 2)
         np.testing.assert_allclose([rpm for rpm, _ in events], expected, rtol=CLOSE)
 
+    def test_damping_that_suffices_is_the_one_of_coleman_and_feingold(self):
+        """The instability shrinks to one speed where the largest growth over all speeds is zero."""
+        def unstable(damper):
+            return any(np.max(coleman_feingold(self.parameters(omega=rpm * RPM, lag_damper=damper)).real) > 0.0
+                       for rpm in np.linspace(150, 200, 501))
+        for damper in (1245.0, 1250.0):
+            found = self.special_points(self.trace_text(self.changed(lag_damper=damper), tolerance=1e-8), "flutter")
+            self.assertEqual(len(found), 2 if unstable(damper) else 0, damper)
+        self.assertTrue(unstable(1245.0))
+        self.assertFalse(unstable(1250.0))
+
     def test_full_dampers_keep_it_stable(self):
         """Hammond (1974): with 4068 N m s/rad at every blade there is no instability."""
         file = self.trace_text(self.changed(lag_damper=4067.5), "--from", "100")

@@ -10,7 +10,7 @@ from scene_test_case import CLOSE
 
 
 def blade(p):
-    """Flap, lag and pitch of a thin uniform plate (Johnson, Helicopter Theory, 1980, Sects. 5.6, 5.13, 9.3)."""
+    """Flap, lag and pitch of a thin uniform plate (Johnson, Helicopter Theory, 1980)."""
     e = p["offset"] * math.cos(p["precone"])
     S, flap, pitch = p["mass"] * p["span"] / 2, p["mass"] * p["span"]**2 / 3, p["mass"] * p["chord"]**2 / 12
     return 1j * np.array([p["omega"] * math.sqrt(1 + e * S / flap), p["omega"] * math.sqrt(e * S / (flap + pitch)),
