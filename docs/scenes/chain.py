@@ -61,7 +61,7 @@ acceleration = [0, 0, "-g"]
 
 
 def rotating(n):
-    """A cable of n links without weight, from the axis of a turning frame outwards, that flaps and lags; traced over the speed."""
+    """A cable of n links without weight, hinged on the axis of a turning frame; it flaps and lags. Traced over the speed."""
     return f"""\
 title = "Rotating cable of {n} links"
 

@@ -116,8 +116,8 @@ def draw_events(axes, loci, part, settings, done):
         label = None if key in done else once or f"{described(kind, direction)} at {value}"
         done.add(key)
         scale = p * unit_factor(loci.unit) if settings.get("per") == "parameter" else 1.0
-        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])) / scale, linestyle="none", marker=marker, color=colour, markersize=11 if marker == "*" else 7,
-                  markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
+        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])) / scale, linestyle="none", marker=marker,
+                  color=colour, markersize=11 if marker == "*" else 7, markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
 
 
 def draw_harmonics(axes, loci, settings):
@@ -171,8 +171,8 @@ def result_picture(name, settings, runs):
     for mark in settings.get("marks", []):
         for axes in all_axes:
             axes.axvline(mark["at"], color="0.6", linewidth=0.8, linestyle=":", zorder=1)
-        all_axes[0].annotate(mark["text"], (mark["at"], mark.get("height", 0.05)), xycoords=("data", "axes fraction"), xytext=(4, 0),
-                             textcoords="offset points", fontsize=8.5, color="0.3")
+        all_axes[0].annotate(mark["text"], (mark["at"], mark.get("height", 0.05)), xycoords=("data", "axes fraction"),
+                             xytext=(4, 0), textcoords="offset points", fontsize=8.5, color="0.3")
     for axes in all_axes:
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_xlim(*settings.get("range", (min(min(l.p) for l, _ in runs), max(max(l.p) for l, _ in runs))))

@@ -98,7 +98,8 @@ BODIES = [
     scene("inertia that is not symmetric", "inertia = [0.1, 0.1, 0.1]",
           "§inertia = [[0.1, 0.01, 0], [0, 0.1, 0], [0, 0, 0.1]]", "[[body]] 2 inertia: must be symmetric"),
     scene("inertia of two numbers", "[0.1, 0.2, 0.25]", "[0.1, 0.2]",
-          "[[body]] 1 inertia: expected [Ixx, Iyy, Izz] or a 3 x 3 matrix") + (("inertia = [0.1, 0.2]", "§inertia = [0.1, 0.2]"),),
+          "[[body]] 1 inertia: expected [Ixx, Iyy, Izz] or a 3 x 3 matrix")
+    + (("inertia = [0.1, 0.2]", "§inertia = [0.1, 0.2]"),),
     scene("inertia that stops being one within the range", "inertia = [0.1, 0.1, 0.1]",
           '§inertia = [0.1, 0.1, "0.05 * omega"]', "[[body]] 2 inertia: no body has it", "where the trace ends"),
     scene("parallel axes", "y_axis = [0, 1, 0]", "§y_axis = [0, 0, 2]", "[[body]] 1 y_axis: must not be parallel to x_axis"),
@@ -109,7 +110,8 @@ BODIES = [
     scene("axes and an angle", "y_axis = [0, 1, 0]\n", "y_axis = [0, 1, 0]\naxis_angle = { axis = [0, 1, 0], angle = 1 }\n",
           "an orientation is given once") + (("x_axis = [0, 0, -1]", "§x_axis = [0, 0, -1]"),),
     scene("angle and Euler angles", "position = [0, 0, -1.5]",
-          'position = [0, 0, -1.5]\naxis_angle = { axis = [0, 1, 0], angle = 1 }\n§euler = { sequence = "zyx", angles = [0, 0, 1] }',
+          'position = [0, 0, -1.5]\naxis_angle = { axis = [0, 1, 0], angle = 1 }\n'
+          '§euler = { sequence = "zyx", angles = [0, 0, 1] }',
           "[[body]] 2 euler: an orientation is given once"),
     scene("axis of zero length", "x_axis = [0, 0, -1]", "§x_axis = [0, 0, 0]",
           "[[body]] 1 x_axis: must not be the zero vector"),
@@ -138,8 +140,8 @@ JOINTS = [
                "[[point_on_plane]] 1 from: a point has no orientation; the plane needs a body or a fixed place"),
     scene("unknown marker", 'from = "blade.tip"', '§from = "blade.tipp"',
           "[[universal]] 1 from: no point, body or marker is called 'blade.tipp'", "did you mean 'blade.tip'?"),
-    scene("unknown body", 'to = "blade"\n', '§to = "bladee"\n', "[[revolute]] 1 to: no point, body or marker is called 'bladee'",
-          "did you mean 'blade'?"),
+    scene("unknown body", 'to = "blade"\n', '§to = "bladee"\n',
+          "[[revolute]] 1 to: no point, body or marker is called 'bladee'", "did you mean 'blade'?"),
     scene("unknown body under a place", 'to = { body = "second", at', 'to = { §body = "sekond", at',
           "body: no body is called 'sekond'", "did you mean 'second'?"),
     scene("place without at", 'to = { body = "second", at = [0, 0, 0.5] }', 'to = §{ body = "second" }', "at: is missing"),
@@ -208,7 +210,8 @@ EFFECTS = [
     scene_with("lift along the chord", '[[blade_element]]\nbody = "blade"\nroot = [0, 0, 0]\ntip = [1, 0, 0]\n'
                "leading = [0, 1, 0]\n§lift = [0, -2, 0]\nchord = 0.1", "lift: must not be parallel to leading"),
     scene_with("blade of an unknown body", '[[blade_element]]\n§body = "blades"\nroot = [0, 0, 0]\ntip = [1, 0, 0]\n'
-               "leading = [0, 1, 0]\nlift = [0, 0, 1]\nchord = 0.1", "body: no body is called 'blades'", "did you mean 'blade'?"),
+               "leading = [0, 1, 0]\nlift = [0, 0, 1]\nchord = 0.1",
+               "body: no body is called 'blades'", "did you mean 'blade'?"),
     scene_with("bearing with three stiffnesses", '[[bearing]]\npoint = "blade.tip"\nseat = [0, 0, -1]\nfirst = [1, 0, 0]\n'
                "second = [0, 1, 0]\n§stiffness = [1, 2, 3]\ndamping = [[0, 0], [0, 0]]",
                "[[bearing]] 1 stiffness: expected a 2 x 2 matrix"),

@@ -35,7 +35,6 @@ class DoublePendulum(SceneTest):
 
     def test_of_equal_rods(self):
         """omega^2 = 3 g/l (1 +- 2/sqrt 7), a textbook's value."""
-        path = self.trace_scene("--parameter", "l2", "--from", "1", "--to", "1.5")
         text = edited(self.scene_text(), "m2 = { value = 1.0", "m2 = { value = 2.0")
         path = self.trace_text(text, "--from", "1", "--to", "1.5")
         expected = [math.sqrt(3 * G * (1 - 2 / math.sqrt(7))), math.sqrt(3 * G * (1 + 2 / math.sqrt(7)))]

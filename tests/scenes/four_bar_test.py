@@ -97,7 +97,8 @@ class FourBar(SceneTest):
 
     def test_the_numbers_do_not_depend_on_redundancy(self):
         """One hinge as a ball joint, another as a universal one: nothing redundant, the same frequency."""
-        universal = edited(self.scene_text(), '[[revolute]]\nname = "B"', '[[universal]]\nname = "B"\ncross_axis = "coupler.z"')
+        universal = edited(self.scene_text(), '[[revolute]]\nname = "B"',
+                           '[[universal]]\nname = "B"\ncross_axis = "coupler.z"')
         ball = universal.replace('[[revolute]]\nname = "C"\nfrom = "coupler.end"\nto = "rocker.end"\naxis = [0, 1, 0]',
                                  '[[ball]]\nname = "C"\nfrom = "coupler.end"\nto = "rocker.end"')
         self.assertNotEqual(ball, universal)

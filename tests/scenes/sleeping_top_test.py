@@ -32,9 +32,8 @@ def upper(s):
 class SleepingTop(SceneTest):
     scene = "sleeping_top"
 
-    def at_rest(self, joint=None):
-        text = edited(self.scene_text(), '[frame]\nangular_velocity = [0, 0, "spin"]\n', AT_REST)
-        return text if joint is None else edited(text, "[[universal]]", joint)
+    def at_rest(self):
+        return edited(self.scene_text(), '[frame]\nangular_velocity = [0, 0, "spin"]\n', AT_REST)
 
     def check_roots(self, path, shift, places):
         found = self.eval_at(path, places)
