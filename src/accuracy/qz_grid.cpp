@@ -11,7 +11,7 @@ namespace {
 struct GridPoint {
   ComplexVector s;
   ComplexMatrix shapes;  ///< columns: v = T z
-  Matrix mass;           ///< weight of the modal assurance criterion
+  SystemMatrix mass;     ///< weight of the modal assurance criterion
 };
 
 GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {

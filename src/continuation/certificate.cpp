@@ -223,6 +223,17 @@ class Tube {
 
 }  // namespace
 
+namespace {
+
+/// G^T B G up to h^order as `project` has it, by BLAS.
+MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order) {
+  const auto count = static_cast<std::size_t>(order) + 1;
+  const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
+  return transposed_product(G, BG, std::min(count, BG.size() + G.size() - 1));
+}
+
+}  // namespace
+
 StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length)
     : left_(left), length_(length), count_(0), right_(right.pencil) {
   for (const ReducedPencil* pencil : {&left.pencil, &right.pencil}) {
@@ -241,6 +252,11 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
     overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
   const TangentBasis change{inverse_series(overlap), false};
   const int order = static_cast<int>(count_) - 1;
+  if (right.linearization.K[0].is_sparse()) {  // a large model
+    right_ = {congruence(change.T, right.pencil.M, order), congruence(change.T, right.pencil.C, order),
+              congruence(change.T, right.pencil.K, order)};
+    return;
+  }
   right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
             project(change, right.pencil.K, order)};
 }

@@ -56,6 +56,9 @@ class RootsOnStep {
  private:
   static constexpr int degree = 12;
   static constexpr double resolved = 1e-4;
+  /// A kink takes some thirty pieces. A gap of more is rounding: the two are one, as at s = 0 where no force
+  /// acts.
+  static constexpr int most_pieces = 2000;
 
   Complex distance(double t) {
     const ComplexVector& roots = sampler_(t);
@@ -93,7 +96,8 @@ class RootsOnStep {
   }
 
   void search(double begin, double end) {
-    if (stay_apart(begin, end)) return;
+    if (pieces_ > most_pieces || stay_apart(begin, end)) return;
+    if (++pieces_ > most_pieces) roots_.clear();
     const double length = end - begin;
     if (length < smallest_piece) {
       if (roots_.empty() || std::abs(begin - roots_.back()) > 10.0 * smallest_piece) roots_.push_back(begin);
@@ -122,6 +126,7 @@ class RootsOnStep {
   StrandSampler& sampler_;
   int a_, b_;
   double coinciding_, off_axis_;
+  int pieces_ = 0;
   std::vector<Complex> roots_;
 };
 

@@ -1,6 +1,6 @@
 #include "continuation/idle_freedom.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 
 #include "core/positive_or_one.hpp"
 
@@ -13,14 +13,23 @@ constexpr double idle = 1e-12;  ///< share of the largest entry below which a ma
 
 std::string idle_coordinate(const Model& model, const PathPoint& point) {
   const Eigen::Index n = point.pencil.size();
+  if (n == 0) return {};
   Matrix all(3 * n, n);
   all << point.pencil.M[0], point.pencil.C[0], point.pencil.K[0];
   for (Eigen::Index i = 0; i < 3; ++i) {
     all.middleRows(i * n, n) /= positive_or_one(all.middleRows(i * n, n).cwiseAbs().maxCoeff());
   }
-  const Eigen::JacobiSVD<Matrix> svd(all, Eigen::ComputeThinV);
-  if (svd.singularValues()[n - 1] > idle) return {};
-  const Vector v = svd.matrixV().col(n - 1);
+  Eigen::ColPivHouseholderQR<Matrix> qr(all);
+  qr.setThreshold(idle);
+  const Eigen::Index rank = qr.rank();
+  if (rank == n) return {};
+  // R11 v1 = -R12 e1: a vector that all three matrices take to zero.
+  Vector permuted = Vector::Zero(n);
+  permuted[rank] = 1.0;
+  const auto R = qr.matrixR();
+  permuted.head(rank) =
+      -R.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(R.col(rank).head(rank));
+  const Vector v = qr.colsPermutation() * permuted;
   const Vector motion = point.basis.is_identity ? v : Vector(point.basis.T[0] * v);
   Eigen::Index most = 0;
   motion.cwiseAbs().maxCoeff(&most);

@@ -126,9 +126,22 @@ void correct_modes(const PathProblem& problem, const Prediction& prediction, Pat
 
 namespace {
 
+/// T Z as real products with few columns; see `multiply`.
+std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
+                                                      const std::vector<ComplexMatrix>& Z) {
+  std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(T[0].rows(), Z[0].cols()));
+  for (std::size_t i = 0; i < T.size(); ++i) {
+    for (std::size_t j = 0; i + j < V.size(); ++j) V[i + j] += multiply(T[i], Z[j]);
+  }
+  return V;
+}
+
 /// Series of V = T Z.
-std::vector<ComplexMatrix> physical_series(const TangentBasis& basis, std::vector<ComplexMatrix> Z) {
+std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z) {
+  const TangentBasis& basis = node.basis;
   if (basis.is_identity) return Z;
+  // Of a large model a complex copy of the basis for every mode would take longer than the product.
+  if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
   std::vector<ComplexMatrix> T;
   for (const Matrix& coefficient : basis.T) T.emplace_back(coefficient.cast<Complex>());
   return multiply_series(T, Z, Z.size());
@@ -149,7 +162,7 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, Inva
                           ModeCounts& counts) {
   PairSeries series =
       differentiate_pair(node.pencil, pair, problem.order + 1, counts, problem.corrector.series_accuracy);
-  series.Z = physical_series(node.basis, std::move(series.Z));
+  series.Z = physical_series(node, std::move(series.Z));
   return make_track(std::move(pair), std::move(series));
 }
 
@@ -190,7 +203,7 @@ std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point,
                       : differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy,
                                           counts.modes);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    series[i].Z = physical_series(node.basis, std::move(series[i].Z));
+    series[i].Z = physical_series(node, std::move(series[i].Z));
     tracks[i] = make_track(point.pairs[i], std::move(series[i]));
   }
   return tracks;

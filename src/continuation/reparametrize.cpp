@@ -44,9 +44,10 @@ void reparametrize(PathNode& node, const PathPlane& plane, int traced) {
   const Vector sigma = coordinate_series(node.path, plane, traced, count);
   const Matrix table = power_table(reversion(sigma));
   compose(node.path, table);
-  for (MatrixSeries* series :
-       {&node.linearization.M, &node.linearization.C, &node.linearization.K, &node.linearization.A,
-        &node.basis.T, &node.pencil.M, &node.pencil.C, &node.pencil.K})
+  for (SystemSeries* series :
+       {&node.linearization.M, &node.linearization.C, &node.linearization.K, &node.linearization.A})
+    compose(*series, table);
+  for (MatrixSeries* series : {&node.basis.T, &node.pencil.M, &node.pencil.C, &node.pencil.K})
     compose(*series, table);
   for (Track& track : node.tracks) {
     compose_columns(track.functions, table);

@@ -68,7 +68,7 @@ bool Tracer::on_branch_point(double coordinate) const {
 std::optional<double> Tracer::expect_branch_point(double h, const PathNode* next) const {
   const auto test = [&](const PathNode& node, double distance, double& divisor) {
     divisor = plane_ ? slope(node.path.parameters, problem_.traced, distance) : 1.0;
-    return Determinant(evaluate_series(node.pencil.K, distance), Determinant::norm(node.linearization.K[0]));
+    return Determinant(evaluate_series(node.pencil.K, distance), node.linearization.K[0].one_norm());
   };
   double heading = 1.0;
   const Determinant begin = test(node_, within_step * h, heading);
@@ -100,7 +100,7 @@ std::optional<Tracer::Anchor> Tracer::anchor_at(const PathPoint& point) {
   if (!anchor.path.x.allFinite() || !anchor.path.lambda.allFinite()) return std::nullopt;
   anchor.coordinate = point.plane ? (*point.plane)(point.equilibrium.x, point.p) : point.p;
   anchor.heading = coefficient(anchor.path.parameters, problem_.traced, 1);
-  const Determinant stiffness(point.pencil.K[0], Determinant::norm(point.equilibrium.linearization.K[0]));
+  const Determinant stiffness(point.pencil.K[0], point.equilibrium.linearization.K[0].one_norm());
   anchor.sign = stiffness.sign;
   anchor.logarithm = stiffness.logarithm;
   return anchor;
@@ -117,9 +117,9 @@ std::optional<Tracer::Anchor> Tracer::anchor(double distance) {
 /// Multipliers count by their forces.
 Bridge::Sizes Tracer::bridge_sizes() {
   const double length = path_scales().x;
-  const double force = positive_or_one(node_.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
-  const Matrix& A = node_.linearization.A[0];
-  return {length, A.rows() > 0 ? force / positive_or_one(A.rowwise().norm().maxCoeff()) : 1.0, range()};
+  const double force = positive_or_one(node_.linearization.K[0].largest_entry() * length);
+  const Vector rows = node_.linearization.A[0].row_norms();
+  return {length, rows.size() > 0 ? force / positive_or_one(rows.maxCoeff()) : 1.0, range()};
 }
 
 /// Builds a bridge over the branch point that is expected at a distance from the last point.
@@ -165,7 +165,7 @@ bool Tracer::build_bridge(double guess, double h) {
 void Tracer::bridge_start(PathPoint& point) {
   const bool moves = !problem_.structure.fixed_equilibrium && !problem_.structure.known_equilibrium;
   if (!moves || point.pencil.size() == 0) return;
-  const double scale = Determinant::norm(point.equilibrium.linearization.K[0]);
+  const double scale = point.equilibrium.linearization.K[0].one_norm();
   if (Determinant(point.pencil.K[0], scale).sign != 0.0) return;
   std::optional<PathNode> node = differentiate_point(problem_, point, result_.counts);
   if (!node) return;

@@ -162,7 +162,7 @@ void Tracer::join_limiting_modes(double h, PathNode& next, double next_step) {
 /// the beginning of the step.
 Tracer::Trouble Tracer::check_identity(const PathNode& next) {
   const StageTimer timer(result_.counts.matching_seconds);
-  const Matrix& mass = next.linearization.M[0];
+  const SystemMatrix& mass = next.linearization.M[0];
   for (std::size_t i = 0; i < next.tracks.size(); ++i) {
     const Track& a = next.tracks[i];
     if (a.size() > 1) continue;

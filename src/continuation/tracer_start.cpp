@@ -15,6 +15,7 @@ namespace {
 
 constexpr double reference_share = 1e-3;  ///< s_ref / median |s| at the start
 constexpr double few_share = 4.0;         ///< freedoms per mode above which modes are few
+constexpr double no_force = 1e-16;        ///< 1/s^2: stiffness per mass that is rounding
 constexpr double infinity_share = 1e4;    ///< s_max / largest |s| at the start
 /// A start that moves by more than this, relatively, was no eigenvalue of its own.
 constexpr double largest_drift = 1e-2;
@@ -64,14 +65,25 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const PathPoint&
   result_.n_infinite = spectrum.n_infinite;
   result_.n_available = static_cast<int>(spectrum.modes.size());
   const std::string where = " at " + at_parameter(options_.from);
-  if (spectrum.status == SpectrumStatus::singular_pencil) {
-    const std::string idle = idle_coordinate(problem_.model, point);
+  const std::string idle = idle_coordinate(problem_.model, point);
+  if (spectrum.status == SpectrumStatus::singular_pencil || !idle.empty()) {
     stop(TraceStatus::singular_pencil,
          "the pencil is singular" + where + ": every number is an eigenvalue. " +
-             (idle.empty() ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
-                           : "A freedom that moves '" + idle +
-                                 "' has no mass or inertia, no damping and no stiffness; give it inertia, or hold it by "
-                                 "a joint"));
+             (idle.empty()
+                  ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
+                  : "A freedom that moves '" + idle +
+                        "' has no mass or inertia, no damping and no stiffness; give it inertia, or hold it "
+                        "by "
+                        "a joint"));
+    return std::nullopt;
+  }
+  const auto largest = [](const Matrix& matrix) {
+    return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
+  };
+  const double mass = largest(pencil.M[0]);
+  if (mass > 0.0 && std::max(largest(pencil.K[0]), largest(pencil.C[0])) <= no_force * mass) {
+    stop(TraceStatus::no_modes, "no force acts on the freedoms" + where +
+                                    ": all eigenvalues are zero, and there is nothing to follow");
     return std::nullopt;
   }
   if (spectrum.status != SpectrumStatus::complete) {

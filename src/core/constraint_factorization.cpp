@@ -1,8 +1,20 @@
 #include "eigentrail/core/constraint_factorization.hpp"
 
+#include "core/sparse_constraints.hpp"
+
 namespace eigentrail {
 
-ConstraintFactorization::ConstraintFactorization(const Matrix& A) {
+ConstraintFactorization::ConstraintFactorization(const SystemMatrix& A) {
+  if (A.is_sparse() && A.rows() > 0) sparse_ = SparseConstraints::factor(A.sparse());
+  if (!sparse_) {
+    factor_dense(A);
+    return;
+  }
+  rank_ = A.rows();
+  independence_ = sparse_->independence();
+}
+
+void ConstraintFactorization::factor_dense(const Matrix& A) {
   const Eigen::Index n = A.cols();
   if (A.rows() == 0) {
     null_basis_ = Matrix::Identity(n, n);
@@ -17,12 +29,22 @@ ConstraintFactorization::ConstraintFactorization(const Matrix& A) {
   null_basis_ = decomposition_.householderQ() * Matrix::Identity(n, n).rightCols(n - rank_);
 }
 
+const Matrix& ConstraintFactorization::null_basis() const {
+  return sparse_ ? sparse_->null_basis() : null_basis_;
+}
+
+Matrix ConstraintFactorization::allowed_part(const Matrix& X) const {
+  return sparse_ ? sparse_->allowed_part(X) : Matrix(null_basis_ * (null_basis_.transpose() * X));
+}
+
 Matrix ConstraintFactorization::pseudo_inverse_times(const Matrix& B) const {
+  if (sparse_) return sparse_->pseudo_inverse_times(B);
   if (B.rows() == 0) return Matrix::Zero(null_basis_.rows(), B.cols());
   return decomposition_.transpose().solve(row_scale_.asDiagonal() * B);
 }
 
 Vector ConstraintFactorization::transposed_pseudo_inverse_times(const Vector& b) const {
+  if (sparse_) return sparse_->transposed_pseudo_inverse_times(b);
   if (row_scale_.size() == 0) return Vector(0);
   return row_scale_.asDiagonal() * decomposition_.solve(b);
 }

@@ -39,6 +39,14 @@ ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   return y;
 }
 
+MatrixSeries series_product(char form, const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
+  MatrixSeries sum(count, Matrix::Zero(form == 'N' ? A[0].rows() : A[0].cols(), B[0].cols()));
+  for (std::size_t i = 0; i < A.size(); ++i) {
+    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) sum[i + j] += dgemm(form, A[i], B[j]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 Matrix product(const Matrix& A, const Matrix& B) {
@@ -47,6 +55,14 @@ Matrix product(const Matrix& A, const Matrix& B) {
 
 Matrix transposed_product(const Matrix& A, const Matrix& B) {
   return dgemm('T', A, B);
+}
+
+MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
+  return series_product('N', A, B, count);
+}
+
+MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
+  return series_product('T', A, B, count);
 }
 
 ComplexVector product(const ComplexMatrix& A, const ComplexVector& x) {

@@ -12,6 +12,10 @@ Matrix product(const Matrix& A, const Matrix& B);
 /// A^T B.
 Matrix transposed_product(const Matrix& A, const Matrix& B);
 
+/// A(h) B(h) and A(h)^T B(h), the first `count` coefficients.
+MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
+MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
+
 /// A x, A^H x.
 ComplexVector product(const ComplexMatrix& A, const ComplexVector& x);
 ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x);

@@ -36,4 +36,14 @@ Matrix power_table(const Vector& h) {
   return table;
 }
 
+void compose(SystemSeries& series, const Matrix& powers) {
+  if (series.size() <= 1) return;
+  const SystemSeries old = series;
+  series.assign(static_cast<std::size_t>(powers.cols()), old[0].zero());
+  for (std::size_t j = 0; j < old.size(); ++j) {
+    for (std::size_t k = 0; k < series.size(); ++k)
+      series[k].add_scaled(powers(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)), old[j]);
+  }
+}
+
 }  // namespace eigentrail

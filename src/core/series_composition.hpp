@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/core/system_matrix.hpp"
 
 namespace eigentrail {
 
@@ -33,5 +33,8 @@ void compose(std::vector<Coefficient>& series, const Matrix& powers) {
       series[k] += powers(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) * old[j];
   }
 }
+
+/// The same for coefficients that may be sparse.
+void compose(SystemSeries& series, const Matrix& powers);
 
 }  // namespace eigentrail

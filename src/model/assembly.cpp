@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "model/scatter.hpp"
+
 namespace eigentrail {
 namespace {
 
 template <class Real>
 using Columns = typename BasicPath<Real>::Columns;
-template <class Real>
-using Coefficients = typename BasicLinearization<Real>::Coefficients;
 
 template <class Real, int Q>
 std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
@@ -21,12 +21,10 @@ std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
 
 /// Adds a series to an entry of a matrix series and notes whether all its coefficients are finite.
 template <class Real, int Q>
-void add_entry(Coefficients<Real>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
+void add_entry(Scatter<Real, Q>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
   using std::isfinite;
-  for (int k = 0; k <= Q; ++k) {
-    sum[k](row, column) += value[k];
-    finite = finite && isfinite(value[k]);
-  }
+  sum.add(row, column, value);
+  for (int k = 0; k <= Q; ++k) finite = finite && isfinite(value[k]);
 }
 
 template <class Real, int Q>
@@ -38,12 +36,6 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Drops the trailing coefficients that are exactly zero: a constant keeps one.
-template <class Real>
-void trim(Coefficients<Real>& series) {
-  while (series.size() > 1 && series.back().isZero(Real(0.0))) series.pop_back();
-}
-
 /// Adds weight_b weight_a block, 3 x 3, for all shares of two moving vectors.
 template <class Real, int Q>
 class WeightedBlocks {
@@ -53,7 +45,7 @@ class WeightedBlocks {
   WeightedBlocks(const PathValues<Base>& values, bool& finite) : values_(values), finite_(finite) {}
 
   /// Entry (i, j) of the block in rows of `to` and columns of `from`.
-  void add(Coefficients<Real>& sum, const Place& to, int i, const Place& from, int j, const Base& value) {
+  void add(Scatter<Real, Q>& sum, const Place& to, int i, const Place& from, int j, const Base& value) {
     for (const Term& row : to.terms) {
       const Base weighted = times(row.weight, value);
       for (const Term& column : from.terms) {
@@ -83,14 +75,14 @@ std::array<Vec3<Base>, max_arguments> positions(const Placed<Element>& placed,
 /// The derivative of an element's force in each direction gives columns of M, C or K.
 template <class Real, int Q, class Element>
 bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
-                     BasicLinearization<Real>& sum) {
+                     LinearizationScatter<Real, Q>& sum) {
   using Base = Series<Real, Q>;
   using Scalar = Series<Base, 1>;
   bool finite = true;
   WeightedBlocks<Real, Q> blocks(values, finite);
   const auto all = positions(placed, values);
   const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
-  const auto differentiate = [&](bool depends, Motion motion, Coefficients<Real>& matrix) {
+  const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
     const int components = depends ? 3 * static_cast<int>(arguments.size()) : 0;
     for (int component = 0; component < components; ++component) {
       const Place& from = placed.arguments[static_cast<std::size_t>(component / 3)];
@@ -174,7 +166,7 @@ Series<Real, Q> evaluate_row(const ConstraintRow& row, const PathValues<Series<R
 /// Rows of A, and (A^T lambda)_/x (Eq. 18): lambda a_/q b_/q' for every two shares, and its transpose.
 template <class Real, int Q>
 bool linearize_constraint(const Constraint& constraint, const PathValues<Series<Real, Q>>& values,
-                          BasicLinearization<Real>& sum) {
+                          LinearizationScatter<Real, Q>& sum) {
   using Base = Series<Real, Q>;
   bool finite = true;
   const WeightedBlocks<Real, Q> blocks(values, finite);
@@ -214,11 +206,6 @@ bool constraint_residual(const Constraint& constraint, const PathValues<Series<R
     add_entry<Real, Q>(sum.constraint, index++, c, finite);
   }
   return finite;
-}
-
-template <class Real>
-Coefficients<Real> zero_series(int order, Eigen::Index rows, Eigen::Index columns) {
-  return Coefficients<Real>(static_cast<std::size_t>(order) + 1, Columns<Real>::Zero(rows, columns));
 }
 
 }  // namespace
@@ -268,19 +255,12 @@ EvaluationFault Assembly<Real, Q>::residual(BasicSteadyResidual<Real>& result,
 template <class Real, int Q>
 EvaluationFault Assembly<Real, Q>::linearize(BasicLinearization<Real>& result,
                                              EvaluationCounts& counts) const {
-  const int n = data_.n_coordinates;
-  result.M = zero_series<Real>(Q, n, n);
-  result.C = zero_series<Real>(Q, n, n);
-  result.K = zero_series<Real>(Q, n, n);
-  result.A = zero_series<Real>(Q, data_.n_constraints, n);
+  LinearizationScatter<Real, Q> sum(data_.n_coordinates, data_.n_constraints);
   const EvaluationFault fault = visit_all(
       counts.linearization,
-      [&](const auto& placed) { return linearize_force<Real, Q>(placed, values_, result); },
-      [&](const Constraint& c) { return linearize_constraint<Real, Q>(c, values_, result); });
-  trim<Real>(result.M);
-  trim<Real>(result.C);
-  trim<Real>(result.K);
-  trim<Real>(result.A);
+      [&](const auto& placed) { return linearize_force<Real, Q>(placed, values_, sum); },
+      [&](const Constraint& c) { return linearize_constraint<Real, Q>(c, values_, sum); });
+  result = sum.take();
   return fault;
 }
 

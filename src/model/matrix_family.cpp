@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace eigentrail {
 namespace {
@@ -34,9 +35,8 @@ auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Inde
               const ParameterSeries<Series<Real, Q>>& parameters, int order, bool& finite) {
   using std::isfinite;
   using Scalar = Series<Real, Q>;
-  using Coefficients = typename BasicLinearization<Real>::Coefficients;
-  using Coefficient = typename Coefficients::value_type;
-  Coefficients result(static_cast<std::size_t>(order) + 1, Coefficient::Zero(rows, columns));
+  using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  std::vector<Coefficient> result(static_cast<std::size_t>(order) + 1, Coefficient::Zero(rows, columns));
   Scalar power(1.0);
   for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
     for (int k = 0; k <= order; ++k) {
@@ -55,7 +55,8 @@ auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Inde
     power *= parameters.variable;
   }
   while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
-  return result;
+  return typename BasicLinearization<Real>::Coefficients(std::make_move_iterator(result.begin()),
+                                                         std::make_move_iterator(result.end()));
 }
 
 enum class Symmetry { symmetric, skew, none };

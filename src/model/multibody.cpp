@@ -32,6 +32,9 @@ class TracedRoles {
   void vector(const QuantityField& field, const std::array<Quantity, 3>& v) {
     for (const Quantity& q : v) add(q, field.enters);
   }
+  void strength(const Quantity& q, const Enters& role) {
+    if (q.slot >= 0) add(q, role);
+  }
   template <std::size_t N>
   void matrix(const QuantityField& field, const std::array<Quantity, N>& entries) {
     for (const Quantity& q : entries) add(q, field.enters);
@@ -110,7 +113,12 @@ Structure Multibody::structure(int traced_parameter) const {
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
     roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
-    for (const Placed<Element>& placed : list) Element::fields(placed.element, roles);
+    for (const Placed<Element>& placed : list) {
+      Element::fields(placed.element, roles);
+      roles.strength(placed.strength, {.mass = depends.acceleration,
+                                       .damping = depends.velocity,
+                                       .force = !Element::contribution.inertia});
+    }
     if (list.empty()) return;
     result.damped = result.damped || Element::contribution.dissipative;
     result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;

@@ -20,7 +20,7 @@ Vector mass_norms_squared(const ComplexMatrix& shapes, const ComplexMatrix& M_sh
 
 }  // namespace
 
-Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Matrix& M) {
+Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const SystemMatrix& M) {
   const double norm_M = M.norm();
   const ComplexMatrix MW = multiply(M, W);
   const Vector v = mass_norms_squared(V, multiply(M, V), norm_M);

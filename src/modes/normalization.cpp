@@ -6,12 +6,12 @@
 
 namespace eigentrail {
 
-double mass_norm_squared(const ComplexVector& v, const Matrix& M) {
+double mass_norm_squared(const ComplexVector& v, const SystemMatrix& M) {
   const double square = v.dot(multiply(M, v).col(0)).real();
   return square > 1e-12 * M.norm() * v.squaredNorm() ? square : 0.0;
 }
 
-ComplexVector normalize_shape(const ComplexVector& v, const Matrix& M, const ComplexVector& reference) {
+ComplexVector normalize_shape(const ComplexVector& v, const SystemMatrix& M, const ComplexVector& reference) {
   ComplexVector Mv = multiply(M, v);
   double square = mass_norm_squared(v, M);
   if (square == 0.0) {

@@ -1,10 +1,12 @@
 #include "eigentrail/modes/pencil_at_point.hpp"
 
 namespace eigentrail {
+namespace {
 
 /// As real matrix-vector products: a matrix product would first copy B into its own order, which costs more
 /// than the few columns themselves.
-ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
+template <class Real>
+ComplexMatrix multiply_columns(const Real& B, const ComplexMatrix& Z) {
   ComplexMatrix result(B.rows(), Z.cols());
   Vector part(Z.rows()), product(B.rows());
   for (Eigen::Index j = 0; j < Z.cols(); ++j) {
@@ -16,6 +18,16 @@ ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
     result.col(j).imag() = product;
   }
   return result;
+}
+
+}  // namespace
+
+ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
+  return multiply_columns(B, Z);
+}
+
+ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z) {
+  return B.visit([&](const auto& values) { return multiply_columns(values, Z); });
 }
 
 PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)

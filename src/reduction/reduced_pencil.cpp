@@ -2,25 +2,68 @@
 
 #include <algorithm>
 
-#include "core/matrix_series.hpp"
+#include "core/products.hpp"
 
 namespace eigentrail {
+namespace {
 
-MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
+/// The last order of a product, at most `order`, when its `factors` have `sum_of_sizes` coefficients
+/// together.
+std::size_t last_order(int order, std::size_t sum_of_sizes, std::size_t factors) {
+  return std::min<std::size_t>(static_cast<std::size_t>(order), sum_of_sizes - factors);
+}
+
+void add_product(Matrix& sum, const Matrix& B, const Matrix& X) {
+  sum.noalias() += B * X;
+}
+void add_product(Matrix& sum, const SystemMatrix& B, const Matrix& X) {
+  B.add_product_to(sum, X);
+}
+
+bool is_sparse(const MatrixSeries&) {
+  return false;
+}
+bool is_sparse(const SystemSeries& B) {
+  return B[0].is_sparse();
+}
+
+/// The first `count` coefficients of B(h) T(h).
+template <class Coefficient>
+MatrixSeries times_basis(const std::vector<Coefficient>& B, const MatrixSeries& T, std::size_t count) {
+  MatrixSeries product(count, Matrix::Zero(B[0].rows(), T[0].cols()));
+  for (std::size_t i = 0; i < B.size(); ++i) {
+    for (std::size_t j = 0; j < T.size() && i + j < count; ++j) add_product(product[i + j], B[i], T[j]);
+  }
+  return product;
+}
+
+template <class Coefficient>
+MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficient>& B, int order) {
   const MatrixSeries& T = basis.T;
-  const auto top = [order](std::size_t sum_of_sizes, std::size_t factors) {
-    return std::min<std::size_t>(static_cast<std::size_t>(order), sum_of_sizes - factors);
-  };
-  if (basis.is_identity) return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(top(B.size(), 1)) + 1};
-
-  const MatrixSeries BT = multiply_series(B, T, top(B.size() + T.size(), 2) + 1);
-  MatrixSeries result(top(BT.size() + T.size(), 2) + 1, Matrix::Zero(T[0].cols(), T[0].cols()));
+  if (basis.is_identity) {
+    return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(last_order(order, B.size(), 1)) + 1};
+  }
+  const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
+  const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
+  // Dense models keep to the products that they always had: their results do not change by a rounding.
+  if (is_sparse(B)) return transposed_product(T, BT, count);
+  MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {
     for (std::size_t j = 0; j < BT.size() && i + j < result.size(); ++j) {
       result[i + j].noalias() += T[i].transpose() * BT[j];
     }
   }
   return result;
+}
+
+}  // namespace
+
+MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
+  return project_any(basis, B, order);
+}
+
+MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order) {
+  return project_any(basis, B, order);
 }
 
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order) {

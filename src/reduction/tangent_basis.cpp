@@ -1,11 +1,34 @@
 #include "eigentrail/reduction/tangent_basis.hpp"
 
 #include <Eigen/Cholesky>
+#include <optional>
 #include <random>
+#include <utility>
+
+#include "core/products.hpp"
 
 namespace eigentrail {
+namespace {
+
+constexpr double least_rcond = 0.03;  ///< of the squared cosines between two tangent spaces
+
+/// The basis nearest to `previous`, orthonormal by Cholesky: P L^-T with P = (I - A+ A) previous and P^T P =
+/// L L^T. That is the basis below, without Q2: there W = Q2^T previous and Q2 W = P. Empty where the tangent
+/// space has turned too far.
+std::optional<Matrix> turned_basis(const ConstraintFactorization& constraints, const Matrix& previous) {
+  const Matrix P = constraints.allowed_part(previous);
+  const Eigen::LLT<Matrix> cholesky(transposed_product(P, P));
+  if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > least_rcond)) return std::nullopt;
+  const Matrix upper = cholesky.matrixU().solve(Matrix::Identity(P.cols(), P.cols()));
+  return product(P, upper);
+}
+
+}  // namespace
 
 TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Matrix& previous) {
+  if (constraints.is_sparse() && previous.cols() == previous.rows() - constraints.rank()) {
+    if (auto turned = turned_basis(constraints, previous)) return {{std::move(*turned)}, false};
+  }
   const Matrix& Q2 = constraints.null_basis();
   if (constraints.rank() == 0) return {{Q2}, true};
   if (previous.cols() != Q2.cols() || previous.rows() != Q2.rows()) return {{Q2}, false};
@@ -28,13 +51,13 @@ void randomize_basis(TangentBasis& basis, std::uint64_t seed) {
   basis.is_identity = false;
 }
 
-void differentiate_basis(const ConstraintFactorization& constraints, const MatrixSeries& A, int order,
+void differentiate_basis(const ConstraintFactorization& constraints, const SystemSeries& A, int order,
                          TangentBasis& basis) {
   basis.T.resize(1);
   if (A.size() == 1 || constraints.rank() == 0) return;
   for (int k = 1; k <= order; ++k) {
     Matrix sum = Matrix::Zero(A[0].rows(), basis.T[0].cols());
-    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) sum += A[j] * basis.T[k - j];
+    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) A[j].add_product_to(sum, basis.T[k - j]);
     basis.T.push_back(-constraints.pseudo_inverse_times(sum));
   }
 }

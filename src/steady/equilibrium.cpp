@@ -33,14 +33,14 @@ Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& l
                    const SteadyResidual& residual) {
   Scales scales;
   scales.length = positive_or_one(x.lpNorm<Eigen::Infinity>());
-  const Matrix& A = lin.A[0];
-  const Vector reaction = A.transpose() * lambda;
-  scales.force = positive_or_one(
-      std::max({lin.K[0].lpNorm<Eigen::Infinity>() * scales.length, reaction.lpNorm<Eigen::Infinity>(),
-                residual.force.col(0).lpNorm<Eigen::Infinity>()}));
-  scales.constraint = (A.rowwise().norm() * scales.length).unaryExpr(&positive_or_one);
+  const Vector reaction = lin.A[0].transposed_times(lambda);
+  const Vector rows = lin.A[0].row_norms();
+  scales.force =
+      positive_or_one(std::max({lin.K[0].largest_entry() * scales.length, reaction.lpNorm<Eigen::Infinity>(),
+                                residual.force.col(0).lpNorm<Eigen::Infinity>()}));
+  scales.constraint = (rows * scales.length).unaryExpr(&positive_or_one);
   scales.multiplier =
-      positive_or_one(A.rows() == 0 ? 1.0 : scales.force / positive_or_one(A.rowwise().norm().maxCoeff()));
+      positive_or_one(rows.size() == 0 ? 1.0 : scales.force / positive_or_one(rows.maxCoeff()));
   return scales;
 }
 
@@ -158,7 +158,7 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     result.kkt = problem.factor(result.linearization);
     Vector dx, dl;
     result.kkt.solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
-    const Vector reaction = result.linearization.A[0].transpose() * dl;
+    const Vector reaction = result.linearization.A[0].transposed_times(dl);
     const double size = std::max(dx.lpNorm<Eigen::Infinity>() / scales.length,
                                  reaction.lpNorm<Eigen::Infinity>() / scales.force);
     if (!std::isfinite(size)) return false;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "steady/sparse_kkt.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -13,14 +15,25 @@ double one_norm(const Matrix& matrix) {
 
 }  // namespace
 
-KktFactorization::KktFactorization(const Matrix& K, const Matrix& A) : K_(K), constraints_(A) {
+KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A) : constraints_(A) {
+  if (K.is_sparse() && (constraints_.is_sparse() || A.rows() == 0))
+    sparse_ = SparseKkt::factor(K.sparse(), A.sparse());
+  if (sparse_) {
+    reciprocal_condition_ = sparse_->reciprocal_condition();
+    return;
+  }
+  K_ = K;
+  factor_tangent();
+}
+
+void KktFactorization::factor_tangent() {
   const Matrix& Q2 = constraints_.null_basis();
   if (Q2.cols() == 0) return;
-  const Matrix tangent = Q2.transpose() * K * Q2;
+  const Matrix tangent = Q2.transpose() * K_ * Q2;
   tangent_.compute(tangent);
   // Measured by K, whose rounding the projection carries: a tangent stiffness that cancels is zero, also
   // where it is a single number.
-  const double scale = std::max(one_norm(K), one_norm(tangent));
+  const double scale = std::max(one_norm(K_), one_norm(tangent));
   reciprocal_condition_ = tangent.isZero(0.0) ? 0.0 : tangent_.rcond() * (one_norm(tangent) / scale);
   if (!(reciprocal_condition_ > singular)) {
     const double largest = tangent.colwise().norm().maxCoeff();
@@ -30,6 +43,10 @@ KktFactorization::KktFactorization(const Matrix& K, const Matrix& A) : K_(K), co
 }
 
 void KktFactorization::solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const {
+  if (sparse_) {
+    sparse_->solve(r, g, dx, dl);
+    return;
+  }
   const Matrix& Q2 = constraints_.null_basis();
   dx = constraints_.pseudo_inverse_times(g);
   if (Q2.cols() > 0) {

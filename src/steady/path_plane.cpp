@@ -62,7 +62,7 @@ class BorderedKkt {
   }
 
  private:
-  const Matrix& K_;
+  Matrix K_;  ///< dense: the path is on a plane for a few points only
   const ConstraintFactorization& constraints_;
   Vector force_, follow_, rows_, columns_;
   PathPlane plane_;
@@ -120,8 +120,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     p += dp;
     ++result.report.iterations;
     // The multipliers and p are judged by the forces that they change.
-    const double scale = positive_or_one(result.linearization.K[0].lpNorm<Eigen::Infinity>() * length);
-    const Vector reaction = result.linearization.A[0].transpose() * dl + force * dp;
+    const double scale = positive_or_one(result.linearization.K[0].largest_entry() * length);
+    const Vector reaction = result.linearization.A[0].transposed_times(dl) + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
@@ -174,7 +174,7 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
                                    traced, force, constraint, counts))
     return fault;
   follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  load = force + linearization.K[0] * follow;
+  load = force + linearization.K[0].dense() * follow;
   return {};
 }
 

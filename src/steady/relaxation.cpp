@@ -50,7 +50,7 @@ class Relaxation {
       if (model_.residual(path_, 0, residual, counts_) || model_.linearize(path_, 0, linearization, counts_))
         return false;
       if (residual.constraint.rows() == 0) return true;
-      const Vector rows = linearization.A[0].rowwise().norm();
+      const Vector rows = linearization.A[0].row_norms();
       const Vector miss =
           residual.constraint.col(0).cwiseAbs().cwiseQuotient((rows * length).unaryExpr(&positive_or_one));
       const double size = miss.maxCoeff();
@@ -143,7 +143,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
     // Without constraints the forces themselves vanish at rest.
     largest_force = std::max(largest_force, here->force);
     if (here->pull.norm() <= options.tolerance * largest_force) return {true, {}};
-    const double scale = positive_or_one(here->linearization.K[0].lpNorm<Eigen::Infinity>());
+    const double scale = positive_or_one(here->linearization.K[0].largest_entry());
     Vector step = downhill_step(*here, scale, delta);
     const double size = step.lpNorm<Eigen::Infinity>();
     if (!(size > 0.0)) return {};

@@ -282,7 +282,7 @@ LociWriter::~LociWriter() {
 
 void LociWriter::Implementation::append_modes(const TracePoint& point) {
   const std::size_t begin = buffer.eigenvalue.size();
-  const Matrix& mass = point.node.linearization.M[0];
+  const SystemMatrix& mass = point.node.linearization.M[0];
   last_shapes.resize(n_modes);
   buffer.eigenvalue.resize(begin + n_modes, Complex(nan, nan));
   buffer.eigenvalue_derivative.resize(begin + n_modes, Complex(nan, nan));

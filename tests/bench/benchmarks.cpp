@@ -14,6 +14,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"absent_effects", absent_effects},
                                           {"symmetric", symmetric},
                                           {"growth", growth},
+                                          {"chains", chains},
                                           {"threads", threads}};
   return all;
 }

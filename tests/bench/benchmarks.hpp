@@ -37,6 +37,8 @@ Figures tolerance(const BenchOptions& options);
 Figures order(const BenchOptions& options);
 // order_bench.cpp
 Figures order_choice(const BenchOptions& options);
+// chain_bench.cpp
+Figures chains(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

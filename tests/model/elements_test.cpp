@@ -162,7 +162,7 @@ TEST_P(Elements, StiffnessIsTheGradientOfTheResidual) {
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Vector d = Vector::Unit(x.size(), j);
     const auto f = [&](const Vector& at) { return force_at(at); };
-    expect_second_order(central(f, x, d, 2e-3), central(f, x, d, 1e-3), lin.K[0].col(j));
+    expect_second_order(central(f, x, d, 2e-3), central(f, x, d, 1e-3), lin.K[0].dense().col(j));
   }
 }
 
@@ -172,7 +172,7 @@ TEST_P(Elements, ConstraintJacobianIsTheGradientOfTheConstraint) {
   for (Eigen::Index j = 0; j < x.size() && lambda.size() > 0; ++j) {
     const auto c = [&](const Vector& at) { return constraint_at(at); };
     const Vector d = Vector::Unit(x.size(), j);
-    expect_second_order(central(c, x, d, 2e-3), central(c, x, d, 1e-3), lin.A[0].col(j));
+    expect_second_order(central(c, x, d, 2e-3), central(c, x, d, 1e-3), lin.A[0].dense().col(j));
   }
 }
 
@@ -194,9 +194,9 @@ TEST_P(Elements, SeriesAlongAPathReproduceTheMatricesAheadWithFifthOrder) {
     const Path there{evaluate_series(moving.parameters, h), evaluate_series(moving.x, h),
                      evaluate_series(moving.lambda, h)};
     EXPECT_FALSE(setting.model->linearize(there, 0, ahead, counts));
-    const auto miss = [h](const MatrixSeries& s, const Matrix& exact) {
+    const auto miss = [h](const SystemSeries& s, const Matrix& exact) {
       Matrix value = s.back();
-      for (std::size_t k = s.size() - 1; k-- > 0;) value = value * h + s[k];
+      for (std::size_t k = s.size() - 1; k-- > 0;) value = value * h + s[k].dense();
       return (value - exact).norm();
     };
     return miss(series.M, ahead.M[0]) + miss(series.C, ahead.C[0]) + miss(series.K, ahead.K[0]) +
@@ -226,10 +226,10 @@ TEST_P(Elements, AgreesWithExtendedPrecision) {
   const auto close = [](const Matrix& a, const Matrix& b) {
     return (a - b).norm() <= 1e-14 * (1.0 + b.norm());
   };
-  EXPECT_TRUE(close(lin.M[0], to_double(exact_lin.M[0])));
-  EXPECT_TRUE(close(lin.C[0], to_double(exact_lin.C[0])));
-  EXPECT_TRUE(close(lin.K[0], to_double(exact_lin.K[0])));
-  EXPECT_TRUE(close(lin.A[0], to_double(exact_lin.A[0])));
+  EXPECT_TRUE(close(lin.M[0], to_double(exact_lin.M[0].dense())));
+  EXPECT_TRUE(close(lin.C[0], to_double(exact_lin.C[0].dense())));
+  EXPECT_TRUE(close(lin.K[0], to_double(exact_lin.K[0].dense())));
+  EXPECT_TRUE(close(lin.A[0], to_double(exact_lin.A[0].dense())));
   EXPECT_TRUE(close(residual.force, to_double(exact_residual.force)));
   EXPECT_TRUE(close(residual.constraint, to_double(exact_residual.constraint)));
 }
@@ -244,9 +244,11 @@ TEST_P(Elements, DeclaredContributionsAgreeWithTheMatrices) {
     all.dissipative |= effect.contribution.dissipative;
     all.gyroscopic |= effect.contribution.gyroscopic;
   }
-  const double K_skew = (lin.K[0] - lin.K[0].transpose()).norm();
-  const double C_skew = (lin.C[0] - lin.C[0].transpose()).norm();
-  const double C_symmetric = (lin.C[0] + lin.C[0].transpose()).norm();
+  const Matrix K = lin.K[0];
+  const Matrix C = lin.C[0];
+  const double K_skew = (K - K.transpose()).norm();
+  const double C_skew = (C - C.transpose()).norm();
+  const double C_symmetric = (C + C.transpose()).norm();
   EXPECT_EQ(K_skew > 1e-12, all.circulatory);
   EXPECT_EQ(C_skew > 1e-12, all.gyroscopic);
   EXPECT_EQ(C_symmetric > 1e-12, all.dissipative);

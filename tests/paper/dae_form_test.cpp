@@ -29,7 +29,7 @@ class DaeForm : public testing::TestWithParam<Case> {
     n = lin.M[0].rows();
     m = lin.A[0].rows();
     // The constraints are scaled to the stiffness, which changes neither form's finite spectrum.
-    A = lin.A[0] * (lin.K[0].norm() / lin.A[0].norm());
+    A = lin.A[0].dense() * (lin.K[0].norm() / lin.A[0].norm());
     M = lin.M[0];
     C = lin.C[0];
     K = lin.K[0];
@@ -115,9 +115,9 @@ TEST_P(DaeForm, GeometricStiffnessEquivalence46Holds) {
   Linearization with, without;
   ASSERT_FALSE(setting.model->linearize({parameters, x, lambda}, 0, with, counts.evaluations));
   ASSERT_FALSE(setting.model->linearize({parameters, x, Vector::Zero(m)}, 0, without, counts.evaluations));
-  const Matrix left = T.transpose() * (with.K[0] - without.K[0]) * T;
+  const Matrix left = T.transpose() * (with.K[0].dense() - without.K[0].dense()) * T;
 
-  const Vector f = with.A[0].transpose() * lambda;
+  const Vector f = with.A[0].transposed_times(lambda);
   Matrix gradient(T.cols(), n);  // column k: T_/xk^T f
   for (Eigen::Index k = 0; k < n; ++k) {
     VectorSeries moving = VectorSeries::Zero(n, 2);
@@ -125,7 +125,7 @@ TEST_P(DaeForm, GeometricStiffnessEquivalence46Holds) {
     moving(k, 1) = 1.0;
     Linearization along;
     ASSERT_FALSE(setting.model->linearize({parameters, moving, lambda}, 1, along, counts.evaluations));
-    const Matrix A_k = along.A.size() > 1 ? along.A[1] : Matrix(Matrix::Zero(m, n));
+    const Matrix A_k = along.A.size() > 1 ? along.A[1].dense() : Matrix(Matrix::Zero(m, n));
     gradient.col(k) = (-constraints.pseudo_inverse_times(A_k * T)).transpose() * f;
   }
   EXPECT_LT((left + gradient * T).norm(), 1e-12 * with.K[0].norm());

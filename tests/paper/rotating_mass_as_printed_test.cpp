@@ -186,7 +186,8 @@ TEST_F(PaperAsPrinted, DaeVectorsOf162) {
     const ComplexVector force =
         -(s * s * (linearization.M[0] * v) + s * (linearization.C[0] * v) + linearization.K[0] * v);
     ComplexVector y(4);
-    y << v, linearization.A[0].row(0).cast<Complex>().dot(force) / linearization.A[0].squaredNorm();
+    const Vector row = linearization.A[0].dense().row(0);
+    y << v, row.cast<Complex>().dot(force) / row.squaredNorm();
     const Complex scale = shown[3] / y[3];
     for (Eigen::Index c = 0; c < 3; ++c) {
       // Five printed digits of the scaling component limit what the others can show.

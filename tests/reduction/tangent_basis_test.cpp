@@ -40,7 +40,7 @@ TEST(TangentBasis, SeriesAnnihilatesTheConstraintsToItsOrder) {
   const ConstraintFactorization constraints(A[0]);
   for (int order = 1; order <= 4; ++order) {
     TangentBasis basis = tangent_basis(constraints, Matrix());
-    differentiate_basis(constraints, A, order, basis);
+    differentiate_basis(constraints, {A.begin(), A.end()}, order, basis);
     const auto residual = [&](double h) { return (evaluate(A, h) * evaluate(basis.T, h)).norm(); };
     EXPECT_NEAR(std::log2(residual(0.02) / residual(0.01)), order + 1.0, 0.2) << "order " << order;
   }
@@ -50,7 +50,7 @@ TEST(TangentBasis, FirstOrderIsEquation67) {
   const MatrixSeries A = turning_constraints();
   const ConstraintFactorization constraints(A[0]);
   TangentBasis basis = tangent_basis(constraints, Matrix());
-  differentiate_basis(constraints, A, 1, basis);
+  differentiate_basis(constraints, {A.begin(), A.end()}, 1, basis);
   const Matrix A_plus = A[0].transpose() * (A[0] * A[0].transpose()).inverse();
   EXPECT_LT((basis.T[1] + A_plus * A[1] * basis.T[0]).norm(), tolerance * 10);
   EXPECT_LT((basis.T[0].transpose() * basis.T[1]).norm(), tolerance) << "Omega_2 of Eq. (66) is zero";
@@ -92,7 +92,7 @@ TEST(TangentBasis, ConstantConstraintsGiveAConstantBasis) {
   const Matrix A = random_matrix(2, 5, 7);
   const ConstraintFactorization constraints(A);
   TangentBasis basis = tangent_basis(constraints, Matrix());
-  differentiate_basis(constraints, {A}, 4, basis);
+  differentiate_basis(constraints, {SystemMatrix(A)}, 4, basis);
   EXPECT_EQ(basis.T.size(), 1U);
 }
 

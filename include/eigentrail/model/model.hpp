@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eigentrail/core/extended.hpp"
+#include "eigentrail/core/system_matrix.hpp"
 #include "eigentrail/core/types.hpp"
 #include "eigentrail/scene/parameters.hpp"
 
@@ -71,7 +72,7 @@ using SteadyResidual = BasicSteadyResidual<double>;
 /// Linearization about the path as series (Eqs. 16a, 16b); all derivatives are total along the path.
 template <class Real>
 struct BasicLinearization {
-  using Coefficients = std::vector<Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>>;
+  using Coefficients = std::vector<BasicSystemMatrix<Real>>;
   Coefficients M;  ///< n x n
   Coefficients C;  ///< n x n, -f_/x'
   Coefficients K;  ///< n x n, -f_/x + (A^T lambda)_/x

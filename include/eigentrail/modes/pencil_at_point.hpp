@@ -34,5 +34,6 @@ struct PencilAtPoint {
 
 /// B Z for a real matrix and few complex columns.
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z);
+ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z);
 
 }  // namespace eigentrail

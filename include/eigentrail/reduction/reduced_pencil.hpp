@@ -19,6 +19,9 @@ struct ReducedPencil {
 /// (Eq. 36 for k = 1). Series that end early are short, so constants cost nothing beyond order 0.
 MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order);
 
+/// The same of coefficients that may be sparse, which makes B T a product of cost O(n - rank) per entry of B.
+MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order);
+
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order);
 
 }  // namespace eigentrail

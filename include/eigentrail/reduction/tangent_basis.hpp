@@ -22,7 +22,8 @@ enum class BasisChoice {
 };
 
 /// T(0) = Q2 turned towards `previous` (n x (n - rank); ignored when empty or of another size), which keeps
-/// reduced coordinates continuous from point to point.
+/// reduced coordinates continuous from point to point. With a sparse factorization it is computed from
+/// `previous` alone, as long as no direction of it turns by more than about 80 degrees.
 TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Matrix& previous);
 
 /// Turns the basis by a random orthogonal matrix drawn from `seed`.
@@ -30,7 +31,7 @@ void randomize_basis(TangentBasis& basis, std::uint64_t seed);
 
 /// Fills T_1 .. T_order from the series of A:  T_k = -A+ sum_{j=1..k} A_j T_{k-j}  (order 1 is Eq. 67). One
 /// pseudo-inverse product per order with the factorization of A_0.
-void differentiate_basis(const ConstraintFactorization& constraints, const MatrixSeries& A, int order,
+void differentiate_basis(const ConstraintFactorization& constraints, const SystemSeries& A, int order,
                          TangentBasis& basis);
 
 }  // namespace eigentrail

@@ -1,0 +1,146 @@
+// A coefficient of the linearized equations: dense for small models and families of matrices, sparse for
+// large multibody models, whose elements couple few coordinates each.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+template <class Real>
+class BasicSystemMatrix {
+ public:
+  using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  using Column = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Sparse = Eigen::SparseMatrix<Real>;  ///< compressed, by columns
+
+  BasicSystemMatrix() = default;
+  BasicSystemMatrix(Dense values) : values_(std::move(values)) {}   // NOLINT: a dense matrix is one
+  BasicSystemMatrix(Sparse values) : values_(std::move(values)) {}  // NOLINT: and so is a sparse one
+  template <class Derived>
+  BasicSystemMatrix(const Eigen::MatrixBase<Derived>& values) : values_(Dense(values)) {}  // NOLINT: likewise
+
+  bool is_sparse() const { return std::holds_alternative<Sparse>(values_); }
+  const Sparse& sparse() const { return std::get<Sparse>(values_); }  ///< throws std::bad_variant_access
+
+  /// All entries; O(n^2).
+  Dense dense() const {
+    return visit([](const auto& values) { return Dense(values); });
+  }
+  operator Dense() const { return dense(); }  // NOLINT: for small models there is no difference
+
+  Eigen::Index rows() const {
+    return visit([](const auto& values) { return values.rows(); });
+  }
+  Eigen::Index cols() const {
+    return visit([](const auto& values) { return values.cols(); });
+  }
+  Eigen::Index size() const { return rows() * cols(); }
+
+  Real operator()(Eigen::Index row, Eigen::Index column) const {
+    return visit([&](const auto& values) { return Real(values.coeff(row, column)); });
+  }
+
+  bool is_zero() const {
+    if (const auto* values = std::get_if<Dense>(&values_)) return values->isZero(Real(0.0));
+    return (sparse().coeffs() == Real(0.0)).all();
+  }
+  /// Frobenius.
+  Real norm() const {
+    return visit([](const auto& values) { return Real(values.norm()); });
+  }
+  /// Largest magnitude of an entry; 0 of an empty matrix.
+  Real largest_entry() const {
+    return visit([](const auto& values) { return largest_magnitude(values); });
+  }
+  /// Largest sum of magnitudes in a column; 0 of an empty matrix.
+  Real one_norm() const {
+    return visit([](const auto& values) {
+      Real largest(0.0);
+      for (Eigen::Index j = 0; j < values.cols(); ++j)
+        largest = std::max(largest, Real(values.col(j).cwiseAbs().sum()));
+      return largest;
+    });
+  }
+  /// Euclidean norm of every row.
+  Column row_norms() const {
+    if (const auto* values = std::get_if<Dense>(&values_)) return values->rowwise().norm();
+    Column squares = Column::Zero(rows());
+    const Sparse& values = sparse();
+    for (Eigen::Index j = 0; j < values.outerSize(); ++j) {
+      for (typename Sparse::InnerIterator entry(values, j); entry; ++entry)
+        squares[entry.row()] += entry.value() * entry.value();
+    }
+    return squares.cwiseSqrt();
+  }
+
+  /// sum + B X, without a temporary.
+  void add_product_to(Dense& sum, const Dense& X) const {
+    visit([&](const auto& values) { sum.noalias() += values * X; });
+  }
+  /// B^T x.
+  Column transposed_times(const Column& x) const {
+    return visit([&](const auto& values) { return Column(values.transpose() * x); });
+  }
+
+  /// Adds `factor` B, both of one kind.
+  void add_scaled(Real factor, const BasicSystemMatrix& B) {
+    modify([&](auto& values) {
+      using Kind = std::decay_t<decltype(values)>;
+      values += factor * std::get<Kind>(B.values_);
+    });
+  }
+  /// Zero, of the same shape and kind.
+  BasicSystemMatrix zero() const {
+    if (is_sparse()) return Sparse(rows(), cols());
+    return Dense(Dense::Zero(rows(), cols()));
+  }
+
+  /// Calls visitor(values) with what is held: a const Dense& or a const Sparse&.
+  template <class Visit>
+  decltype(auto) visit(Visit&& visitor) const {
+    return std::visit(std::forward<Visit>(visitor), values_);
+  }
+
+ private:
+  template <class Visit>
+  decltype(auto) modify(Visit&& visitor) {
+    return std::visit(std::forward<Visit>(visitor), values_);
+  }
+
+  static Real largest_magnitude(const Dense& values) {
+    return values.size() == 0 ? Real(0.0) : Real(values.cwiseAbs().maxCoeff());
+  }
+  static Real largest_magnitude(const Sparse& values) {
+    return values.nonZeros() == 0 ? Real(0.0) : Real(values.coeffs().cwiseAbs().maxCoeff());
+  }
+
+  std::variant<Dense, Sparse> values_;
+};
+
+/// B X.
+template <class Real, class Derived>
+auto operator*(const BasicSystemMatrix<Real>& B, const Eigen::MatrixBase<Derived>& X) {
+  using Product = Eigen::Matrix<typename Derived::Scalar, Eigen::Dynamic, Derived::ColsAtCompileTime>;
+  return B.visit([&](const auto& values) { return Product(values * X); });
+}
+
+/// X B.
+template <class Real, class Derived>
+auto operator*(const Eigen::MatrixBase<Derived>& X, const BasicSystemMatrix<Real>& B) {
+  using Product = Eigen::Matrix<typename Derived::Scalar, Derived::RowsAtCompileTime, Eigen::Dynamic>;
+  return B.visit([&](const auto& values) { return Product(X * values); });
+}
+
+using SystemMatrix = BasicSystemMatrix<double>;
+using SparseMatrix = SystemMatrix::Sparse;
+
+/// Power series with such coefficients, all of one kind; as MatrixSeries.
+using SystemSeries = std::vector<SystemMatrix>;
+
+}  // namespace eigentrail

@@ -1,0 +1,83 @@
+#include "steady/sparse_kkt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/positive_or_one.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int power_iterations = 4;
+
+/// [K, (D A)^T; D A, 0] with D the diagonal matrix of `row_scale`.
+SparseMatrix bordered(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
+  const Eigen::Index n = K.rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros() + 2 * A.nonZeros()));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry)
+      entries.emplace_back(entry.row(), j, entry.value());
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const double value = row_scale[entry.row()] * entry.value();
+      entries.emplace_back(n + entry.row(), j, value);
+      entries.emplace_back(j, n + entry.row(), value);
+    }
+  }
+  SparseMatrix matrix(n + A.rows(), n + A.rows());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const SparseMatrix& A) {
+  std::shared_ptr<SparseKkt> result(new SparseKkt);
+  const double magnitude = SystemMatrix(K).one_norm();
+  if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return nullptr;
+  result->n_ = K.rows();
+  result->row_scale_ = SystemMatrix(A).row_norms().unaryExpr(
+      [magnitude](double norm) { return magnitude / positive_or_one(norm); });
+  result->matrix_ = bordered(K, A, result->row_scale_);
+  result->lu_.compute(result->matrix_);
+  if (result->lu_.info() != Eigen::Success) return nullptr;
+  const double condition = result->norm_of_tangent_inverse() * magnitude;
+  if (!(condition < 1.0 / least_reciprocal_condition)) return nullptr;
+  result->reciprocal_condition_ = 1.0 / std::max(1.0, condition);
+  return result;
+}
+
+double SparseKkt::norm_of_tangent_inverse() {
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  Vector x = Vector::NullaryExpr(n_, [&] { return normal(engine); });
+  double norm = 0.0;
+  Vector right = Vector::Zero(matrix_.rows());
+  for (int i = 0; i < power_iterations; ++i) {
+    right.head(n_) = x.normalized();
+    x = Vector(lu_.solve(right)).head(n_);
+    norm = x.norm();
+    if (!std::isfinite(norm) || norm == 0.0) break;
+    right.head(n_) = x / norm;
+    x = Vector(lu_.transpose().solve(right)).head(n_);
+  }
+  return norm;
+}
+
+Vector SparseKkt::refined_solution(const Vector& right) const {
+  Vector solution = lu_.solve(right);
+  solution += lu_.solve(right - matrix_ * solution).eval();
+  return solution;
+}
+
+void SparseKkt::solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const {
+  Vector right(matrix_.rows());
+  right << r, row_scale_.cwiseProduct(g);
+  const Vector solution = refined_solution(right);
+  dx = solution.head(n_);
+  dl = row_scale_.cwiseProduct(solution.tail(matrix_.rows() - n_));
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,59 @@
+// Multibody models with many coordinates and few freedoms: by sparse matrices, and by dense ones.
+#include <cmath>
+#include <memory>
+
+#include "bench/benchmarks.hpp"
+#include "bench/text.hpp"
+#include "bench/timed_trace.hpp"
+#include "support/chains.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+TraceOptions ten_modes_of(const Setting& setting) {
+  TraceOptions options = setting.options;
+  options.tolerance = 1e-6;
+  options.modes = 10;
+  return options;
+}
+
+std::string percent(double part, double whole) {
+  return short_text(std::round(100.0 * part / whole)) + " %";
+}
+
+std::string account(const TraceResult& result) {
+  const RunCounts& c = result.counts;
+  const auto share = [&](double seconds) { return percent(seconds, result.seconds); };
+  return std::to_string(result.nodes) + " points, " + std::to_string(result.rejections.total()) +
+         " tried again; equilibrium " + share(c.equilibrium_seconds) + ", reduction " +
+         share(c.reduction_seconds) + ", modes " + share(c.modes_seconds) + ", series " +
+         share(c.differentiation_seconds) + ", certificate " + share(c.certificate_seconds) + " of the run";
+}
+
+}  // namespace
+
+Figures chains(const BenchOptions& options) {
+  Figures figures;
+  for (const int points : options.smoke ? std::vector<int>{12} : std::vector<int>{12, 20, 40, 55}) {
+    Setting setting = make_setting(rotating_chains(points));
+    const TraceOptions traced = ten_modes_of(setting);
+    const TimedTrace by_sparse = time_trace(setting, traced, options.repeats);
+    const std::unique_ptr<Model> model = std::move(setting.model);
+    setting.model = std::make_unique<OtherKind>(*model, OtherKind::Kind::dense);
+    const TimedTrace by_dense = time_trace(setting, traced, options.repeats);
+    const RunCounts& counts = by_sparse.result.counts;
+    const std::string size = ", " + std::to_string(9 * points) + " coordinates, " +
+                             std::to_string(3 * points) + " freedoms, 10 modes";
+    figures.push_back({"dense / sparse matrices, time of a trace" + size,
+                       by_dense.seconds / by_sparse.seconds,
+                       {},
+                       time_text(by_dense.seconds) + ", " + account(by_dense.result) + " / " +
+                           time_text(by_sparse.seconds) + ", " + account(by_sparse.result)});
+    figures.push_back({"share of equilibrium and reduction" + size,
+                       (counts.equilibrium_seconds + counts.reduction_seconds) / by_sparse.result.seconds,
+                       at_most(0.5)});
+  }
+  return figures;
+}
+
+}  // namespace eigentrail::test

@@ -1,0 +1,118 @@
+// The sparse route of KktFactorization against the null-space one.
+#include "steady/sparse_kkt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <random>
+
+#include "eigentrail/steady/kkt_factorization.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double tolerance = 1e-12;
+constexpr int n = 60, m = 25;
+
+/// Springs between neighbours, with forces that circulate; constraints on three neighbouring coordinates
+/// each.
+struct System {
+  Matrix K = Matrix::Zero(n, n);
+  Matrix A = Matrix::Zero(m, n);
+
+  explicit System(double stiffness = 1.0) {
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> number(0.5, 1.5);
+    for (int i = 0; i < n; ++i) {
+      K(i, i) += number(engine);
+      if (i == 0) continue;
+      const double k = number(engine);
+      K(i, i) += k;
+      K(i - 1, i - 1) += k;
+      K(i, i - 1) -= k + 0.2;
+      K(i - 1, i) -= k - 0.2;
+    }
+    K *= stiffness;
+    for (int row = 0; row < m; ++row) {
+      for (int i = 0; i < 3; ++i) A(row, 2 * row + i) = number(engine) * (i == 1 ? -1.0 : 1.0);
+    }
+  }
+};
+
+SystemMatrix sparse(const Matrix& values) {
+  return SparseMatrix(values.sparseView());
+}
+
+struct Solution {
+  Vector dx, dl;
+};
+
+Solution solve(const KktFactorization& kkt) {
+  Solution solution;
+  kkt.solve(Vector::LinSpaced(n, -1.0, 2.0), Vector::LinSpaced(m, 1.0, -1.0), solution.dx, solution.dl);
+  return solution;
+}
+
+TEST(SparseKkt, AgreesWithTheNullSpaceRoute) {
+  for (const double stiffness : {1e-6, 1.0, 1e9}) {
+    const System system(stiffness);
+    const KktFactorization by_sparse(sparse(system.K), sparse(system.A)), dense(system.K, system.A);
+    ASSERT_TRUE(SparseKkt::factor(sparse(system.K).sparse(), sparse(system.A).sparse())) << stiffness;
+    const Solution a = solve(by_sparse), b = solve(dense);
+    EXPECT_TRUE(by_sparse.can_solve());
+    EXPECT_LT((a.dx - b.dx).norm(), tolerance * b.dx.norm()) << stiffness;
+    EXPECT_LT((a.dl - b.dl).norm(), tolerance * b.dl.norm()) << stiffness;
+    EXPECT_LT(std::abs(std::log10(by_sparse.reciprocal_condition() / dense.reciprocal_condition())), 1.0);
+  }
+}
+
+TEST(SparseKkt, ReciprocalConditionFallsLikeTheLeastTangentStiffness) {
+  // K - mu I loses its regularity on the null space where mu is an eigenvalue of Q2^T K Q2.
+  System system;
+  system.K = (0.5 * (system.K + system.K.transpose())).eval();
+  const Matrix Q2 = ConstraintFactorization(system.A).null_basis();
+  const double mu = Eigen::SelfAdjointEigenSolver<Matrix>(Q2.transpose() * system.K * Q2).eigenvalues()[0];
+  for (const double distance : {1e-2, 1e-5, 1e-8}) {
+    const Matrix K = system.K - (mu - distance) * Matrix::Identity(n, n);
+    const KktFactorization kkt(sparse(K), sparse(system.A));
+    EXPECT_NEAR(kkt.reciprocal_condition() * K.cwiseAbs().colwise().sum().maxCoeff() / distance, 1.0, 0.2);
+  }
+}
+
+TEST(SparseKkt, SingularTangentStiffnessIsLeftToTheNullSpaceRoute) {
+  System system;
+  const Vector free = ConstraintFactorization(system.A).null_basis().col(0);
+  system.K = (0.5 * (system.K + system.K.transpose())).eval();
+  const Matrix P = Matrix::Identity(n, n) - free * free.transpose();
+  system.K = P * system.K * P;  // no force along a motion that the constraints allow
+  EXPECT_FALSE(SparseKkt::factor(sparse(system.K).sparse(), sparse(system.A).sparse()));
+  const KktFactorization kkt(sparse(system.K), sparse(system.A)), dense(system.K, system.A);
+  EXPECT_LT(kkt.reciprocal_condition(), 1e-13);
+  EXPECT_LT((solve(kkt).dx - solve(dense).dx).norm(), 1e-9 * solve(dense).dx.norm());
+}
+
+TEST(SparseKkt, RedundantConstraintsAreLeftToTheNullSpaceRoute) {
+  const System system;
+  Matrix A(m + 1, n);
+  A << system.A, system.A.row(2) + system.A.row(3);
+  const KktFactorization kkt(sparse(system.K), sparse(A));
+  EXPECT_EQ(kkt.constraints().rank(), m);
+  Vector dx, dl, r = Vector::Ones(n), g = Vector::Zero(m + 1);
+  kkt.solve(r, g, dx, dl);
+  EXPECT_LT((system.K * dx + A.transpose() * dl - r).norm(), tolerance * r.norm());
+  EXPECT_LT((A * dx).norm(), tolerance * dx.norm());
+}
+
+TEST(SparseKkt, ServesWithoutConstraintsToo) {
+  const System system;
+  const KktFactorization kkt(sparse(system.K), sparse(Matrix(0, n)));
+  Vector dx, dl;
+  kkt.solve(Vector::Ones(n), Vector(0), dx, dl);
+  EXPECT_LT((system.K * dx - Vector::Ones(n)).norm(), tolerance * std::sqrt(n));
+  EXPECT_EQ(dl.size(), 0);
+}
+
+}  // namespace
+}  // namespace eigentrail
