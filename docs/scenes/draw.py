@@ -117,7 +117,8 @@ def draw_events(axes, loci, part, settings, done):
         done.add(key)
         scale = p * unit_factor(loci.unit) if settings.get("per") == "parameter" else 1.0
         axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])) / scale, linestyle="none", marker=marker,
-                  color=colour, markersize=11 if marker == "*" else 7, markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
+                  color=colour, markersize=11 if marker == "*" else 7, markeredgecolor="white", markeredgewidth=0.7,
+                  label=label, zorder=4)
 
 
 def draw_harmonics(axes, loci, settings):
@@ -147,9 +148,10 @@ def result_picture(name, settings, runs):
         parts.append(("growth", lambda s: np.real(s), "Re s, 1/s"))
     for axes, (key, part, ylabel) in zip(all_axes[panels - len(parts):], parts):
         done = set()
+        drawn = settings if key == "frequency" else settings | {"per": None}
         for loci, run in runs:
-            draw_modes(axes, loci, part, settings, run)
-            draw_events(axes, loci, part, settings, done)
+            draw_modes(axes, loci, part, drawn, run)
+            draw_events(axes, loci, part, drawn, done)
         axes.set(xlabel=xlabel, ylabel=ylabel)
         if key == "frequency":
             draw_harmonics(axes, first, settings)
