@@ -74,12 +74,13 @@ stiffness = "{root} * {tuned} * lag / h"
 """
 
 
-def scene(mistuning=0.02):
+def scene(mistuning=0.02, blades=BLADES):
+    """The scene's text; fewer blades for comparison."""
     text = HEAD.format(mistuning=mistuning, links=LINKS)
-    for blade in range(BLADES):
+    for blade in range(blades):
         angle = 2 * math.pi * blade / BLADES
         c, s = round(math.cos(angle), 15), round(math.sin(angle), 15)
-        tuned = ("1", "(1 + mistuning)", "(1 - mistuning)")[blade]
+        tuned = f"(1 + {(0, 1, -1)[blade]} * mistuning)"
         for i in range(LINKS):
             name = f"blade {blade + 1} link {i + 1}"
             at_hub = f'{{ body = "hub", at = ["{c} * hub", "{s} * hub", 0] }}'
