@@ -20,7 +20,7 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from rotating_mass import eigenvalues, parameter
+from rotating_mass import eigenvalues, parameter, two_point_taylor
 from scene_file import Posture, SceneFile, unit_factor
 from sketch import Sketch
 
@@ -187,6 +187,32 @@ def result_picture(name, settings, runs):
     plt.close(figure)
 
 
+def boundary_picture(program, scene, settings, folder):
+    """Stability limits over a second parameter, from `eigentrail boundary`."""
+    wanted = settings["boundary"]
+    out = pathlib.Path(folder) / "boundary.h5"
+    options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"])]
+    subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet"], check=True)
+    figure, axes = plt.subplots(figsize=(4.2, 3.3), layout="constrained")
+    with h5py.File(out) as file:
+        names = [file.attrs["parameter"], wanted["second"]]
+        units = [file[name].attrs["units"] for name in names]
+        for curve in np.unique(file["step_curve"]):
+            steps = np.flatnonzero(file["step_curve"][:] == curve)
+            series, lengths = file["dense_output"][steps].real, file["step_length"][steps]
+            line = np.array([two_point_taylor(h, f[:2, 0], f[:2, 1], t) for h, f in zip(lengths, series)
+                             for t in np.linspace(0, 1, 20)])
+            axes.plot(line[:, 1], line[:, 0], color="#b2182b", linewidth=1.8)
+    texts = [settings.get("parameter", names[0]), wanted.get("label", names[1])]
+    ylabel, xlabel = (text + (f", {unit}" if unit not in ("", "1") else "") for text, unit in zip(texts, units))
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(wanted["from"], wanted["to"]))
+    axes.set_ylim(*wanted["range"])
+    axes.annotate("unstable", wanted["unstable"], ha="center", color="0.3")
+    axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(HERE / f"{scene.stem}_boundary.svg", metadata={"Date": None})
+    plt.close(figure)
+
+
 def sketch_picture(name, settings, loci, text):
     nodes = loci.data[loci.name]
     node = int(np.argmin(abs(nodes - settings["sketch_at"]))) if "sketch_at" in settings else 0
@@ -206,6 +232,8 @@ def draw(program, name, settings):
             run["first_style"] = run.get("style", style)
             style = run["first_style"] + loci.s.shape[1]
             traced.append((loci, run))
+        if "boundary" in settings:
+            boundary_picture(program, scene, settings, folder)
     result_picture(name, settings, traced)
     text = scene.read_text(encoding="utf-8")
     if "matrix_family" not in text:
