@@ -35,8 +35,13 @@ def block_roots(f):
     return np.linalg.eigvals(f.reshape(k, k).T)
 
 
+def distances(roots):
+    return [abs(a - b) for i, a in enumerate(roots) for b in roots[:i]]
+
+
 def gap(roots):
-    return min(abs(a - b) for i, a in enumerate(roots) for b in roots[:i])
+    """The least distance of two roots; those that coincide need not be told apart."""
+    return min((d for d in distances(roots) if d > 1e-7 * max(abs(roots))), default=np.inf)
 
 
 def assigned(known, roots):
@@ -71,7 +76,7 @@ def eigenvalues(loci, step, t):
         roots = roots_at(t)
         if len(roots) > 1:
             ends = roots_at(0.0), roots_at(1.0)
-            end = 0 if gap(ends[0]) >= gap(ends[1]) else 1
+            end = 0 if min(distances(ends[0])) >= min(distances(ends[1])) else 1
             known = loci["eigenvalue"][step + end, modes]
             roots = follow(roots_at, assigned(reciprocal(known) if inverted else known, ends[end]), end, t)
         s[modes] = (1 / roots if inverted else roots)[: len(modes)]

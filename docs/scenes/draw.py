@@ -20,15 +20,15 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from rotating_mass import eigenvalues, parameter
-from scene_file import Posture, SceneFile
+from rotating_mass import eigenvalues, parameter, two_point_taylor
+from scene_file import Posture, SceneFile, unit_factor
 from sketch import Sketch
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"]
 DASHES = ["-", "--", "-.", (0, (1, 1)), (0, (5, 1, 1, 1, 1, 1))]
 EVENTS = {"flutter": ("X", "#b2182b"), "divergence": ("s", "#b2182b"), "collision": ("P", "#b2182b"),
           "pitchfork": ("D", "#762a83"), "fold": (">", "#762a83"), "crossing": ("o", "0.4"), "veering": ("d", "0.4"),
-          "extremum": ("^", "0.4"), "damping_ratio": ("v", "0.4"), "resonance": ("*", "#e69f00")}
+          "extremum": ("^", "0.4"), "damping_ratio": ("v", "0.4"), "resonance": ("*", "#b35806")}
 # What a picture shows of the special points unless it is asked for others.
 SHOWN = ["flutter", "divergence", "pitchfork", "fold", "resonance"]
 
@@ -84,8 +84,17 @@ def draw_modes(axes, loci, part, settings, run):
         label = names[mode - 1] if mode <= len(names) and run["first_style"] == 0 else None
         if "modes" in run and mode <= len(run["modes"]):
             label = run["modes"][mode - 1] or None
-        axes.plot(loci.p, part(loci.s[:, mode - 1]), color=COLOURS[k % len(COLOURS)], linestyle=DASHES[k % len(DASHES)],
+        values = part(loci.s[:, mode - 1]) / divisor(loci, settings, mode)
+        axes.plot(loci.p, values, color=COLOURS[k % len(COLOURS)], linestyle=DASHES[k % len(DASHES)],
                   linewidth=1.6, label=label, zorder=2)
+
+
+def divisor(loci, settings, mode):
+    """What frequencies are shown in units of: 1, the traced parameter in SI, or where the mode begins."""
+    per = settings.get("per")
+    if per is None:
+        return 1.0
+    return loci.p * unit_factor(loci.unit) if per == "parameter" else abs(loci.s[0, mode - 1])
 
 
 def described(kind, direction):
@@ -102,10 +111,23 @@ def draw_events(axes, loci, part, settings, done):
             continue
         marker, colour = EVENTS[kind]
         value = f"{p:.4g}"
-        label = None if (kind, value) in done else f"{described(kind, direction)} at {value}"
-        done.add((kind, value))
-        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])), linestyle="none", marker=marker, color=colour,
-                  markersize=7, markeredgecolor="white", markeredgewidth=0.7, label=label, zorder=4)
+        once = settings.get("critical") if kind == "resonance" else None  # one text for all critical speeds
+        key = (kind, once or value)
+        label = None if key in done else once or f"{described(kind, direction)} at {value}"
+        done.add(key)
+        scale = p * unit_factor(loci.unit) if settings.get("per") == "parameter" else 1.0
+        axes.plot(p, part(np.array([complex(s.real, abs(s.imag))])) / scale, linestyle="none", marker=marker,
+                  color=colour, markersize=11 if marker == "*" else 7, markeredgecolor="white", markeredgewidth=0.7,
+                  label=label, zorder=4)
+
+
+def draw_harmonics(axes, loci, settings):
+    """Multiples of the traced speed, in rad/s: the rays of a Campbell diagram."""
+    for n in settings.get("rays", []):
+        axes.plot(loci.p, n * loci.p * unit_factor(loci.unit), color="0.6", linewidth=0.9, zorder=1)
+        at = loci.p[np.argmax(loci.p)] / n**0.5 * settings.get("rays_at", 0.5)
+        axes.annotate(f"{n}/rev", (at, n * at * unit_factor(loci.unit)), xytext=(-3, 3), textcoords="offset points", ha="right",
+                      fontsize=8.5, color="0.4")
 
 
 def result_picture(name, settings, runs):
@@ -119,20 +141,25 @@ def result_picture(name, settings, runs):
     first = runs[0][0]
     unit = "" if first.unit in ("", "1") else f", {first.unit}"
     xlabel = settings.get("parameter", first.name.replace("_", " ")) + unit
-    parts = [("frequency", lambda s: np.imag(s), "Im s, rad/s")]
+    divisor_name = settings.get("per")
+    parts = [("frequency", lambda s: np.imag(s), {None: "Im s, rad/s", "parameter": f"Im s / {first.name}",
+                                                  "start": "Im s / that at the start"}[divisor_name])]
     if damped:
         parts.append(("growth", lambda s: np.real(s), "Re s, 1/s"))
     for axes, (key, part, ylabel) in zip(all_axes[panels - len(parts):], parts):
         done = set()
+        drawn = settings if key == "frequency" else settings | {"per": None}
         for loci, run in runs:
-            draw_modes(axes, loci, part, settings, run)
-            draw_events(axes, loci, part, settings, done)
+            draw_modes(axes, loci, part, drawn, run)
+            draw_events(axes, loci, part, drawn, done)
         axes.set(xlabel=xlabel, ylabel=ylabel)
+        if key == "frequency":
+            draw_harmonics(axes, first, settings)
         if key in settings:
             axes.set_ylim(*settings[key])
-        elif key == "frequency":
+        elif key == "frequency" and not divisor_name:
             axes.set_ylim(bottom=0)
-        else:
+        if key == "growth":
             axes.axhline(0, color="0.5", linewidth=0.8, zorder=1)
     if coordinate is not None:
         axes = all_axes[0]
@@ -155,8 +182,34 @@ def result_picture(name, settings, runs):
             axes.axvspan(a, b, color="0.9", zorder=0, label="unstable" if i == 0 else None)
         if axes is all_axes[0] or (axes is all_axes[1] and coordinate is not None):
             if axes.get_legend_handles_labels()[0]:
-                axes.legend(frameon=False, loc=settings.get("legend", "best"), fontsize=8.5)
+                axes.legend(frameon=False, loc=settings.get("legend", "best"), fontsize=8.5, ncol=settings.get("columns", 1))
     figure.savefig(HERE / f"{name}.svg", metadata={"Date": None})
+    plt.close(figure)
+
+
+def boundary_picture(program, scene, settings, folder):
+    """Stability limits over a second parameter, from `eigentrail boundary`."""
+    wanted = settings["boundary"]
+    out = pathlib.Path(folder) / "boundary.h5"
+    options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"])]
+    subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet"], check=True)
+    figure, axes = plt.subplots(figsize=(4.2, 3.3), layout="constrained")
+    with h5py.File(out) as file:
+        names = [file.attrs["parameter"], wanted["second"]]
+        units = [file[name].attrs["units"] for name in names]
+        for curve in np.unique(file["step_curve"]):
+            steps = np.flatnonzero(file["step_curve"][:] == curve)
+            series, lengths = file["dense_output"][steps].real, file["step_length"][steps]
+            line = np.array([two_point_taylor(h, f[:2, 0], f[:2, 1], t) for h, f in zip(lengths, series)
+                             for t in np.linspace(0, 1, 20)])
+            axes.plot(line[:, 1], line[:, 0], color="#b2182b", linewidth=1.8)
+    texts = [settings.get("parameter", names[0]), wanted.get("label", names[1])]
+    ylabel, xlabel = (text + (f", {unit}" if unit not in ("", "1") else "") for text, unit in zip(texts, units))
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(wanted["from"], wanted["to"]))
+    axes.set_ylim(*wanted["range"])
+    axes.annotate("unstable", wanted["unstable"], ha="center", color="0.3")
+    axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(HERE / f"{scene.stem}_boundary.svg", metadata={"Date": None})
     plt.close(figure)
 
 
@@ -179,6 +232,8 @@ def draw(program, name, settings):
             run["first_style"] = run.get("style", style)
             style = run["first_style"] + loci.s.shape[1]
             traced.append((loci, run))
+        if "boundary" in settings:
+            boundary_picture(program, scene, settings, folder)
     result_picture(name, settings, traced)
     text = scene.read_text(encoding="utf-8")
     if "matrix_family" not in text:

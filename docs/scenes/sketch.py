@@ -45,11 +45,14 @@ class Sketch:
                         self.use(table[key])
         places = [*self.used, *posture.points.values(), *(p for ps in self.on_body.values() for p in ps)]
         places += [b["origin"] for b in posture.bodies.values()]
+        self.extra = [[posture.place(end) for end in line] for line in settings.get("lines", [])]
+        self.grounds = [posture.place(at) for at in settings["grounds"]] if "grounds" in settings else self.grounds
+        places += [end for line in self.extra for end in line]
         self.places = np.array(places)
         self.view = projection(settings.get("view") or self.best_plane())
         flat = self.places @ self.view.T
         self.size = max(np.ptp(flat, axis=0).max(), 1e-9)
-        self.u = 0.03 * self.size  # the measure of all symbols
+        self.u = 0.03 * self.size * settings.get("symbols", 1.0)  # the measure of all symbols
         self.middle = flat.mean(axis=0)
         self.figure, self.axes = plt.subplots(figsize=settings.get("sketch_size", [3.4, 3.4]))
         self.axes.set_aspect("equal")
@@ -314,15 +317,14 @@ class Sketch:
                                textcoords="offset points", fontsize=9, ha=label.get("align", "left"), va="center", zorder=7)
 
     def draw(self):
-        self.bodies()
-        self.shapes()
-        self.points()
-        self.rods()
-        self.joints()
-        self.springs()
-        self.discs()
-        self.blades()
-        self.bearings()
+        parts = [self.bodies, self.shapes, self.points, self.rods, self.joints, self.springs, self.discs, self.blades, self.bearings]
+        for part in parts:
+            if part.__name__ not in self.settings.get("hide", []):
+                part()
+        for turn in self.settings.get("turns", []):
+            self.turning(self.posture.place(turn["at"]), self.posture.direction(turn["axis"]), turn["text"])
+        for line in self.extra:
+            self.line(line, color="0.35", linewidth=3, zorder=0.9)
         for at in {tuple(np.round(self.flat(p), 9)) for p in self.grounds}:
             self.ground(np.array(at))
         self.forces()

@@ -131,7 +131,12 @@ Parameter parameter_p() {
 /// A model of somebody else: one mass on a spring, without extended precision.
 class ForeignModel final : public Model {
  public:
-  ForeignModel() : Model({{"x"}, {"m"}, {}, {}, Parameters({parameter_p()})}) {}
+  ForeignModel()
+      : Model({.coordinate_names = {"x"},
+               .coordinate_units = {"m"},
+               .constraint_names = {},
+               .effects = {},
+               .parameters = Parameters({parameter_p()})}) {}
   Vector initial_guess(const Vector&) const override { return Vector::Zero(1); }
   Structure structure(int) const override { return {.known_equilibrium = true}; }
   EvaluationFault residual(const Path&, int order, SteadyResidual& result, EvaluationCounts&) const override {

@@ -63,7 +63,8 @@ Figures chains(const BenchOptions& options) {
 
 Figures blades(const BenchOptions& options) {
   Figures figures;
-  compare_kinds(make_setting(three_blades()), "40 bodies, 480 coordinates, 78 freedoms", options, figures);
+  compare_kinds({prepare_trace(read_scene(EIGENTRAIL_THREE_BLADES), {})},
+                "40 bodies, 480 coordinates, 78 freedoms", options, figures);
   return figures;
 }
 

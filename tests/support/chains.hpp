@@ -1,4 +1,4 @@
-// Rotating chains of point masses, of any size, blades of many links, and models that answer with the other
+// Rotating chains of point masses, of any size, and models that answer with the other
 // kind of matrices.
 #pragma once
 
@@ -12,11 +12,6 @@ namespace eigentrail::test {
 /// from 1 to 10 rad/s. They are hinged at radius 0.1 m, 120 degrees apart, of different lengths, and point
 /// outwards; forces and drag on their tips bend them. Three freedoms for every three points.
 std::string rotating_chains(int points);
-
-/// Forty rigid bodies: a hub held in a frame that turns with omega from 1 to 10 rad/s, and three blades of 13
-/// links each, joined by universal joints with springs about the flap and the lag axis. The second blade is
-/// stiffer by 2 %, the third softer. 480 coordinates, 78 freedoms.
-std::string three_blades();
 
 /// A model whose linearizations are dense, or sparse, whatever those of the model that it repeats are.
 class OtherKind final : public Model {
