@@ -64,7 +64,8 @@ class BeckColumn(RotorTest):
         second = text[text.index("\n[[body]]\nname = \"link 2\""):text.index("\n[[body]]\nname = \"link 3\"")]
         first = text[text.index(link):text.index(second)]
         chain = first + "".join(second.replace("link 2", f"link {i}").replace("link 1.end", f"link {i - 1}.end")
-                                .replace("hinge 2", f"hinge {i}").replace('["1*h"', f'["{i - 1}*h"') for i in range(2, n + 1))
+                                .replace("hinge 2", f"hinge {i}").replace('["1*h"', f'["{i - 1}*h"')
+                                for i in range(2, n + 1))
         return head + chain + tail.replace("link 8", f"link {n}")
 
     def test_the_text_for_eight_links_is_the_scene(self):

@@ -13,7 +13,8 @@ RPM = math.pi / 30.0
 
 
 def coleman_feingold(p):
-    """Roots of the equations in the ground's frame (NACA Report 1351, 1958), in z = x + jy and xi = (2/N) sum lag e^(j psi)."""
+    """Roots of the equations in the ground's frame (NACA Report 1351, 1958), in z = x + jy and
+    xi = (2/N) sum lag e^(j psi)."""
     S, shift = p["first"], 1j * p["omega"]
     hinge = p["offset"] * S * p["omega"]**2 + p["lag_spring"]
     M = np.array([[p["hub_mass"] + BLADES * p["blade_mass"], BLADES / 2 * 1j * S], [-1j * S, p["second"]]])
@@ -78,7 +79,7 @@ class GroundResonance(RotorTest):
         self.assertEqual(self.special_points(file, "flutter"), [])
 
     def test_damping_that_turned_with_the_rotor_would_not_do(self):
-        """A rival: support damping taken relative to the turning frame moves the boundaries by far more than the tolerance."""
+        """A rival: support damping relative to the turning frame moves the boundaries by far more than the tolerance."""
         turned = self.scene_text().replace('speed = "-omega"', 'speed = 0')
         right = sorted(rpm for rpm, _ in self.special_points(self.trace_scene(), "flutter"))
         wrong = sorted(rpm for rpm, _ in self.special_points(self.trace_text(turned), "flutter"))
