@@ -72,9 +72,8 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const PathPoint&
              (idle.empty()
                   ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
                   : "A freedom that moves '" + idle +
-                        "' has no mass or inertia, no damping and no stiffness; give it inertia, or hold it "
-                        "by "
-                        "a joint"));
+                        "' has no mass or inertia, no damping and no stiffness; give it inertia, or "
+                        "constrain it"));
     return std::nullopt;
   }
   const auto largest = [](const Matrix& matrix) {

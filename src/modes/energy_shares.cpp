@@ -14,9 +14,10 @@ using ComplexVec3 = Eigen::Vector3cd;
 
 constexpr double on_axis = 1e-9;  ///< radius over distance from the origin
 
-/// Names of the motions of a blade along and about its axes (s, a, a x s).
-constexpr std::array<const char*, 3> blade_along = {"axial", "flap", "lag"};
-constexpr std::array<const char*, 3> blade_about = {"torsion", "lag", "flap"};
+/// Names of motions along and about the three axes of a blade (s, a, a x s), and of the frame.
+constexpr std::array<const char*, 6> of_blade = {"axial", "flap", "lag", "torsion", "lag", "flap"};
+constexpr std::array<const char*, 6> of_frame = {"along x", "along y", "along z",
+                                                 "about x", "about y", "about z"};
 
 Eigen::Vector3d triple(const Vector& x, Index i) {
   return x.segment<3>(3 * i);
@@ -74,7 +75,7 @@ Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector&
 
 EnergyShares::EnergyShares(const ModelDescription& description, const SystemMatrix& M, const Vector& x) {
   for (const MassCarrier& mass : description.masses) {
-    Carrier carrier{mass, false, static_cast<Index>(motions_.size()), Eigen::Matrix3d::Identity()};
+    Carrier carrier{mass, false, {}, Eigen::Matrix3d::Identity()};
     const Eigen::Vector3d at = centre(mass, moments(M, mass), x);
     if (description.rotation_axis) {
       const Eigen::Vector3d a = *description.rotation_axis;
@@ -85,12 +86,19 @@ EnergyShares::EnergyShares(const ModelDescription& description, const SystemMatr
         carrier.axes << s.transpose(), a.transpose(), a.cross(s).transpose();
       }
     }
+    const std::size_t n_motions = mass.n_triples > 1 ? 6 : 3;
+    for (std::size_t k = 0; k < n_motions; ++k)
+      carrier.rows[k] = row_of(mass.name, carrier.blade ? of_blade[k] : of_frame[k]);
     carriers_.push_back(carrier);
-    for (std::size_t k = 0; k < 3; ++k)
-      motions_.push_back({mass.name, carrier.blade ? blade_along[k] : std::string("along ") + "xyz"[k]});
-    for (std::size_t k = 0; k < 3 && mass.n_triples > 1; ++k)
-      motions_.push_back({mass.name, carrier.blade ? blade_about[k] : std::string("about ") + "xyz"[k]});
   }
+}
+
+Index EnergyShares::row_of(const std::string& mass, const std::string& kind) {
+  const auto known = std::find_if(motions_.begin(), motions_.end(),
+                                  [&](const MassMotion& m) { return m.mass == mass && m.kind == kind; });
+  const auto row = static_cast<Index>(known - motions_.begin());
+  if (known == motions_.end()) motions_.push_back({mass, kind});
+  return row;
 }
 
 Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMatrix& shapes) const {
@@ -101,11 +109,14 @@ Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMat
     for (Index mode = 0; mode < shapes.cols(); ++mode) {
       const RigidMotion motion = rigid_motion(carrier.mass, G, x, shapes.col(mode));
       const ComplexVec3 v = carrier.axes.cast<Complex>() * motion.velocity;
-      shares.col(mode).segment<3>(carrier.first) = G(0, 0) * v.cwiseAbs2();
-      if (carrier.mass.n_triples == 1) continue;
       const ComplexVec3 w = carrier.axes.cast<Complex>() * motion.rotation;
-      shares.col(mode).segment<3>(carrier.first + 3) =
-          (w.conjugate().array() * (J.cast<Complex>() * w).array()).real();
+      const ComplexVec3 angular_momentum = J.cast<Complex>() * w;
+      for (Index k = 0; k < 3; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        shares(carrier.rows[at], mode) += G(0, 0) * std::norm(v[k]);
+        if (carrier.mass.n_triples > 1)
+          shares(carrier.rows[at + 3], mode) += (std::conj(w[k]) * angular_momentum[k]).real();
+      }
     }
   }
   for (Index mode = 0; mode < shapes.cols(); ++mode) {
@@ -116,7 +127,7 @@ Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMat
 }
 
 std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
-  constexpr double dominant = 0.75;  // of the energy: one kind of motion, or one mass, says it all
+  constexpr double dominant = 0.7;  // of the energy: one kind of motion, or one mass, says it all
   std::vector<std::string> names;
   for (Index mode = 0; mode < shares.cols(); ++mode) {
     std::map<std::string, double> by_kind, by_mass;

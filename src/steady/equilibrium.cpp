@@ -233,8 +233,8 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
     relaxation.tolerance = rest;
     const RelaxationResult relaxed_guess = relax(model, parameters, relaxation, rested, reactions, counts);
     if (!relaxed_guess.unmet.empty()) {
-      result.report.message =
-          "no configuration near the starting guess meets all constraints: in the closest one "
+      result.report.message +=
+          "; no configuration near the starting guess meets all constraints: in the closest one "
           "found " +
           relaxed_guess.unmet +
           "; check lengths, angles and starting positions, and constraints that contradict "

@@ -74,8 +74,8 @@ class Relaxation {
     return false;
   }
 
-  /// The same from a guess that may be a symmetric one, such as links in line: where it fails, from places about
-  /// it that are not.
+  /// The same from a guess that may be a symmetric one, such as links in line: where it fails, from places
+  /// about it that are not.
   bool project_from_guess(Vector& x, double length) {
     const Vector guess = x;
     if (project(x, length)) return true;

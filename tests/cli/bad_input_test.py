@@ -67,7 +67,7 @@ UNKNOWN_NAMES = [
     blade("unknown key of trace", "to = 5.0", "to = 5.0\n§tolerence = 1e-6",
           "[trace] tolerence: unknown key", "did you mean 'tolerance'?"),
     blade("unknown key unlike any known one", "to = 5.0", "to = 5.0\n§colour = 1", "[trace] colour: unknown key; known: "
-          "parameter, from, to, tolerance, modes, order, reference, first_step, max_step, max_nodes, branch, certify"),
+          "parameter, from, to, tolerance, modes, order, reference, first_step, max_step, max_nodes, branch, without, certify"),
     blade("unknown key of a parameter", 'unit = "rad/s"', '§units = "rad/s"',
           "[parameters] omega: unknown key 'units'", "did you mean 'unit'?"),
     blade("unknown key at top level", "title =", "§titel =", "titel: unknown key", "did you mean 'title'?"),
@@ -188,7 +188,7 @@ VALUES = [
     blade("stiffness that is no number", 'coefficient = "drag"', '§coefficient = "sqrt(-drag)"',
           "[[drag]] 1 coefficient: is not a finite number"),
     blade("rod between two fixed places", '[[rod]]\nfrom = [1, 0, 0]\nto = "blade"',
-          "§[[rod]]\nfrom = [1, 0, 0]\nto = [6, 0, 0]", "[[rod]] 1: joins no moving point"),
+          "[[rod]]\nfrom = [1, 0, 0]\n§to = [6, 0, 0]", "[[rod]] 1 to: joins no moving point"),
     blade_with("gravity across the axis of rotation", "[gravity]\n§acceleration = [9.81, 0, 0]",
                "[gravity] acceleration: must be parallel to [frame] angular_velocity"),
     blade_with("plane without a direction", '[[plane]]\npoint = "blade"\n§normal = [0, 0, 0]', "[[plane]] 1 normal:"),

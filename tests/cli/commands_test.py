@@ -231,7 +231,10 @@ class Explain(CommandTest):
         active, absent = effects.split("absent, never evaluated: ")
         self.assertEqual(re.findall(r"^ +(\w+) +1  ", active, re.MULTILINE), ["point", "frame", "drag", "rod"])
         self.assertEqual(set(absent.strip().split(", ")), {
-            "gravity", "force", "follower_force", "transverse_force", "spring", "guided_spring", "plane", "fixed"})
+            "body", "gravity", "force", "follower_force", "transverse_force", "moment", "spring", "guided_spring",
+            "torsional_spring", "damper", "torsional_damper", "internal_damping", "bearing", "spinning_disc",
+            "blade_element", "directors", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic",
+            "weld", "point_on_line", "point_on_plane"})
 
     def test_sizes_structure_and_solvers_follow(self):
         self.write("scene.toml", BLADE)

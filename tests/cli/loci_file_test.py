@@ -66,6 +66,7 @@ COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", 
            "event_shape", "event_sensitivity"}
 WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "event_direction", "stable_mode"}
 TEXTS = {"events", "stable_kind", "stable_cause", "scene_parameter_unit", "coordinate_unit", "mode_name"}
+OF_MASSES = {"kinetic_energy_share", "mode_name"}  # not in files of families of matrices
 
 
 def type_of(name):
@@ -136,7 +137,7 @@ class InH5py(unittest.TestCase):
         self.assertEqual(options, {
             "parameter": "omega", "from": "100", "to": "5", "tolerance": "1e-08", "modes": "all", "order": "auto",
             "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000",
-            "branch": "auto", "certify": "true"})
+            "branch": "auto", "without": "none", "certify": "true"})
         self.assertGreater(attributes["reference"], 0.0)
         self.assertEqual(attributes["notes"], "")
 
@@ -340,7 +341,7 @@ class Birth(ProgramTest):
     def test_the_column_grows_in_every_dataset(self):
         self.assertEqual(self.data["mode"].tolist(), [b"mode 1", b"mode 2"])
         for name, (dimensions, _) in LAYOUT.items():
-            if "mode" in dimensions:
+            if "mode" in dimensions and name not in OF_MASSES:
                 self.assertEqual(self.data[name].shape[1], 2, name)
 
     def test_mode_2_is_nan_before_the_meeting_and_exists_from_there(self):

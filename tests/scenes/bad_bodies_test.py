@@ -162,7 +162,7 @@ JOINTS = [
     scene("universal joint whose axes are not at right angles", 'cross_axis = "second.y"', "§cross_axis = [1, 1, 0]",
           "[[universal]] 1 cross_axis: must be at a right angle to axis at the starting guess; the cosine is 0.707"),
     scene("two joints of one name", 'name = "cardan"', '§name = "hinge"',
-          "[[universal]] 1 name: another joint is called 'hinge'"),
+          "[[universal]] 1 name: another constraint is called 'hinge' already"),
     scene_with("rod of no length", '[[rod]]\nfrom = "blade.tip"\nto = "ball"\n§length = 0',
                "[[rod]] 1 length: must be positive", "found 0"),
     scene("misspelt joint", "[[universal]]", "[[§univresal]]", "univresal: unknown key", "did you mean 'universal'?"),

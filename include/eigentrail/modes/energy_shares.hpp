@@ -5,6 +5,7 @@
 // are lag, rotation about s is torsion, motion along s is axial. Elsewhere they are the frame's x, y, z.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,12 @@ class EnergyShares {
  private:
   struct Carrier {
     MassCarrier mass;
-    bool blade = false;      ///< names of a blade's directions
-    Eigen::Index first = 0;  ///< of its motions
-    Eigen::Matrix3d axes;    ///< rows: s, a, a x s; or x, y, z
+    bool blade = false;                     ///< names of a blade's directions
+    std::array<Eigen::Index, 6> rows = {};  ///< of its motions along and about the axes
+    Eigen::Matrix3d axes;                   ///< rows: s, a, a x s; or x, y, z
   };
+  Eigen::Index row_of(const std::string& mass, const std::string& kind);
+
   std::vector<Carrier> carriers_;
   std::vector<MassMotion> motions_;
 };
