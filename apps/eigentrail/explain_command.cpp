@@ -130,7 +130,8 @@ std::string describe_route(const Structure& structure, const ModeWork& work) {
   return how + ": about " + rounded(100.0 * share, 2) + " % of the work of one LU per mode";
 }
 
-void print_solvers(const Model& model, const Structure& structure, const ModeWork& work, bool chosen) {
+void print_solvers(const Model& model, const Structure& structure, const ModeWork& work, bool chosen,
+                   bool sparse) {
   const int order = work.order;
   std::printf("solvers\n");
   std::string equilibrium =
@@ -140,13 +141,16 @@ void print_solvers(const Model& model, const Structure& structure, const ModeWor
   } else if (structure.fixed_equilibrium) {
     equilibrium = "does not move: KINSOL at the first point only";
   }
-  std::string basis = "rank-revealing QR at every point, series T_1 ... T_" + std::to_string(order);
+  const std::string first = sparse ? "rank-revealing QR at the first point, then projected by sparse factors"
+                                   : "rank-revealing QR at every point";
+  std::string basis = first + ", series T_1 ... T_" + std::to_string(order);
   if (model.n_constraints() == 0) {
     basis = "identity: no constraints";
   } else if (structure.constant_constraints) {
-    basis = "rank-revealing QR at every point, T' = 0";
+    basis = first + ", T' = 0";
   }
-  print_table({{"  equilibrium", equilibrium},
+  print_table({{"  matrices", sparse ? "sparse: many coordinates, few freedoms" : "dense"},
+               {"  equilibrium", equilibrium},
                {"  tangent basis", basis},
                {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
                {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
@@ -185,7 +189,7 @@ int run_explain(const ExplainArguments& arguments) {
   // Infinite eigenvalues show at the start of a trace only; its modes are then corrected one by one.
   const Eigen::Index modes = options.modes ? std::min<Eigen::Index>(*options.modes, 2 * freedoms) : freedoms;
   print_solvers(*model, structure, {freedoms, modes, !options.modes, options.order.value_or(cheapest)},
-                !options.order);
+                !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
   if (arguments.sensitivity) explain_sensitivity(arguments);
   return done;

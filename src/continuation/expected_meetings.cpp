@@ -56,14 +56,15 @@ class RootsOnStep {
  private:
   static constexpr int degree = 12;
   static constexpr double resolved = 1e-4;
-  /// A kink takes some thirty pieces. A gap of more is rounding: the two are one, as at s = 0 where no force
-  /// acts.
-  static constexpr int most_pieces = 2000;
+  /// A kink takes some thirty pieces. A gap of many more is rounding: the two are one, as at s = 0 where no
+  /// force acts.
+  static constexpr int most_pieces = 300;
 
   Complex distance(double t) {
     const ComplexVector& roots = sampler_(t);
     return roots[a_] - roots[b_];
   }
+  bool given_up() const { return pieces_ > most_pieces; }
 
   /// Where a piece of that length is looked at for roots.
   Rectangle looked_at(double length) const {
@@ -96,8 +97,9 @@ class RootsOnStep {
   }
 
   void search(double begin, double end) {
-    if (pieces_ > most_pieces || stay_apart(begin, end)) return;
-    if (++pieces_ > most_pieces) roots_.clear();
+    if (given_up() || stay_apart(begin, end)) return;
+    ++pieces_;
+    if (given_up()) roots_.clear();
     const double length = end - begin;
     if (length < smallest_piece) {
       if (roots_.empty() || std::abs(begin - roots_.back()) > 10.0 * smallest_piece) roots_.push_back(begin);
