@@ -28,9 +28,7 @@ struct Carrier {
 };
 
 struct Draft {
-  Draft(const Scene& scene, const ModelRequest& request) : scene(scene), request(request) {
-    used = request.used_elsewhere;
-  }
+  Draft(const Scene& of, const ModelRequest& asked) : scene(of), request(asked), used(asked.used_elsewhere) {}
 
   const Scene& scene;
   const ModelRequest& request;

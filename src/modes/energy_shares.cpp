@@ -60,6 +60,14 @@ RigidMotion rigid_motion(const MassCarrier& mass, const Moments& G, const Vector
   return motion;
 }
 
+/// Two kinds of motion as one: "flap-lag", "along x and y", "along x, about y".
+std::string both(const std::string& first, const std::string& second) {
+  const std::size_t word = first.find(' ');
+  if (word == std::string::npos) return first + "-" + second;
+  if (first.substr(0, word) != second.substr(0, word)) return first + ", " + second;
+  return std::min(first, second) + " and " + std::max(first, second).substr(word + 1);
+}
+
 /// Inertia about the centre of mass in the frame: tr(E) 1 - E with the second moments E.
 Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector& x) {
   if (mass.n_triples == 1) return Eigen::Matrix3d::Zero();
@@ -148,7 +156,7 @@ std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
       continue;
     }
     std::string name = kinds[0].first;
-    if (kinds[0].second < dominant && kinds.size() > 1) name += "-" + kinds[1].first;
+    if (kinds[0].second < dominant && kinds.size() > 1) name = both(name, kinds[1].first);
     if (masses.size() > 1 && masses[0].second > dominant) name = masses[0].first + " " + name;
     names.push_back(std::move(name));
   }

@@ -170,5 +170,17 @@ free_length = 1
   EXPECT_NEAR(modes.share("b", "along x", 1), 0.5, 1e-12);
 }
 
+TEST(EnergyShares, MotionInTwoDirectionsIsNamedByBoth) {
+  const Setting setting = make_setting(hanging_bar);
+  RunCounts counts;
+  const PathPoint point = point_from_guess(setting.problem(), setting.options.from, counts);
+  const EnergyShares energy(setting.model->description(), point.equilibrium.linearization.M[0],
+                            point.equilibrium.x);
+  Matrix shares = Matrix::Zero(6, 2);
+  shares.col(0) << 0.5, 0.5, 0.0, 0.0, 0.0, 0.0;
+  shares.col(1) << 0.0, 0.4, 0.0, 0.6, 0.0, 0.0;
+  EXPECT_EQ(energy.names(shares), (std::vector<std::string>{"along x and y", "about x, along y"}));
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -32,7 +32,7 @@ class EnergyShares {
   Matrix of(const SystemMatrix& M, const Vector& x, const ComplexMatrix& shapes) const;
 
   /// A name for each of some modes, given their shares (motions x modes) in the order in which equal names
-  /// are numbered: "flap", "lag 2", "flap-torsion", "hub along x".
+  /// are numbered: "flap", "lag 2", "flap-torsion", "hub along x and y".
   std::vector<std::string> names(const Matrix& shares) const;
 
  private:
