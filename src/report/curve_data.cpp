@@ -119,15 +119,22 @@ PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, do
           std::max(close.share * imag.range(), least), largest};
 }
 
-/// Whole numbers of 32 bits and what turns them into values: middle + unit * number.
+/// Whole numbers of 32 bits and what turns them into values: middle + unit * number. Zero is among the
+/// values.
 Json fixed_point(const std::vector<Complex>& values) {
   Extent real, imag;
   for (const Complex s : values) {
     real.add(s.real());
     imag.add(s.imag());
   }
-  const auto middle = [](const Extent& extent) { return 0.5 * (extent.low + extent.high); };
-  const auto unit = [](const Extent& extent) { return extent.range() / 4294967294.0; };
+  constexpr double numbers_in_range = 4294967290.0;
+  const auto unit = [](const Extent& extent) { return extent.range() / numbers_in_range; };
+  const auto middle = [&](const Extent& extent) {
+    const double plain = 0.5 * (extent.low + extent.high);
+    const double step = unit(extent);
+    const double whole = step > 0.0 ? std::round(plain / step) * step : plain;
+    return std::isfinite(whole) ? whole : plain;
+  };
   const auto number = [&](double value, const Extent& extent) {
     if (unit(extent) == 0.0) return std::int32_t{0};
     return static_cast<std::int32_t>(

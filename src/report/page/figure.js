@@ -21,12 +21,11 @@ const isTouch = () => window.matchMedia("(pointer: coarse)").matches;
 
 function figureConfig(name) {
   return {
-    responsive: true, displaylogo: false, doubleClick: "reset",
-    modeBarButtonsToRemove: ["lasso2d", "select2d", "autoScale2d", "toImage"],
-    modeBarButtonsToAdd: [{
-      name: "Save as SVG", icon: Plotly.Icons.camera,
+    responsive: true, displaylogo: false, doubleClick: "reset", displayModeBar: !isNarrow(),
+    modeBarButtons: [["zoom2d", "pan2d"], ["zoomIn2d", "zoomOut2d", "resetScale2d"], [{
+      name: "save", title: "Save as SVG", icon: Plotly.Icons.camera,
       click: (figure) => Plotly.downloadImage(figure, { format: "svg", filename: name }),
-    }],
+    }]],
   };
 }
 

@@ -21,7 +21,8 @@ const CHARTS = {
 };
 
 function dampingRatio(re, im) {
-  return -re / Math.max(Math.hypot(re, im), Number.MIN_VALUE) + 0;
+  const ratio = -re / Math.max(Math.hypot(re, im), Number.MIN_VALUE);
+  return Math.abs(ratio) < SAME_AS_ZERO ? 0 : ratio;
 }
 
 /** Lines of all modes in one chart: { file, mode, points, outside (certified), inside (not certified) }. */
@@ -102,7 +103,7 @@ function nameTrace(lines, isActive, style, view, short) {
   for (let i = list.length - 1, next = view.y[1]; i >= 0; --i) next = (heights[i] = Math.min(heights[i], next)) - gap;
   return {
     x: list.map(() => view.x[1]), y: heights, type: "scatter", mode: "text", textposition: "middle right", cliponaxis: false,
-    text: list.map(({ line }) => " " + plotText(short ? line.mode + 1 : line.file.modeText(line.mode))),
+    text: list.map(({ line }) => " " + plotText(short ? line.mode + 1 : line.file.shortText(line.mode))),
     textfont: { color: list.map(({ line }) => style(line.file, line.mode).colour), size: 11.5 },
     hoverinfo: "skip", showlegend: false, xaxis: "x", yaxis: "y",
   };
@@ -127,18 +128,49 @@ function eventTraces(files, chart, settings, isActive, axes, showLegend) {
       kinds.get(event.kind).push({ file, event });
     }
   }
-  const count = [...kinds.values()].reduce((sum, list) => sum + list.length, 0);
-  const named = settings.eventNames && count <= MOST_EVENT_NAMES && chart !== "damping";
+  for (const list of kinds.values())
+    for (const mark of list) [mark.x, mark.y] = eventPoint(mark.event, chart, settings);
+  const marks = [...kinds.values()].flat();
+  const named = settings.eventNames && marks.length <= MOST_EVENT_NAMES && chart !== "damping";
+  if (named) placeNames(marks, axes.view);
+  const { view, ...plot } = axes;
   return [...kinds].map(([kind, list]) => {
-    const points = list.map(({ event }) => eventPoint(event, chart, settings));
     return {
-      x: points.map(([x]) => x), y: points.map(([, y]) => y), type: "scatter", mode: named ? "markers+text" : "markers",
-      text: named ? list.map(({ file, event }) => plotText(`${kind.replace("_", " ")} ${file.eventNumber(event)}`)) : undefined,
-      textposition: "top center", textfont: { size: 11, color: INK }, cliponaxis: true,
+      x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: named ? "markers+text" : "markers",
+      text: named ? list.map(({ name }) => plotText(name)) : undefined,
+      textposition: named ? list.map(({ side }) => side) : undefined, textfont: { size: 11, color: INK }, cliponaxis: true,
       marker: { symbol: EVENT_SYMBOLS[kind] || "circle-open-dot", size: 11, color: INK, line: { width: kind.match(/flutter|divergence|collision|fold/) ? 0.5 : 2, color: INK } },
-      name: kind.replace("_", " "), legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...axes,
+      name: kind.replace("_", " "), legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot, marks: list,
     };
   });
+}
+
+/** What changes stability or the path is named; of the others the number must do, their mark tells the kind. */
+const NAMED_EVENTS = ["flutter", "divergence", "collision", "fold", "pitchfork", "resonance"];
+const SIDES = { "top center": [0, -1], "bottom center": [0, 1], "middle right": [1, 0], "middle left": [-1, 0], "top right": [1, -1],
+  "top left": [-1, -1], "bottom right": [1, 1], "bottom left": [-1, 1] };
+
+/** Gives every mark a `name` and a `side` for it where it covers no other name or mark; an empty name where there is none. */
+function placeNames(marks, view) {
+  const at = (mark) => [mark.x * view.perX, -mark.y * view.perY];
+  const taken = marks.map((mark) => { const [x, y] = at(mark); return [x - 6, x + 6, y - 6, y + 6]; });
+  const overlaps = ([a, b, c, d]) => taken.some(([e, f, g, h]) => a < f && b > e && c < h && d > g);
+  for (const mark of marks) {
+    const { file, event } = mark, [x, y] = at(mark);
+    const number = file.eventNumber(event), long = NAMED_EVENTS.includes(event.kind) ? `${event.kind} ${number}` : number;
+    mark.name = "";
+    mark.side = "top center";
+    for (const [name, side] of [long, number].flatMap((text) => Object.keys(SIDES).map((key) => [text, key]))) {
+      const width = 6.3 * name.length, [dx, dy] = SIDES[side];
+      const left = x - width / 2 + dx * (width / 2 + 8), top = y - 6 + dy * 13;
+      const box = [left, left + width, top, top + 12];
+      const right = view.x[1] * view.perX, leftEnd = view.x[0] * view.perX;
+      if (overlaps(box) || box[1] > right || box[0] < leftEnd) continue;
+      taken.push(box);
+      Object.assign(mark, { name, side });
+      break;
+    }
+  }
 }
 
 /** Shaded ranges of the parameter: the whole height for one file, a strip at the bottom for each of several. */
@@ -163,13 +195,14 @@ function rayTraces(files, settings, view) {
   const { parameter, frequency } = source.data.excitation;
   return settings.harmonics.map((n) => {
     const points = parameter.map((p, i) => [p, n * frequency[i] * settings.unitFactor]);
-    const seen = points.filter(([x, y]) => x >= view.x[0] && x <= view.x[1] && y >= view.y[0] && y <= view.y[1]);
-    const end = seen.length ? seen[seen.length - 1] : null;
+    const top = view.y[1] - 16 / view.perY, right = view.x[1] - 8 / view.perX;
+    const seen = points.filter(([x, y]) => x >= view.x[0] && x <= right && y >= view.y[0] && y <= top);
+    const end = seen.length ? seen.reduce((a, b) => (b[0] > a[0] ? b : a)) : null;
     const last = points.findIndex((point) => point === end);
     return {
       x: points.map(([x]) => x), y: points.map(([, y]) => y), type: "scatter", mode: "lines+text", hoverinfo: "skip", showlegend: false,
-      line: { color: "#888", width: 1, dash: "1px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic: n },
-      text: points.map((_, i) => (i === last ? plotText(`${number(n)}\u00d7`) : "")), textposition: "top left", textfont: { color: "#666", size: 11 },
+      line: { color: "#777", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic: n },
+      text: points.map((_, i) => (i === last ? plotText(`${number(n)}\u00d7`) : "")), textposition: "middle left", textfont: { color: "#555", size: 11.5 },
     };
   });
 }

@@ -12,6 +12,8 @@ class LociFile {
     const { label, name } = this.data.modes[mode] || { label: `mode ${mode + 1}` };
     return name ? `${label}, ${name}` : label;
   }
+  /** For the ends of lines. */
+  shortText(mode) { return `${mode + 1} ${this.data.modes[mode].name}`.trim(); }
   eventNumber(event) { return `E${this.firstEvent + this.data.events.indexOf(event) + 1}`; }
 }
 
@@ -30,6 +32,7 @@ class LociView {
     this.isolated = new Set();
     this.zoom = { campbell: null, locus: null };
     this.lines = {};
+    this.marks = {};
     this.parameter = this.files[0].data.parameter;
     this.range = [Math.min(...this.files.map((file) => file.path.lowest)), Math.max(...this.files.map((file) => file.path.highest))];
     this.place = this.files.map(() => 0);
@@ -49,8 +52,8 @@ class LociView {
     this.node = element("section", { class: "loci" }, this.controls(),
       element("div", { class: "charts" }, this.campbell, this.locus), this.key(), this.placeBar(),
       element("div", { class: "pair" }, element("div", {}, element("h3", { text: "Modes" }), this.modeTable.node,
-        element("p", { class: "note", text: "Click a line, or a mode here, to isolate it; again to release it. Shift adds further ones." })), this.shape.node),
-      element("h3", { text: "Events" }), eventTable(this.files, (file, event) => this.showEvent(file, event)),
+        element("p", { class: "note", text: "Click a line, or a mode here, to isolate it; again to release it. Shift adds further ones." }),
+        element("h3", { text: "Events" }), eventTable(this.files, (file, event) => this.showEvent(file, event))), this.shape.node),
       element("h3", { text: "Stable ranges" }), rangeTable(this.files));
   }
 
@@ -203,9 +206,14 @@ class LociView {
     figure.append(tip);
     const nearest = (event) => {
       const box = figure.getBoundingClientRect(), at = [event.clientX - box.left, event.clientY - box.top];
-      const found = charts.filter((chart) => insideAxes(figure, CHARTS[chart].xaxis, CHARTS[chart].yaxis, at))
-        .map((chart) => ({ chart, at, ...nearestOnLines(this.pixelLines(figure, chart), ...at) })).filter((hit) => hit.distance < REACH);
-      return found[0] || null;
+      const chart = charts.find((name) => insideAxes(figure, CHARTS[name].xaxis, CHARTS[name].yaxis, at));
+      if (!chart) return null;
+      const mark = this.marks[chart].find(({ x, y }) => {
+        const [px, py] = toPixels(figure, CHARTS[chart].xaxis, CHARTS[chart].yaxis, x, y);
+        return Math.hypot(px - at[0], py - at[1]) < 8;
+      });
+      const hit = nearestOnLines(this.pixelLines(figure, chart), ...at);
+      return mark ? { at, mark } : hit && hit.distance < REACH ? { at, ...hit } : null;
     };
     let down = null;
     figure.addEventListener("pointermove", (event) => {
@@ -220,6 +228,7 @@ class LociView {
       down = null;
       const hit = still ? nearest(event) : null;
       if (!hit) return;
+      if (hit.mark) return void this.showEvent(hit.mark.file, hit.mark.event);
       this.moveTo(hit.line.file, hit.place, hit.line.mode);
       this.toggle(hit.line.file, hit.line.mode, event.shiftKey || event.ctrlKey || event.metaKey);
       if (event.pointerType !== "mouse") { tip.classList.remove("hidden"); this.fillTip(tip, figure, hit); }
@@ -242,24 +251,35 @@ class LociView {
     return lines;
   }
 
-  fillTip(tip, figure, { line, place, at }) {
-    const { file, mode } = line, s = file.path.eigenvalue(mode, place);
-    if (!s) return;
-    const settings = this.settings, size = Math.hypot(...s);
-    const frequency = (settings.frequency === "abs" ? size : Math.abs(s[1])) * settings.unitFactor;
-    const doubtful = file.data.modes[mode].uncertified.some(([a, b]) => place >= file.path.places[a] && place <= file.path.places[b]);
-    tip.replaceChildren(element("b", { text: file.modeText(mode) }), ...[
-      this.files.length > 1 ? file.data.name : "",
-      `${this.parameter.name} = ${withUnit(number(file.path.parameterAt(place), 8), this.parameter.unit)}`,
-      `s = ${complexText(...s, 8)} 1/s`,
-      `${settings.frequency === "abs" ? "abs(s)" : "Im s"} = ${number(frequency, 8)} ${settings.unit}`,
-      `damping ratio ${number(dampingRatio(...s), 6)}`, doubtful ? "identity not certified here" : "",
-    ].filter(Boolean).map((text) => element("div", { text })));
+  fillTip(tip, figure, hit) {
+    const texts = hit.mark ? this.eventTexts(hit.mark) : this.lineTexts(hit), at = hit.at;
+    if (!texts) return;
+    const [head, ...others] = texts.filter(Boolean);
+    tip.replaceChildren(element("b", { text: head }), ...others.map((text) => element("div", { text })));
     const width = tip.offsetWidth, height = tip.offsetHeight;
     const left = at[0] + 18 + width > figure.clientWidth ? Math.max(at[0] - width - 18, 2) : at[0] + 18;
     const top = Math.min(Math.max(at[1] - height - 10, 2), figure.clientHeight - height - 2);
     tip.style.left = `${left}px`;
     tip.style.top = `${top}px`;
+  }
+
+  eventTexts({ file, event }) {
+    return [`${file.eventNumber(event)} ${event.kind.replace("_", " ")}`, this.files.length > 1 ? file.data.name : "",
+      `${this.parameter.name} = ${withUnit(number(event.parameter, 10), this.parameter.unit)}`, `s = ${complexText(event.real, event.imag, 8)} 1/s`,
+      event.modes.map((mode) => file.modeText(mode)).join(" and "), eventRemark(event)];
+  }
+
+  lineTexts({ line, place }) {
+    const { file, mode } = line, s = file.path.eigenvalue(mode, place);
+    if (!s) return null;
+    const settings = this.settings, size = Math.hypot(...s);
+    const frequency = (settings.frequency === "abs" ? size : Math.abs(s[1])) * settings.unitFactor;
+    const doubtful = file.data.modes[mode].uncertified.some(([a, b]) => place >= file.path.places[a] && place <= file.path.places[b]);
+    return [file.modeText(mode), this.files.length > 1 ? file.data.name : "",
+      `${this.parameter.name} = ${withUnit(number(file.path.parameterAt(place), 8), this.parameter.unit)}`,
+      `s = ${complexText(...s, 8)} 1/s`,
+      `${settings.frequency === "abs" ? "abs(s)" : "Im s"} = ${number(frequency, 8)} ${settings.unit}`,
+      `damping ratio ${number(dampingRatio(...s), 6)}`, doubtful ? "identity not certified here" : ""];
   }
 
   // Drawing.
@@ -317,7 +337,7 @@ class LociView {
     const { settings, files, isActive } = this, width = this.campbell.clientWidth, height = this.campbell.clientHeight;
     const active = this.files.reduce((sum, file) => sum + file.data.modes.filter((_, mode) => isActive({ file, mode })).length, 0);
     const named = active <= MOST_LABELLED, narrow = width < 560;
-    const longest = Math.max(...files.map((file) => Math.max(...file.data.modes.map((_, mode) => file.modeText(mode).length))));
+    const longest = Math.max(...files.map((file) => Math.max(...file.data.modes.map((_, mode) => file.shortText(mode).length))));
     const right = !named ? 18 : narrow ? 30 : Math.min(24 + 6.4 * longest, 210);
     const pad = 0.01 * (this.range[1] - this.range[0] || 1), zoom = this.zoom.campbell;
     const x = zoom ? zoom.x : [this.range[0] - pad, this.range[1] + pad];
@@ -329,7 +349,7 @@ class LociView {
       this.lines[chart] = chartLines(files, chart, settings, views[chart], this.spacing());
       traces.push(...modeTraces(this.lines[chart], isActive, this.style, plot));
       if (named) traces.push(markTrace(this.lines[chart], isActive, this.style, { chart, settings, plot }));
-      traces.push(...eventTraces(files, chart, settings, isActive, plot, chart === "frequency"));
+      traces.push(...this.eventTraces(chart, plot, views[chart]));
     }
     if (named) traces.push(nameTrace(this.lines.frequency, isActive, this.style, views.frequency, narrow));
     const layout = figureLayout({
@@ -339,6 +359,13 @@ class LociView {
       yaxis2: figureAxis(settings.damping === "real" ? "Re s, 1/s" : "damping ratio", { range: y2, domain: [0, 0.3], zerolinewidth: 1.5 }),
     });
     Plotly.react(this.campbell, traces, layout, figureConfig("campbell"));
+  }
+
+  eventTraces(chart, plot, view) {
+    const traces = eventTraces(this.files, chart, this.settings, this.isActive, { ...plot, view }, chart === "frequency");
+    this.marks[chart] = traces.flatMap((trace) => trace.marks);
+    for (const trace of traces) delete trace.marks;
+    return traces;
   }
 
   frequencyRange() {
@@ -358,7 +385,7 @@ class LociView {
     const plot = { xaxis: "x", yaxis: "y" };
     const style = settings.colourBy === "mode" ? (file, mode) => ({ ...this.style(file, mode), colour: COLOURS[mode % COLOURS.length] }) : this.style;
     const traces = byParameter ? parameterTraces(this.lines.locus, isActive, this.range) : modeTraces(this.lines.locus, isActive, style, plot);
-    traces.push(...endTraces(this.lines.locus, isActive), ...eventTraces(files, "locus", settings, isActive, plot, false));
+    traces.push(...endTraces(this.lines.locus, isActive), ...this.eventTraces("locus", plot, view));
     if (byParameter) traces.push(parameterScale(this.range, axisName(this.parameter)));
     const axis = { type: "line", xref: "x", yref: "y domain", x0: 0, x1: 0, y0: 0, y1: 1, line: { color: "#555", width: 1.2 }, layer: "below" };
     const layout = figureLayout({

@@ -97,12 +97,12 @@ class ShapeView {
     const figure = shapes.figure(row, mode);
     const at = shapes.positions(row, mode, this.amplitude * figure.displacement, this.phase), rest = figure.rest;
     const [ca, sa, cb, sb] = [Math.cos(turn[0]), Math.sin(turn[0]), Math.cos(turn[1]), Math.sin(turn[1])];
-    const scale = (0.40 * Math.min(width, height)) / figure.radius;
-    const project = ([x, y, z]) => {
+    const flat = ([x, y, z]) => {
       const [u, v, w] = [x - figure.centre[0], y - figure.centre[1], z - figure.centre[2]];
-      const depth = sa * u + ca * v;
-      return [width / 2 + scale * (ca * u - sa * v), height / 2 - scale * (cb * w + sb * depth)];
+      return [ca * u - sa * v, -(cb * w + sb * (sa * u + ca * v))];
     };
+    const { scale, middle } = fitted(figure.extremes.map(flat), width, height, 0.3 * figure.radius);
+    const project = (point) => flat(point).map((value, k) => (k ? height : width) / 2 + scale * (value - middle[k]));
     const line = (a, b, colour, thickness, dash = []) => {
       pen.strokeStyle = colour; pen.lineWidth = thickness; pen.setLineDash(dash);
       pen.beginPath(); pen.moveTo(...project(a)); pen.lineTo(...project(b)); pen.stroke();
@@ -115,10 +115,23 @@ class ShapeView {
     };
     this.paintAxes(pen, [ca, sa, cb, sb], height);
     for (const [positions, ghost] of [[rest, true], [at, false]]) this.paintParts(positions, ghost, line, dot, figure);
-    if (shapes.geometry.carriers.length <= 8) {
-      pen.font = "11.5px system-ui, sans-serif"; pen.fillStyle = INK;
-      shapes.geometry.carriers.forEach((carrier, i) => { const [x, y] = project(at.origins[i]); pen.fillText(carrier.name, x + 8, y - 6); });
-    }
+    this.paintNames(pen, at, project);
+  }
+
+  /** Names beside the middle of what belongs to them, where there is room. */
+  paintNames(pen, at, project) {
+    const { carriers, places } = this.shapes.geometry, taken = [];
+    if (carriers.length > 24) return;
+    pen.font = "11.5px system-ui, sans-serif";
+    pen.fillStyle = INK;
+    carriers.forEach((carrier, i) => {
+      const own = [at.origins[i], ...at.places.filter((_, k) => places[k].carrier === i)].map(project);
+      const [x, y] = [0, 1].map((k) => own.reduce((sum, point) => sum + point[k], 0) / own.length + [8, -7][k]);
+      const width = pen.measureText(carrier.name).width;
+      if (taken.some(([a, b, c]) => x < b && x + width > a && Math.abs(y - c) < 12)) return;
+      taken.push([x, x + width, y]);
+      pen.fillText(carrier.name, x, y);
+    });
   }
 
   paintParts(at, ghost, line, dot, figure) {
@@ -221,13 +234,26 @@ class Shapes {
     const low = [0, 1, 2].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1, 2].map((k) => Math.max(...all.map((p) => p[k])));
     const radius = Math.max(Math.hypot(...high.map((h, k) => h - low[k])) / 2, 1e-9) || 1;
     let largest = 0;
+    const wide = radius > 1e-8 ? radius : 1;
     for (const phase of [0, Math.PI / 4, Math.PI / 2, (3 * Math.PI) / 4]) {
       const moved = this.positions(row, mode, 1, phase);
       for (const part of ["origins", "places"])
         moved[part].forEach((p, i) => { largest = Math.max(largest, Math.hypot(...p.map((value, k) => value - rest[part][i][k]))); });
     }
-    const wide = radius > 1e-8 ? radius : 1;
-    this.cached = { row, mode, rest, centre: low.map((l, k) => (l + high[k]) / 2), radius: wide, displacement: largest > 0 ? (0.3 * wide) / largest : 0 };
+    const displacement = largest > 0 ? (0.3 * wide) / largest : 0, extremes = [...all];
+    for (let i = 0; i < 8; ++i) {
+      const moved = this.positions(row, mode, displacement, (i * Math.PI) / 4);
+      extremes.push(...moved.origins, ...moved.places);
+    }
+    this.cached = { row, mode, rest, centre: low.map((l, k) => (l + high[k]) / 2), radius: wide, displacement, extremes };
     return this.cached;
   }
+}
+
+/** Scale and middle that show all points, with a margin; nothing smaller than `least` fills the picture. */
+function fitted(points, width, height, least) {
+  const low = [0, 1].map((k) => Math.min(...points.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...points.map((p) => p[k])));
+  const room = [width - 90, height - 70];
+  const scale = Math.min(...room.map((size, k) => Math.max(size, 40) / Math.max(high[k] - low[k], least)));
+  return { scale, middle: low.map((l, k) => (l + high[k]) / 2) };
 }

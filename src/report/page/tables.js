@@ -44,20 +44,20 @@ function rangeTable(files) {
 /** The modes: a button that isolates each, its values at the chosen place, its certified share. */
 class ModeTable {
   constructor(files, style, toggle) {
+    const several = files.length > 1, named = files.some((file) => file.data.modes.some((mode) => mode.name));
     this.entries = files.flatMap((file) => file.data.modes.map((mode, i) => {
       const button = element("button", { type: "button", "aria-pressed": "false", text: mode.label, title: "isolate, again to release",
         click: (event) => toggle(file, i, event.shiftKey || event.ctrlKey || event.metaKey) });
       const { colour, symbol } = style(file, i);
       const values = ["s", "frequency", "damping"].map(() => element("td", { class: "value" }));
       const share = mode.certified === null ? "–" : `${number(100 * mode.certified, 4)} %`;
-      const row = element("tr", {}, element("td", {}, swatch(colour, symbol), button), ...(files.length > 1 ? [cell(file.data.name)] : []),
-        cell(mode.name || "–"), ...values, cell(share, "value"));
+      const row = element("tr", {}, element("td", {}, swatch(colour, symbol), button), ...(several ? [cell(file.data.name)] : []),
+        ...(named ? [cell(mode.name || "–")] : []), ...values, cell(share, "value"));
       return { file, mode: i, button, values, row };
     }));
-    this.unitHead = "frequency";
-    this.node = table(["mode", ...(files.length > 1 ? ["file"] : []), "what moves", "s, 1/s", "frequency", "damping ratio", "certified"],
+    this.node = table(["mode", ...(several ? ["file"] : []), ...(named ? ["what moves"] : []), "s, 1/s", "frequency", "damping", "certified"],
       this.entries.map((entry) => entry.row), "Modes");
-    this.frequencyHead = this.node.querySelectorAll("th")[files.length > 1 ? 4 : 3];
+    this.frequencyHead = this.node.querySelectorAll("th")[2 + several + named];
   }
 
   update(place, settings, isActive, isIsolated) {
@@ -65,7 +65,7 @@ class ModeTable {
     for (const { file, mode, button, values, row } of this.entries) {
       const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
       const frequency = s && (settings.frequency === "abs" ? Math.hypot(...s) : Math.abs(s[1])) * settings.unitFactor;
-      const texts = s ? [complexText(s[0], s[1], 9), number(frequency, 9), number(dampingRatio(...s), 6)] : ["–", "–", "–"];
+      const texts = s ? [complexText(s[0], s[1], 8), number(frequency, 8), number(dampingRatio(...s), 6)] : ["–", "–", "–"];
       values.forEach((node, i) => { node.textContent = texts[i]; });
       button.setAttribute("aria-pressed", String(isIsolated(file, mode)));
       row.classList.toggle("dim", !isActive({ file, mode }));

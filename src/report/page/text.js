@@ -14,6 +14,8 @@ function element(tag, attributes = {}, ...children) {
   return node;
 }
 
+const SAME_AS_ZERO = 1e-9;
+
 /** The number with so many significant digits, without zeros that say nothing. */
 function number(value, digits = 6) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
@@ -21,7 +23,9 @@ function number(value, digits = 6) {
   return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e−", "e-");
 }
 
+/** Real parts that count as zero everywhere in eigentrail are shown as zero. */
 function complexText(real, imag, digits = 7) {
+  if (Math.abs(real) < SAME_AS_ZERO * Math.abs(imag)) real = 0;
   return `${number(real, digits)} ${imag < 0 ? "−" : "+"} ${number(Math.abs(imag), digits)}j`;
 }
 
