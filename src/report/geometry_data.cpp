@@ -2,8 +2,10 @@
 // lines between the two sides of rods, springs, dampers and joints. The scene is read leniently: what is not
 // understood is left out of the figure.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/scene.hpp"

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
+#include <span>
 
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -108,7 +111,7 @@ Json excitation_data(const LociFile& loci) {
       parameters.push_back(p);
       frequencies.push_back(events.excitation ? events.excitation->evaluate(std::span<const double>(
                                                     values.data(), static_cast<std::size_t>(values.size())))
-                                              : (turns ? 2.0 * M_PI : 1.0) * values[*index]);
+                                              : (turns ? 2.0 * std::numbers::pi : 1.0) * values[*index]);
     }
     return {{"parameter", parameters}, {"frequency", frequencies}, {"harmonics", events.harmonics}};
   } catch (const InputError&) {

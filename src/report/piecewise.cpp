@@ -9,6 +9,7 @@ namespace {
 
 constexpr double shortest_piece = 1e-13;  ///< of the whole; shorter ones are taken as they are
 constexpr double shortest_at_gap = 1e-6;  ///< of the whole; beside a part that is left out
+constexpr double shortest_in_gap = 1e-3;  ///< of the whole; where nothing seen of the piece may stay
 
 using PieceValues = std::vector<Complex>;
 
@@ -94,10 +95,12 @@ class Approximation {
   void halve(const Range& range) {
     PieceValues values;
     for (const double u : places_) values.push_back(at(range, range.from + u * (range.to - range.from)));
-    const bool finite = std::all_of(values.begin(), values.end(), [this](Complex s) { return fits(s); });
+    const auto fitting = std::count_if(values.begin(), values.end(), [this](Complex s) { return fits(s); });
+    const bool finite = fitting == static_cast<std::ptrdiff_t>(values.size());
+    const double shortest = (fitting == 0 ? shortest_in_gap : shortest_at_gap) * length_;
     if (finite && (range.to - range.from <= shortest_piece * length_ || meets_everywhere(range, values))) {
       add(range, values);
-    } else if (finite || range.to - range.from > shortest_at_gap * length_) {
+    } else if (finite || range.to - range.from > shortest) {
       const auto [left, right] = halves(range);
       if (left.to <= left.from || right.to <= right.from) return;
       halve(left);

@@ -40,9 +40,13 @@ class AccuracyView {
         line: { color: COLOURS[i % COLOURS.length], width: 2, dash: ["solid", "6px,3px", "2px,2px"][Math.floor(i / COLOURS.length) % 3] },
         marker: { size: 8, symbol: shown.map((k) => symbol + (file.status[k] === "completed" ? "" : "-open")), color: COLOURS[i % COLOURS.length] } };
     });
-    const log = { type: "log", exponentformat: "power", dtick: 1, minexponent: 0 };
+    const log = (values) => {
+      const range = [Math.floor(Math.log10(Math.min(...values))), Math.ceil(Math.log10(Math.max(...values)))];
+      return { type: "log", exponentformat: "power", minexponent: 0, dtick: range[1] - range[0] > 6 ? 2 : 1, ...(values.length ? { range: padded(range, 0.03) } : {}) };
+    };
+    const seen = (key) => traces.flatMap((trace) => trace[key]);
     Plotly.react(this.figure, traces, figureLayout({ hovermode: "closest", margin: { l: 66, r: 16, t: 16, b: 46 },
       legend: isNarrow() ? { orientation: "h", y: -0.16, font: { size: 11 } } : { orientation: "v", x: 1.01, y: 1, font: { size: 12 } },
-      xaxis: figureAxis(this.options[work], log), yaxis: figureAxis("largest error, relative", { ...log, dtick: 2 }) }), figureConfig("accuracy"));
+      xaxis: figureAxis(this.options[work], log(seen("x"))), yaxis: figureAxis("largest error, relative", log(seen("y"))) }), figureConfig("accuracy"));
   }
 }

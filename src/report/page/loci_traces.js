@@ -139,7 +139,7 @@ function eventTraces(files, chart, settings, isActive, axes, showLegend) {
       x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: named ? "markers+text" : "markers",
       text: named ? list.map(({ name }) => plotText(name)) : undefined,
       textposition: named ? list.map(({ side }) => side) : undefined, textfont: { size: 11, color: INK }, cliponaxis: true,
-      marker: { symbol: EVENT_SYMBOLS[kind] || "circle-open-dot", size: 11, color: INK, line: { width: kind.match(/flutter|divergence|collision|fold/) ? 0.5 : 2, color: INK } },
+      marker: { symbol: EVENT_SYMBOLS[kind] || "circle-open-dot", size: marks.length > 60 ? 7 : 11, color: INK, line: { width: kind.match(/flutter|divergence|collision|fold/) ? 0.5 : 2, color: INK } },
       name: kind.replace("_", " "), legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot, marks: list,
     };
   });
@@ -173,15 +173,16 @@ function placeNames(marks, view) {
   }
 }
 
-/** Shaded ranges of the parameter: the whole height for one file, a strip at the bottom for each of several. */
+/** Shaded ranges of the parameter: the whole height for one file, a strip above for each of several. */
 function rangeShapes(files) {
   const shapes = [];
   files.forEach((file, row) => {
     for (const range of file.data.ranges || []) {
       const colour = range.kind === "stable" ? "rgba(0,158,115,0.13)" : "rgba(230,159,0,0.16)";
-      const strip = files.length > 1 ? { y0: row * 0.025, y1: row * 0.025 + 0.02, fillcolor: file.colour, opacity: range.kind === "stable" ? 0.9 : 0.4 }
+      const several = files.length > 1;
+      const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: range.kind === "stable" ? 1 : 0.4 }
         : { y0: 0, y1: 1, fillcolor: colour };
-      for (const axis of ["y", "y2"])
+      for (const axis of several ? ["y"] : ["y", "y2"])
         shapes.push({ type: "rect", xref: "x", yref: `${axis} domain`, x0: range.from.parameter, x1: range.to.parameter, line: { width: 0 }, layer: "below", ...strip });
     }
   });
@@ -255,7 +256,7 @@ function endTraces(lines, isActive) {
   const shown = lines.filter(isActive);
   const marks = (pick, symbol) => ({
     x: shown.map((line) => pick(line).x), y: shown.map((line) => pick(line).y), type: "scatter", mode: "markers", hoverinfo: "skip",
-    showlegend: false, marker: { symbol, size: 7, color: INK, line: { width: 1.5, color: INK } },
+    showlegend: false, marker: { symbol, size: shown.length > 40 ? 4 : 7, color: INK, line: { width: shown.length > 40 ? 1 : 1.5, color: INK } },
   });
   return [marks((line) => line.points[0], "circle-open"), marks((line) => line.points[line.points.length - 1], "circle")];
 }

@@ -13,7 +13,7 @@ class LociFile {
     return name ? `${label}, ${name}` : label;
   }
   /** For the ends of lines. */
-  shortText(mode) { return `${mode + 1} ${this.data.modes[mode].name}`.trim(); }
+  shortText(mode) { return [mode + 1, this.data.modes[mode].name].filter(Boolean).join(": "); }
   eventNumber(event) { return `E${this.firstEvent + this.data.events.indexOf(event) + 1}`; }
 }
 
@@ -61,7 +61,8 @@ class LociView {
     this.draw();
     for (const [figure, charts] of [[this.campbell, ["frequency", "damping"]], [this.locus, ["locus"]]]) this.listen(figure, charts);
     this.moveTo(this.files[0], this.files[0].path.placesOf(this.range[0])[0] ?? 0, 0);
-    new ResizeObserver(() => this.laterDraw()).observe(this.node);
+    let width = this.node.clientWidth;
+    new ResizeObserver(() => { if (width !== (width = this.node.clientWidth)) this.laterDraw(); }).observe(this.node);
   }
 
   // Controls.
@@ -102,7 +103,7 @@ class LociView {
     const item = (kind, text) => element("span", {}, element("i", { class: kind }), text);
     const several = this.files.length > 1;
     return element("div", { class: "key" }, ...files,
-      ...(several && (ranges("stable") || ranges("marginal")) ? [element("span", { text: "strips at the bottom: no mode grows (pale: marginal)" })] : []),
+      ...(several && (ranges("stable") || ranges("marginal")) ? [element("span", { text: "strips above: no mode grows (pale: marginal)" })] : []),
       ...(!several && ranges("stable") ? [item("stable", "stable: all modes decay")] : []),
       ...(!several && ranges("marginal") ? [item("marginal", "marginal: none grows, some stay on the imaginary axis")] : []),
       ...(has((file) => file.data.modes.some((mode) => mode.uncertified.length)) ? [item("dashed", "identity of the mode not certified")] : []),
@@ -353,7 +354,8 @@ class LociView {
     }
     if (named) traces.push(nameTrace(this.lines.frequency, isActive, this.style, views.frequency, narrow));
     const layout = figureLayout({
-      margin: { l: 58, r: right, t: 40, b: 46 }, shapes: rangeShapes(files),
+      margin: { l: 58, r: right, t: 40 + (files.length > 1 ? 7 * files.length : 0), b: 46 }, shapes: rangeShapes(files),
+      legend: { orientation: "h", x: 0, y: 1.01 + (files.length > 1 ? 0.012 * files.length : 0), yanchor: "bottom", font: { size: 11.5 } },
       xaxis: figureAxis(axisName(this.parameter), { range: x, anchor: "y2", zeroline: false }),
       yaxis: figureAxis(`${settings.frequency === "abs" ? "abs(s)" : "Im s"}, ${settings.unit}`, { range: y, domain: [0.38, 1] }),
       yaxis2: figureAxis(settings.damping === "real" ? "Re s, 1/s" : "damping ratio", { range: y2, domain: [0, 0.3], zerolinewidth: 1.5 }),
@@ -403,8 +405,8 @@ function usualRange(values) {
   let low = sorted[0], high = sorted[n - 1];
   const quantile = (share) => sorted[Math.min(Math.floor(share * n), n - 1)];
   const most = Math.max(quantile(0.97) - quantile(0.03), 1e-12 * Math.max(Math.abs(low), Math.abs(high)));
-  if (n > 60 && high - quantile(0.97) > 5 * most) high = quantile(0.97) + 0.5 * most;
-  if (n > 60 && quantile(0.03) - low > 5 * most) low = quantile(0.03) - 0.5 * most;
+  if (n > 60 && high - quantile(0.97) > 25 * most) high = quantile(0.97) + 0.5 * most;
+  if (n > 60 && quantile(0.03) - low > 25 * most) low = quantile(0.03) - 0.5 * most;
   return low < high ? [low, high] : [low - (0.05 * Math.abs(low) || 0.05), high + (0.05 * Math.abs(high) || 0.05)];
 }
 

@@ -1,6 +1,8 @@
 "use strict";
 // Puts the page together from the data in it.
 
+const PAPER = { width: "690px", height: "480px" };
+
 function summary(file) {
   const { attributes } = file;
   if (file.kind === "loci") {
@@ -24,6 +26,19 @@ function grouped(items, key) {
   return [...groups.values()];
 }
 
+/** Figures have the width of the window; on paper that of the sheet. */
+function fitToPaper(views) {
+  const resize = (size) => {
+    for (const chart of document.querySelectorAll(".chart")) {
+      Object.assign(chart.style, size);
+      Plotly.Plots.resize(chart);
+    }
+    for (const view of views) view.draw();
+  };
+  window.addEventListener("beforeprint", () => resize(PAPER));
+  window.addEventListener("afterprint", () => resize({ width: "", height: "" }));
+}
+
 function startReport() {
   const { files, program_version: version } = JSON.parse(document.getElementById("data").textContent);
   const titles = [...new Set(files.map((file) => file.title).filter(Boolean))];
@@ -42,6 +57,7 @@ function startReport() {
     ...files.flatMap((file) => [runDetails(file), ...(file.scene ? [sceneDetails(file)] : [])]));
   document.getElementById("footer").append(`Written by eigentrail ${version}. Curves are the dense output of the traces; drawn with plotly.js (MIT).`);
   for (const view of views) view.start();
+  fitToPaper(views);
   return {
     views, loci,
     /** Eigenvalues as `eigentrail eval` tells them, in the browser's console: report.eval(12.5). */
