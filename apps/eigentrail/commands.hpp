@@ -17,5 +17,6 @@ void add_info(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program, int& exit_code);
 void add_verify(CLI::App& program, int& exit_code);
 void add_accuracy(CLI::App& program, int& exit_code);
+void add_report(CLI::App& program, int& exit_code);
 
 }  // namespace eigentrail::app

@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   add_explain(program, exit_code);
   add_verify(program, exit_code);
   add_accuracy(program, exit_code);
+  add_report(program, exit_code);
   reject_unknown_command(program, argc, argv);
   try {
     program.parse(argc, argv);

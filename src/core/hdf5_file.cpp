@@ -189,6 +189,28 @@ struct Hdf5File::Implementation {
           "read dataset " + name + " of " + path);
     return data;
   }
+
+  template <class Element>
+  std::vector<Element> read_row(const std::string& name, std::uint64_t row, ElementType type) const {
+    const std::string action = "read a row of dataset " + name + " of " + path;
+    const Shape dims = shape(name);
+    if (dims.empty() || row >= dims[0]) throw Hdf5Error(action + ": there is no such row");
+    std::vector<hsize_t> start(dims.size(), 0);
+    std::vector<hsize_t> block(dims.begin(), dims.end());
+    start[0] = row;
+    block[0] = 1;
+    const std::uint64_t count = element_count({block.begin(), block.end()});
+    if (count > max_elements) throw Hdf5Error(action + ": it is too large");
+    std::vector<Element> data(count);
+    if (data.empty()) return data;
+    const Handle set = dataset(name);
+    const Handle space(H5Dget_space(set), H5Sclose, action);
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), action);
+    const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
+                        action);
+    check(H5Dread(set, memory_type(type), memory, space, H5P_DEFAULT, data.data()), action);
+    return data;
+  }
 };
 
 Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation)
@@ -329,6 +351,10 @@ std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
 
 std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
   return implementation_->read<Complex>(dataset, ElementType::complex);
+}
+
+std::vector<Complex> Hdf5File::read_complex_row(const std::string& dataset, std::uint64_t row) const {
+  return implementation_->read_row<Complex>(dataset, row, ElementType::complex);
 }
 
 std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {

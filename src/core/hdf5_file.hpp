@@ -75,6 +75,8 @@ class Hdf5File {
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
+  /// One row (first index).
+  std::vector<Complex> read_complex_row(const std::string& dataset, std::uint64_t row) const;
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;
   std::vector<std::string> read_texts(const std::string& dataset) const;
 

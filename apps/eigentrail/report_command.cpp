@@ -1,0 +1,50 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "check_output.hpp"
+#include "commands.hpp"
+#include "eigentrail/report/report.hpp"
+#include "eigentrail/store/output_file.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct ReportArguments {
+  std::vector<std::string> files;
+  std::string output;
+  bool force = false;
+  bool quiet = false;
+};
+
+int run_report(const ReportArguments& arguments) {
+  check_output(arguments.output, arguments.force, OtherOutput{is_report, "report of eigentrail"});
+  check_can_create(arguments.output);
+  write_report(arguments.files, arguments.output);
+  if (!arguments.quiet) {
+    std::printf("wrote %s (%.1f MB); open it in a browser\n", arguments.output.c_str(),
+                1e-6 * static_cast<double>(std::filesystem::file_size(arguments.output)));
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = program.add_subcommand(
+      "report", "one HTML page: Campbell diagram, root locus, events, mode shapes; no network needed");
+  command
+      ->add_option("FILE", arguments->files,
+                   "loci files, boundaries, maps or accuracy studies; several are shown together")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "page to write (HTML)")->required();
+  command->add_flag("--force", arguments->force, "replace an existing page");
+  command->add_flag("-q,--quiet", arguments->quiet, "say nothing");
+  command->footer(
+      "Examples:\n  eigentrail report blade.h5 -o blade.html\n"
+      "  eigentrail report blade.h5 blade_drag_20.h5 flutter.h5 -o compare.html");
+  command->callback([arguments, &exit_code] { exit_code = run_report(*arguments); });
+}
+
+}  // namespace eigentrail::app

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "eigentrail/continuation/dense_output.hpp"
+#include "report/file_data.hpp"
+#include "report/piecewise.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// What exceeds the usual size of the largest eigenvalue by this much is on its way to infinity.
+constexpr double beyond = 100.0;
+/// No eigenvalue is known better than to this share of itself.
+constexpr double known = 1e-12;
+
+/// How closely the curves are met, as a share of the range of their real and imaginary parts: as well as it
+/// can be, and what still is enough to read numbers off where that takes too much room.
+struct Closeness {
+  double share;
+  std::size_t degree;
+};
+constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}};
+
+/// Distance along the path at every point of the trace.
+std::vector<double> distances(const LociFile& loci) {
+  std::vector<double> list{0.0};
+  for (const PathStep& step : loci.steps) list.push_back(list.back() + std::abs(step.length));
+  return list;
+}
+
+const DenseBlock* block_of(const PathStep& step, int mode) {
+  for (const DenseBlock& block : step.blocks) {
+    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end()) return &block;
+  }
+  return nullptr;
+}
+
+/// One mode on the steps from `first` on, as long as it exists.
+class ModeStretch {
+ public:
+  ModeStretch(const LociFile& loci, int mode, std::size_t first) : loci_(loci), mode_(mode), first_(first) {
+    for (std::size_t i = first; i < loci.steps.size(); ++i) {
+      const PathStep& step = loci.steps[i];
+      const DenseBlock* block = block_of(step, mode);
+      if (block == nullptr) break;
+      alone_.emplace_back();
+      if (block->size() == 1) {
+        alone_.back().emplace(step.length, block->left, block->right);
+      }
+      blocks_.push_back(block);
+    }
+  }
+
+  std::size_t first() const { return first_; }
+  std::size_t n_steps() const { return blocks_.size(); }
+
+  /// As `eval` tells it.
+  Complex operator()(std::size_t i, double t) const {
+    const auto node = static_cast<Eigen::Index>(first_ + i);
+    if (t == 0.0) return loci_.eigenvalues(node, mode_);
+    if (t == 1.0) return loci_.eigenvalues(node + 1, mode_);
+    if (alone_[i]) {
+      const Complex s = chart_value((*alone_[i])(t)[0], blocks_[i]->chart);
+      return s.imag() < 0.0 ? std::conj(s) : s;
+    }
+    const PathStep step{loci_.steps[first_ + i].length, loci_.steps[first_ + i].parameter, {*blocks_[i]}};
+    return step_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
+                            loci_.eigenvalues.row(node + 1).transpose(), t)[mode_];
+  }
+
+ private:
+  const LociFile& loci_;
+  int mode_;
+  std::size_t first_;
+  std::vector<const DenseBlock*> blocks_;
+  std::vector<std::optional<HermiteInterpolant>> alone_;
+};
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double range() const { return high > low ? high - low : 0.0; }
+};
+
+/// What is left out as too large: see `beyond`.
+double largest_shown(const LociFile& loci) {
+  std::vector<double> sizes;
+  for (Eigen::Index i = 0; i < loci.eigenvalues.rows(); ++i) {
+    double size = 0.0;
+    for (const Complex s : loci.eigenvalues.row(i)) {
+      if (std::isfinite(std::abs(s))) size = std::max(size, std::abs(s));
+    }
+    sizes.push_back(size);
+  }
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  return std::max(beyond * sizes[sizes.size() / 2], std::numeric_limits<double>::min());
+}
+
+PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, double largest) {
+  Extent real, imag, size;
+  for (std::size_t i = 0; i < mode.n_steps(); ++i) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Complex s = mode(i, t);
+      if (!(std::abs(s) <= largest)) continue;
+      real.add(s.real());
+      imag.add(s.imag());
+      size.add(std::abs(s));
+    }
+  }
+  const double least = std::max(known * size.high, std::numeric_limits<double>::min());
+  return {close.degree, std::max(close.share * real.range(), least),
+          std::max(close.share * imag.range(), least), largest};
+}
+
+/// Whole numbers of 32 bits and what turns them into values: middle + unit * number. Zero is among the
+/// values.
+Json fixed_point(const std::vector<Complex>& values) {
+  Extent real, imag;
+  for (const Complex s : values) {
+    real.add(s.real());
+    imag.add(s.imag());
+  }
+  constexpr double numbers_in_range = 4294967290.0;
+  const auto unit = [](const Extent& extent) { return extent.range() / numbers_in_range; };
+  const auto middle = [&](const Extent& extent) {
+    const double plain = 0.5 * (extent.low + extent.high);
+    const double step = unit(extent);
+    const double whole = step > 0.0 ? std::round(plain / step) * step : plain;
+    return std::isfinite(whole) ? whole : plain;
+  };
+  const auto number = [&](double value, const Extent& extent) {
+    if (unit(extent) == 0.0) return std::int32_t{0};
+    return static_cast<std::int32_t>(
+        std::clamp(std::round((value - middle(extent)) / unit(extent)), -2147483647.0, 2147483647.0));
+  };
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(2 * values.size());
+  for (const Complex s : values) {
+    numbers.push_back(number(s.real(), real));
+    numbers.push_back(number(s.imag(), imag));
+  }
+  return {{"scale", {middle(real), unit(real), middle(imag), unit(imag)}}, {"values", base64(numbers)}};
+}
+
+struct ModeCurves {
+  std::vector<std::vector<PiecewiseCurve>> modes;
+  std::size_t bytes = 0;
+};
+
+ModeCurves approximate_modes(const LociFile& loci, const std::vector<double>& places, const Closeness& close,
+                             std::size_t budget) {
+  const double largest = largest_shown(loci);
+  ModeCurves result;
+  for (std::size_t mode = 0; mode < loci.modes.size() && result.bytes <= budget; ++mode) {
+    std::vector<PiecewiseCurve>& curves = result.modes.emplace_back();
+    for (std::size_t step = 0; step < loci.steps.size(); ++step) {
+      const ModeStretch stretch(loci, static_cast<int>(mode), step);
+      if (stretch.n_steps() == 0) continue;
+      const auto begin = places.begin() + static_cast<std::ptrdiff_t>(step);
+      const std::vector<double> nodes(begin, begin + static_cast<std::ptrdiff_t>(stretch.n_steps()) + 1);
+      const auto value = [&stretch](std::size_t i, double t) { return stretch(i, t); };
+      for (PiecewiseCurve& curve : approximate(nodes, value, options_for(stretch, close, largest))) {
+        result.bytes += curve.knots.size() * sizeof(double) + 2 * curve.values.size() * sizeof(std::int32_t);
+        curves.push_back(std::move(curve));
+      }
+      step += stretch.n_steps() - 1;
+    }
+  }
+  return result;
+}
+
+Json parameter_data(const LociFile& loci, const std::vector<double>& places) {
+  PiecewiseOptions options;
+  options.real_tolerance = options.imag_tolerance =
+      std::max(1e-11 * (loci.highest() - loci.lowest()), std::numeric_limits<double>::min());
+  options.largest = std::numeric_limits<double>::max();
+  const auto value = [&loci](std::size_t i, double t) { return Complex(loci.parameter_at({i, t})); };
+  const std::vector<PiecewiseCurve> curves = approximate(places, value, options);
+  if (curves.size() != 1) throw InputError(loci.path + ": the parameter is not continuous along the path");
+  std::vector<double> values;
+  for (const Complex p : curves[0].values) values.push_back(p.real());
+  return {{"degree", options.degree}, {"knots", base64(curves[0].knots)}, {"values", base64(values)}};
+}
+
+}  // namespace
+
+Json curves_data(const LociFile& loci, const ReportBudget& budget) {
+  const std::vector<double> places = distances(loci);
+  ModeCurves curves;
+  Closeness used = closeness.back();
+  for (const Closeness& close : closeness) {
+    const bool last = close.degree == closeness.back().degree && close.share == closeness.back().share;
+    curves = approximate_modes(loci, places, close, last ? SIZE_MAX : budget.curves);
+    used = close;
+    if (curves.bytes <= budget.curves) break;
+  }
+  Json data{{"closeness", used.share}, {"degree", used.degree}};
+  data["nodes"] = {{"place", base64(places)}, {"parameter", base64(loci.p)}};
+  data["parameter"] = parameter_data(loci, places);
+  for (const std::vector<PiecewiseCurve>& mode : curves.modes) {
+    Json stretches = Json::array();
+    for (const PiecewiseCurve& curve : mode) {
+      Json stretch = fixed_point(curve.values);
+      stretch["knots"] = base64(curve.knots);
+      stretches.push_back(std::move(stretch));
+    }
+    data["modes"].push_back(std::move(stretches));
+  }
+  return data;
+}
+
+}  // namespace eigentrail

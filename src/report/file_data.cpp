@@ -1,0 +1,81 @@
+#include "report/file_data.hpp"
+
+#include <filesystem>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/store/accuracy_writer.hpp"
+#include "eigentrail/store/boundary_writer.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/map_writer.hpp"
+
+namespace eigentrail {
+namespace {
+
+std::string text_of(const Hdf5File& file, const std::string& name) {
+  return file.has_attribute(name) ? file.text_attribute(name) : "";
+}
+
+void check_schema(const Hdf5File& file, const std::string& path, int expected) {
+  const std::int64_t found = file.integer_attribute("schema_version");
+  if (found == expected) return;
+  throw InputError(path + ": has schema " + std::to_string(found) + ", this program reads schema " +
+                   std::to_string(expected));
+}
+
+Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBudget& budget) {
+  const std::string format = text_of(file, "format");
+  if (format == loci_format) return loci_data(read_loci(path), file, budget);
+  if (format == boundary_format) {
+    check_schema(file, path, boundary_schema_version);
+    return boundary_data(file);
+  }
+  if (format == map_format) {
+    check_schema(file, path, map_schema_version);
+    return map_data(file);
+  }
+  if (format == accuracy_format) {
+    check_schema(file, path, accuracy_schema_version);
+    return accuracy_data(file);
+  }
+  throw InputError(path + ": is an HDF5 file, but none of eigentrail" +
+                   (format.empty() ? "" : " (its format is '" + format + "')"));
+}
+
+}  // namespace
+
+Json attributes_data(const Hdf5File& file) {
+  Json attributes = Json::object();
+  for (const std::string& name : file.attribute_names()) {
+    if (name == "scene" || name == "title") continue;
+    try {
+      attributes[name] = file.text_attribute(name);
+    } catch (const Hdf5Error&) {
+      try {
+        attributes[name] = exact_text(file.real_attribute(name));
+      } catch (const Hdf5Error&) {
+        continue;  // somebody added it in a type of their own
+      }
+    }
+  }
+  return attributes;
+}
+
+Json file_data(const std::string& path, const ReportBudget& budget) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
+  try {
+    const Hdf5File file = Hdf5File::open(path);
+    Json data = data_of_kind(file, path, budget);
+    data["name"] = std::filesystem::path(path).filename().string();
+    data["title"] = text_of(file, "title");
+    data["scene"] = text_of(file, "scene");
+    data["attributes"] = attributes_data(file);
+    return data;
+  } catch (const Hdf5Error& failure) {
+    throw InputError(path + ": cannot be read: " + failure.what());
+  }
+}
+
+}  // namespace eigentrail

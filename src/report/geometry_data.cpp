@@ -1,0 +1,181 @@
+// A stick figure of the scene: the origins of points and bodies, the places on them that the scene names, and
+// lines between the two sides of rods, springs, dampers and joints. The scene is read leniently: what is not
+// understood is left out of the figure.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/scene/scene.hpp"
+#include "report/file_data.hpp"
+
+namespace eigentrail {
+namespace {
+
+using Triple = std::array<double, 3>;
+using PlaceExpressions = std::array<Expression, 3>;
+
+/// A point (three coordinates) or a body (twelve), and where its coordinates begin.
+struct Carrier {
+  std::string name;
+  std::size_t first = 0;
+  bool body = false;
+};
+
+std::vector<Carrier> carriers(const std::vector<std::string>& coordinates) {
+  std::vector<Carrier> list;
+  for (std::size_t i = 0; i + 2 < coordinates.size(); ++i) {
+    const std::string& name = coordinates[i];
+    if (!name.ends_with(".x") || name.ends_with("_axis.x")) continue;
+    const std::string base = name.substr(0, name.size() - 2);
+    if (coordinates[i + 1] != base + ".y" || coordinates[i + 2] != base + ".z") continue;
+    const bool body = i + 11 < coordinates.size() && coordinates[i + 3] == base + ".x_axis.x";
+    list.push_back({base, i, body});
+  }
+  return list;
+}
+
+class Figure {
+ public:
+  Figure(const LociFile& loci, const std::vector<std::size_t>& nodes)
+      : scene_(parse_scene(loci.attribute("scene"), loci.attribute("scene_path"))),
+        carriers_(carriers(loci.coordinates)) {
+    const auto traced = scene_.parameters.index(loci.parameter);
+    for (const std::size_t node : nodes) {
+      Vector values = scene_.parameters.declared_values();
+      if (traced) values[*traced] = loci.p[node];
+      scene_.parameters.to_si<double>({values.data(), static_cast<std::size_t>(values.size())});
+      values_.push_back(values);
+    }
+    read_bodies();
+    for (const auto& [kind, value] : scene_.root.entries) {
+      for (const Table* table : tables_of(value)) read_link(kind, *table);
+    }
+  }
+
+  Json data() const {
+    if (carriers_.empty()) return nullptr;
+    Json list = Json::array();
+    for (const Carrier& carrier : carriers_)
+      list.push_back({{"name", carrier.name}, {"first", carrier.first}, {"body", carrier.body}});
+    return {{"carriers", list}, {"places", places_}, {"lines", lines_}};
+  }
+
+ private:
+  static std::vector<const Table*> tables_of(const Value& value) {
+    std::vector<const Table*> list;
+    if (const auto* array = std::get_if<Array>(&value.data)) {
+      for (const Value& item : *array) {
+        if (const auto* table = std::get_if<Table>(&item.data)) list.push_back(table);
+      }
+    }
+    return list;
+  }
+
+  std::optional<std::size_t> carrier(const std::string& name) const {
+    for (std::size_t i = 0; i < carriers_.size(); ++i) {
+      if (carriers_[i].name == name) return i;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<PlaceExpressions> triple(const Value& value) const {
+    const auto* array = std::get_if<Array>(&value.data);
+    if (array == nullptr || array->size() != 3) return std::nullopt;
+    PlaceExpressions place;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto* number = std::get_if<double>(&(*array)[i].data);
+      const auto* text = std::get_if<std::string>(&(*array)[i].data);
+      if (number == nullptr && text == nullptr) return std::nullopt;
+      place[i] =
+          number != nullptr ? Expression(*number) : Expression::parse(*text, scene_.parameters.names());
+    }
+    return place;
+  }
+
+  void read_bodies() {
+    for (const Table* table : tables(scene_, "body")) {
+      const Value* name = table->find("name");
+      const auto* text = name != nullptr ? std::get_if<std::string>(&name->data) : nullptr;
+      if (text == nullptr || !carrier(*text)) continue;
+      if (const Value* centre = table->find("centre")) add_marker(*text, "centre", *centre);
+      const Value* markers = table->find("markers");
+      const auto* marked = markers != nullptr ? std::get_if<Table>(&markers->data) : nullptr;
+      if (marked == nullptr) continue;
+      for (const auto& [marker, at] : marked->entries) add_marker(*text, marker, at);
+    }
+  }
+
+  void add_marker(const std::string& body, const std::string& marker, const Value& at) {
+    if (const auto place = triple(at)) markers_[body + "." + marker] = add_place(*carrier(body), *place);
+  }
+
+  /// Coordinates at all nodes, or once where they are the same at all.
+  Json coordinates(const PlaceExpressions& place) const {
+    std::vector<Triple> list;
+    for (const Vector& values : values_) {
+      const std::span<const double> span(values.data(), static_cast<std::size_t>(values.size()));
+      list.push_back({place[0].evaluate(span), place[1].evaluate(span), place[2].evaluate(span)});
+    }
+    const bool same = std::all_of(list.begin(), list.end(), [&](const Triple& at) { return at == list[0]; });
+    return same ? std::vector<Triple>{list[0]} : list;
+  }
+
+  /// A place in the axes of a carrier, or in the frame.
+  std::size_t add_place(std::optional<std::size_t> carrier, const PlaceExpressions& at) {
+    places_.push_back({{"carrier", carrier ? Json(*carrier) : Json()}, {"at", coordinates(at)}});
+    return places_.size() - 1;
+  }
+
+  std::optional<std::size_t> place(const Table& table, const char* key) {
+    const Value* value = table.find(key);
+    if (value == nullptr) return std::nullopt;
+    if (const auto* name = std::get_if<std::string>(&value->data)) {
+      if (const auto marker = markers_.find(*name); marker != markers_.end()) return marker->second;
+      if (const auto whole = carrier(*name)) return markers_[*name] = add_place(whole, {});
+      return std::nullopt;
+    }
+    if (const auto* inner = std::get_if<Table>(&value->data)) {
+      const Value* body = inner->find("body");
+      const Value* at = inner->find("at");
+      const auto* name = body != nullptr ? std::get_if<std::string>(&body->data) : nullptr;
+      const auto local = at != nullptr ? triple(*at) : std::nullopt;
+      if (name == nullptr || !local || !carrier(*name)) return std::nullopt;
+      return add_place(carrier(*name), *local);
+    }
+    const auto fixed = triple(*value);
+    return fixed ? std::optional(add_place(std::nullopt, *fixed)) : std::nullopt;
+  }
+
+  /// Tables with two sides; the line of action of a follower force connects nothing.
+  void read_link(const std::string& kind, const Table& table) {
+    if (kind == "follower_force") return;
+    const bool bearing = kind == "bearing" || kind == "internal_damping";
+    const auto from = place(table, bearing ? (kind == "bearing" ? "seat" : "about") : "from");
+    const auto to = place(table, bearing ? "point" : "to");
+    if (from && to) lines_.push_back({{"kind", kind}, {"from", *from}, {"to", *to}});
+  }
+
+  Scene scene_;
+  std::vector<Carrier> carriers_;
+  std::vector<Vector> values_;  ///< SI values of the parameters at every node
+  std::map<std::string, std::size_t> markers_;
+  Json places_ = Json::array();
+  Json lines_ = Json::array();
+};
+
+}  // namespace
+
+Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes) {
+  try {
+    return Figure(loci, nodes).data();
+  } catch (const InputError&) {
+    return nullptr;  // a scene of a program with other rules: shapes are shown as numbers
+  } catch (const ExpressionError&) {
+    return nullptr;
+  }
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <span>
+
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/scene/units.hpp"
+#include "report/file_data.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Steps from .. to on which a mode is not certified, as points of the trace.
+Json uncertified(const LociFile& loci, int mode) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < loci.steps.size(); ++i) {
+    for (const DenseBlock& block : loci.steps[i].blocks) {
+      const bool has = std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end();
+      if (!has || block.certified) continue;
+      if (!list.empty() && list.back()[1] == i) {
+        list.back()[1] = i + 1;
+      } else {
+        list.push_back({i, i + 1});
+      }
+    }
+  }
+  return list;
+}
+
+Json modes_data(const LociFile& loci) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < loci.modes.size(); ++i) {
+    list.push_back({{"label", loci.modes[i]},
+                    {"name", loci.mode_names[i]},
+                    {"certified", loci.certified_share(i)},
+                    {"uncertified", uncertified(loci, static_cast<int>(i))}});
+  }
+  return list;
+}
+
+Json mode_numbers(const std::string& text) {
+  Json list = Json::array();
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(';', at), text.size());
+    list.push_back(std::atoi(text.substr(at, end - at).c_str()) - 1);
+    at = end + 1;
+  }
+  return list;
+}
+
+Json events_data(const LociFile& loci, const Hdf5File& file) {
+  const std::vector<std::int64_t> nodes = file.read_integers("event_node");
+  Json list = Json::array();
+  for (std::size_t i = 0; i < loci.events.size(); ++i) {
+    const LociEvent& event = loci.events[i];
+    Json item{{"kind", event.kind},
+              {"parameter", event.parameter},
+              {"real", event.s.real()},
+              {"imag", event.s.imag()},
+              {"modes", mode_numbers(event.modes)},
+              {"direction", event.direction},
+              {"value", event.value},
+              {"half_width", event.half_width},
+              {"node", i < nodes.size() ? nodes[i] : -1}};
+    if (std::isfinite(event.puiseux.real())) item["puiseux"] = {event.puiseux.real(), event.puiseux.imag()};
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+Json end_data(const RangeEnd& end) {
+  return {{"parameter", end.p}, {"cause", end.cause}, {"margin", end.margin}, {"mode", end.mode}};
+}
+
+Json ranges_data(const LociFile& loci) {
+  if (!loci.ranges) return nullptr;
+  Json list = Json::array();
+  for (const StableRange& range : *loci.ranges) {
+    list.push_back({{"kind", stability_name(range.kind)},
+                    {"from", end_data(range.from)},
+                    {"to", end_data(range.to)},
+                    {"least_margin", range.least_margin},
+                    {"largest_margin", range.largest_margin},
+                    {"largest_at", range.largest_at}});
+  }
+  return list;
+}
+
+/// The frequency whose harmonics the page draws, in rad/s at places of the parameter's range, and the
+/// harmonics that the scene asks for. Null where the parameter is no frequency and the scene gives none.
+Json excitation_data(const LociFile& loci) {
+  constexpr int places = 64;
+  try {
+    Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
+    const auto index = scene.parameters.index(loci.parameter);
+    if (!index) return nullptr;
+    std::set<int> used;
+    const EventOptions events = read_event_options(scene, loci.parameter, used);
+    const std::string& unit = scene.parameters[static_cast<std::size_t>(*index)].unit;
+    const bool angular = unit == "rad/s" || unit == "rpm" || unit == "rev/s" || unit == "deg/s";
+    const bool turns = unit == "Hz" || unit == "kHz";
+    if (!events.excitation && !angular && !turns) return nullptr;
+    std::vector<double> parameters, frequencies;
+    for (int i = 0; i <= places; ++i) {
+      const double p = loci.lowest() + (loci.highest() - loci.lowest()) * i / places;
+      Vector values = scene.parameters.declared_values();
+      values[*index] = p;
+      scene.parameters.to_si<double>({values.data(), static_cast<std::size_t>(values.size())});
+      parameters.push_back(p);
+      frequencies.push_back(events.excitation ? events.excitation->evaluate(std::span<const double>(
+                                                    values.data(), static_cast<std::size_t>(values.size())))
+                                              : (turns ? 2.0 * std::numbers::pi : 1.0) * values[*index]);
+    }
+    return {{"parameter", parameters}, {"frequency", frequencies}, {"harmonics", events.harmonics}};
+  } catch (const InputError&) {
+    return nullptr;  // a scene of a program with other rules; the page goes without rays
+  }
+}
+
+}  // namespace
+
+Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget) {
+  if (loci.n_nodes() < 2)
+    throw InputError(loci.path + ": holds " + std::to_string(loci.n_nodes()) +
+                     " points, a page needs two; trace the scene again");
+  Json data{{"kind", "loci"}};
+  data["parameter"] = {{"name", loci.parameter}, {"unit", loci.parameter_unit}};
+  data["coordinates"] = loci.coordinates;
+  data["constraints"] = loci.constraints.size();
+  data["curves"] = curves_data(loci, budget);
+  data["modes"] = modes_data(loci);
+  data["events"] = events_data(loci, file);
+  data["ranges"] = ranges_data(loci);
+  data["excitation"] = excitation_data(loci);
+  data["shapes"] = shapes_data(loci, file, budget);
+  return data;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,118 @@
+"use strict";
+// Eigenvalues anywhere on a path. A place on the path is the distance from its beginning.
+
+/** Chebyshev-Lobatto places on [0, 1] and their barycentric weights. */
+function chebyshevPlaces(degree) {
+  const places = [], weights = [];
+  for (let j = 0; j <= degree; ++j) {
+    places.push(0.5 * (1 - Math.cos((Math.PI * j) / degree)));
+    weights.push((j % 2 ? -1 : 1) * (j === 0 || j === degree ? 0.5 : 1));
+  }
+  return { places, weights };
+}
+
+/** A function as polynomials on pieces between `knots`; `value(i)` is its i-th value, `degree` per piece. */
+class Piecewise {
+  constructor(knots, degree, width, value) {
+    Object.assign(this, { knots, degree, width, value }, chebyshevPlaces(degree));
+  }
+  get from() { return this.knots[0]; }
+  get to() { return this.knots[this.knots.length - 1]; }
+  covers(place) { return place >= this.from && place <= this.to; }
+
+  /** The piece that a place lies on. */
+  piece(place) {
+    let low = 0, high = this.knots.length - 2;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.knots[middle] <= place) low = middle; else high = middle - 1;
+    }
+    return low;
+  }
+
+  at(place) {
+    const piece = this.piece(place), begin = this.knots[piece];
+    const u = Math.min(Math.max((place - begin) / (this.knots[piece + 1] - begin), 0), 1);
+    const first = piece * this.degree, above = new Array(this.width).fill(0);
+    let below = 0;
+    for (let j = 0; j <= this.degree; ++j) {
+      const distance = u - this.places[j];
+      if (distance === 0) return this.value(first + j);
+      const weight = this.weights[j] / distance, value = this.value(first + j);
+      for (let k = 0; k < this.width; ++k) above[k] += weight * value[k];
+      below += weight;
+    }
+    return above.map((sum) => sum / below);
+  }
+
+  /** Places that show the shape of the function: those of its values, or fewer where there are many pieces. */
+  samples() {
+    const n = this.knots.length - 1, list = [this.from];
+    const inner = n > 600 ? [1] : n > 200 ? [0.5, 1] : this.places.slice(1);
+    for (let i = 0; i < n; ++i)
+      for (const u of inner) list.push(this.knots[i] + u * (this.knots[i + 1] - this.knots[i]));
+    return list;
+  }
+}
+
+function modeStretch(data, degree) {
+  const numbers = int32(data.values), [a, unitA, b, unitB] = data.scale;
+  return new Piecewise(float64(data.knots), degree, 2, (i) => [a + unitA * numbers[2 * i], b + unitB * numbers[2 * i + 1]]);
+}
+
+/** The path of a loci file: its parameter and its modes at every place. */
+class Path {
+  constructor(data) {
+    this.places = float64(data.nodes.place);
+    this.nodes = float64(data.nodes.parameter);
+    const values = float64(data.parameter.values);
+    this.parameter = new Piecewise(float64(data.parameter.knots), data.parameter.degree, 1, (i) => [values[i]]);
+    this.modes = data.modes.map((list) => list.map((stretch) => modeStretch(stretch, data.degree)));
+    this.lowest = Math.min(...values);
+    this.highest = Math.max(...values);
+  }
+  get length() { return this.places[this.places.length - 1]; }
+  parameterAt(place) { return this.parameter.at(place)[0]; }
+
+  /** [Re s, Im s] of a mode at a place; null where it does not exist, or is too large to show. */
+  eigenvalue(mode, place) {
+    const stretch = this.modes[mode].find((candidate) => candidate.covers(place));
+    return stretch ? stretch.at(place) : null;
+  }
+
+  /** Where the path passes a value of the parameter, in its order. */
+  placesOf(value) {
+    const found = [], samples = this.parameter.samples();
+    const miss = (place) => this.parameterAt(place) - value;
+    for (let i = 0; i + 1 < samples.length; ++i) {
+      const place = rootBetween(miss, samples[i], samples[i + 1]);
+      if (place === null) continue;
+      const last = found[found.length - 1];
+      if (last === undefined || place - last > 1e-12 * this.length) found.push(place);
+    }
+    return found;
+  }
+
+  nearestNode(place) {
+    let best = 0;
+    for (let i = 1; i < this.places.length; ++i)
+      if (Math.abs(this.places[i] - place) < Math.abs(this.places[best] - place)) best = i;
+    return best;
+  }
+}
+
+/** A zero of a monotonic function, or null. */
+function rootBetween(f, from, to) {
+  let low = f(from), high = f(to);
+  if (low === 0) return from;
+  if (high === 0) return to;
+  if (low * high > 0) return null;
+  for (let i = 0; i < 80; ++i) {
+    const secant = from - (low * (to - from)) / (high - low);
+    const middle = i % 2 && secant > from && secant < to ? secant : 0.5 * (from + to);
+    const value = f(middle);
+    if (value === 0 || middle === from || middle === to) return middle;
+    if (low * value < 0) [to, high] = [middle, value]; else [from, low] = [middle, value];
+  }
+  return 0.5 * (from + to);
+}

@@ -1,0 +1,80 @@
+"use strict";
+// What all figures have in common: colours, marks, layout.
+
+/** Okabe and Ito's colours without yellow, which is too light for lines on white. */
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
+const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star", "pentagon", "hexagram"];
+const FAINT = "#d4d4d4";
+const GRID = "#e8e8e8";
+const INK = "#1a1a1a";
+
+const EVENT_SYMBOLS = {
+  flutter: "x", divergence: "cross", collision: "star", crossing: "circle-open", veering: "bowtie-open",
+  fold: "triangle-left", pitchfork: "asterisk-open", extremum: "triangle-down-open", damping_ratio: "square-open",
+  resonance: "diamond-open",
+};
+
+const FREQUENCY_UNITS = { "rad/s": 1, Hz: 0.5 / Math.PI, rpm: 30 / Math.PI };
+
+const isNarrow = () => window.innerWidth < 700;
+const isTouch = () => window.matchMedia("(pointer: coarse)").matches;
+
+function figureConfig(name) {
+  return {
+    responsive: true, displaylogo: false, doubleClick: "reset", displayModeBar: !isNarrow(),
+    modeBarButtons: [["zoom2d", "pan2d"], ["zoomIn2d", "zoomOut2d", "resetScale2d"], [{
+      name: "save", title: "Save as SVG", icon: Plotly.Icons.camera,
+      click: (figure) => Plotly.downloadImage(figure, { format: "svg", filename: name }),
+    }]],
+  };
+}
+
+function figureAxis(title, more = {}) {
+  return {
+    title: { text: title, standoff: 8 }, gridcolor: GRID, zerolinecolor: "#9a9a9a", linecolor: "#555", showline: true,
+    ticks: "outside", tickcolor: "#555", ticklen: 4, automargin: true, exponentformat: "power", minexponent: 4, ...more,
+  };
+}
+
+function figureLayout(more) {
+  return {
+    font: { family: "system-ui, sans-serif", size: isNarrow() ? 11 : 12.5, color: INK },
+    paper_bgcolor: "#fff", plot_bgcolor: "#fff", hovermode: false, dragmode: isTouch() ? false : "zoom",
+    margin: { l: 56, r: 16, t: 34, b: 44 },
+    legend: { orientation: "h", x: 0, y: 1.01, yanchor: "bottom", font: { size: 11.5 } },
+    ...more,
+  };
+}
+
+/** Pixels of a place in a figure, from its upper left corner. */
+function toPixels(figure, xaxis, yaxis, x, y) {
+  const { [xaxis]: ax, [yaxis]: ay } = figure._fullLayout;
+  return [ax._offset + ax.l2p(ax.d2l ? ax.d2l(x) : x), ay._offset + ay.l2p(ay.d2l ? ay.d2l(y) : y)];
+}
+
+function insideAxes(figure, xaxis, yaxis, [px, py]) {
+  const { [xaxis]: ax, [yaxis]: ay } = figure._fullLayout;
+  return px >= ax._offset - 1 && px <= ax._offset + ax._length + 1 && py >= ay._offset - 1 && py <= ay._offset + ay._length + 1;
+}
+
+/** A small picture of a line with its mark, for lists. */
+function swatch(colour, symbol) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  for (const [name, value] of Object.entries({ width: 30, height: 12, viewBox: "0 0 30 12", "aria-hidden": "true" }))
+    svg.setAttribute(name, value);
+  const shape = (tag, attributes) => {
+    const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    svg.append(node);
+  };
+  shape("line", { x1: 0, x2: 30, y1: 6, y2: 6, stroke: colour, "stroke-width": 2 });
+  const paths = {
+    circle: "M10.5 6a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0", square: "M11 2h8v8h-8z", diamond: "M15 1l5 5l-5 5l-5 -5z",
+    "triangle-up": "M15 1l5 9h-10z", "triangle-down": "M15 11l5 -9h-10z", cross: "M13.5 1h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5z",
+    x: "M11 3.5l1.5 -1.5l2.5 2.5l2.5 -2.5l1.5 1.5l-2.5 2.5l2.5 2.5l-1.5 1.5l-2.5 -2.5l-2.5 2.5l-1.5 -1.5l2.5 -2.5z",
+    star: "M15 0.5l1.6 3.7l4 .3l-3 2.6l1 3.9l-3.6 -2.1l-3.6 2.1l1 -3.9l-3 -2.6l4 -.3z",
+    pentagon: "M15 1l5 4l-2 6h-6l-2 -6z", hexagram: "M15 0.5l1.6 2.8h3.4l-1.8 2.7l1.8 2.7h-3.4l-1.6 2.8l-1.6 -2.8h-3.4l1.8 -2.7l-1.8 -2.7h3.4z",
+  };
+  if (symbol) shape("path", { d: paths[symbol], fill: colour });
+  return svg;
+}

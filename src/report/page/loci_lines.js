@@ -1,0 +1,114 @@
+"use strict";
+// Lines as they are drawn: the curves evaluated so densely that no corner shows at the present zoom.
+
+const LARGEST_CORNER = 0.25;  // px between a chord and the curve
+const SAME_LINE = 0.3;        // px within which points in between are dropped
+
+/**
+ * Points {place, x, y} of one stretch. `project(place, s)` gives [x, y]; `view` has pixels per unit and the
+ * visible window, outside of which nothing is refined; `spacing` is the largest distance of points in px.
+ */
+function drawnLine(stretch, project, view, spacing) {
+  const point = (place) => {
+    const [x, y] = project(place, stretch.at(place));
+    return { place, x, y };
+  };
+  const line = [];
+  const refine = (a, b, depth) => {
+    const middle = point(0.5 * (a.place + b.place));
+    const dx = (b.x - a.x) * view.perX, dy = (b.y - a.y) * view.perY, length = Math.hypot(dx, dy);
+    const mx = (middle.x - a.x) * view.perX, my = (middle.y - a.y) * view.perY;
+    const corner = length > 0 ? Math.abs(dx * my - dy * mx) / length : Math.hypot(mx, my);
+    const hidden = Math.max(a.x, b.x, middle.x) < view.x[0] || Math.min(a.x, b.x, middle.x) > view.x[1] ||
+      Math.max(a.y, b.y, middle.y) < view.y[0] || Math.min(a.y, b.y, middle.y) > view.y[1];
+    if (depth < 16 && !hidden && (corner > LARGEST_CORNER || length > spacing)) {
+      refine(a, middle, depth + 1);
+      refine(middle, b, depth + 1);
+    } else {
+      line.push(b);
+    }
+  };
+  let last = null;
+  for (const place of stretch.samples()) {
+    const next = point(place);
+    if (last) refine(last, next, 0); else line.push(next);
+    last = next;
+  }
+  return thinned(line, view, spacing);
+}
+
+/** Drops points that lie on the line between their neighbours, as long as those are near each other. */
+function thinned(line, view, spacing) {
+  const kept = [line[0]];
+  let first = 0;
+  for (let i = 2; i < line.length; ++i) {
+    if (!canSkip(line, first, i, view, spacing)) {
+      kept.push(line[i - 1]);
+      first = i - 1;
+    }
+  }
+  if (line.length > 1) kept.push(line[line.length - 1]);
+  return kept;
+}
+
+function canSkip(line, from, to, view, spacing) {
+  const a = line[from], b = line[to];
+  const dx = (b.x - a.x) * view.perX, dy = (b.y - a.y) * view.perY, length = Math.hypot(dx, dy);
+  if (length > spacing || to - from > 40) return false;
+  for (let i = from + 1; i < to; ++i) {
+    const mx = (line[i].x - a.x) * view.perX, my = (line[i].y - a.y) * view.perY;
+    const along = length > 0 ? (dx * mx + dy * my) / (length * length) : 0;
+    const off = Math.hypot(mx - along * dx, my - along * dy);
+    if (!(off < SAME_LINE) || along < -0.01 || along > 1.01) return false;
+  }
+  return true;
+}
+
+/** The parts of a line within, and outside of, stretches [from, to] of the path; neighbours share a point. */
+function splitLine(line, stretches, pointAt) {
+  const inside = [], outside = [];
+  let current = null, currentIn = null;
+  const isIn = (place) => stretches.some(([from, to]) => place >= from && place <= to);
+  const cuts = stretches.flat();
+  for (let i = 0; i + 1 < line.length; ++i) {
+    const a = line[i], b = line[i + 1];
+    const places = [a, ...cuts.filter((cut) => cut > a.place && cut < b.place).sort((u, v) => u - v).map(pointAt), b];
+    for (let k = 0; k + 1 < places.length; ++k) {
+      const within = isIn(0.5 * (places[k].place + places[k + 1].place));
+      if (within !== currentIn) {
+        current = [places[k]];
+        (within ? inside : outside).push(current);
+        currentIn = within;
+      }
+      current.push(places[k + 1]);
+    }
+  }
+  return { inside, outside };
+}
+
+/** Arrays for Plotly; lines are parted by null. */
+function joined(lines) {
+  const x = [], y = [];
+  for (const line of lines) {
+    if (x.length) { x.push(null); y.push(null); }
+    for (const point of line) { x.push(point.x); y.push(point.y); }
+  }
+  return { x, y };
+}
+
+/** Where lines pass nearest to a pixel: { distance, line, from, to, share }. */
+function nearestOnLines(lines, px, py) {
+  let best = null;
+  for (const line of lines) {
+    const { points, pixels } = line;
+    for (let i = 0; i + 1 < points.length; ++i) {
+      const ax = pixels[2 * i], ay = pixels[2 * i + 1], dx = pixels[2 * i + 2] - ax, dy = pixels[2 * i + 3] - ay;
+      const square = dx * dx + dy * dy;
+      const share = square > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / square, 0), 1) : 0;
+      const distance = Math.hypot(px - ax - share * dx, py - ay - share * dy);
+      if (best === null || distance < best.distance)
+        best = { distance, line, place: points[i].place + share * (points[i + 1].place - points[i].place) };
+    }
+  }
+  return best;
+}

@@ -1,0 +1,89 @@
+"use strict";
+// Tables and lists beside the figures.
+
+function table(heads, rows, caption) {
+  const head = element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text })));
+  const body = element("table", { "aria-label": caption }, element("thead", {}, head), element("tbody", {}, ...rows));
+  return element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption }, body);
+}
+
+const cell = (content, kind) => element("td", kind ? { class: kind } : {}, content);
+
+/** Events of all files; choosing one shows it. */
+function eventTable(files, choose) {
+  const several = files.length > 1;
+  const rows = files.flatMap((file) => file.data.events.map((event, i) => {
+    const modes = event.modes.map((mode) => file.modeText(mode)).join(", ");
+    return element("tr", {},
+      cell(element("button", { type: "button", text: file.eventNumber(event), click: () => choose(file, event), title: "show it" })),
+      ...(several ? [cell(file.data.name)] : []),
+      cell(event.kind.replace("_", " ")), cell(number(event.parameter, 12), "value"),
+      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell(eventRemark(event)));
+  }));
+  if (!rows.length) return element("p", { class: "note", text: "No special points on the traced range." });
+  const { name, unit } = files[0].data.parameter;
+  return table(["", ...(several ? ["file"] : []), "kind", withUnit(name, unit === "1" ? "" : `(${unit})`), "s, 1/s", "modes", "remark"], rows, "Events");
+}
+
+function rangeEnd(file, end, kind) {
+  const mode = end.mode >= 0 ? `, ${file.modeText(end.mode)}` : "";
+  const margin = kind === "stable" && end.margin ? `, margin ${number(end.margin, 4)}` : "";
+  return `${number(end.parameter, 12)} (${end.cause}${mode}${margin})`;
+}
+
+function rangeTable(files) {
+  const several = files.length > 1;
+  const rows = files.flatMap((file) => (file.data.ranges || []).map((range) => element("tr", {},
+    ...(several ? [cell(file.data.name)] : []), cell(range.kind), cell(rangeEnd(file, range.from, range.kind)), cell(rangeEnd(file, range.to, range.kind)),
+    cell(range.kind === "stable" ? `${number(range.least_margin, 4)} to ${number(range.largest_margin, 4)}, largest at ${number(range.largest_at, 6)}` : ""))));
+  if (files.every((file) => !file.data.ranges)) return element("p", { class: "note", text: "The trace ended before stable ranges were written." });
+  if (!rows.length) return element("p", { class: "note", text: "No stable range: some mode grows everywhere." });
+  return table([...(several ? ["file"] : []), "kind", "from", "to", "margin −max Re s, 1/s"], rows, "Stable ranges");
+}
+
+/** The modes: a button that isolates each, its values at the chosen place, its certified share. */
+class ModeTable {
+  constructor(files, style, toggle) {
+    const several = files.length > 1, named = files.some((file) => file.data.modes.some((mode) => mode.name));
+    this.entries = files.flatMap((file) => file.data.modes.map((mode, i) => {
+      const button = element("button", { type: "button", "aria-pressed": "false", text: mode.label, title: "isolate, again to release",
+        click: (event) => toggle(file, i, event.shiftKey || event.ctrlKey || event.metaKey) });
+      const { colour, symbol } = style(file, i);
+      const values = ["s", "frequency", "damping"].map(() => element("td", { class: "value" }));
+      const share = mode.certified === null ? "–" : `${number(100 * mode.certified, 4)} %`;
+      const row = element("tr", {}, element("td", {}, swatch(colour, symbol), button), ...(several ? [cell(file.data.name)] : []),
+        ...(named ? [cell(mode.name || "–")] : []), ...values, cell(share, "value"));
+      return { file, mode: i, button, values, row };
+    }));
+    this.node = table(["mode", ...(several ? ["file"] : []), ...(named ? ["what moves"] : []), "s, 1/s", "frequency", "damping", "certified"],
+      this.entries.map((entry) => entry.row), "Modes");
+    this.frequencyHead = this.node.querySelectorAll("th")[2 + several + named];
+  }
+
+  update(place, settings, isActive, isIsolated) {
+    this.frequencyHead.textContent = `${settings.frequency === "abs" ? "abs(s)" : "Im s"}, ${settings.unit}`;
+    for (const { file, mode, button, values, row } of this.entries) {
+      const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
+      const frequency = s && (settings.frequency === "abs" ? Math.hypot(...s) : Math.abs(s[1])) * settings.unitFactor;
+      const texts = s ? [complexText(s[0], s[1], 8), number(frequency, 8), number(dampingRatio(...s), 6)] : ["–", "–", "–"];
+      values.forEach((node, i) => { node.textContent = texts[i]; });
+      button.setAttribute("aria-pressed", String(isIsolated(file, mode)));
+      row.classList.toggle("dim", !isActive({ file, mode }));
+    }
+  }
+}
+
+/** How a file was made: what people look for first, then everything. */
+function runDetails(file) {
+  const attributes = file.attributes;
+  const first = ["status", "message", "notes", "tolerance", "series_order", "seconds", "program_version", "parameter"];
+  const names = [...first.filter((name) => attributes[name]), ...Object.keys(attributes).filter((name) => !first.includes(name)).sort()];
+  const list = element("dl", {}, ...names.flatMap((name) => [element("dt", { text: name }), element("dd", { text: attributes[name] })]));
+  return element("details", {}, element("summary", { text: `The run: ${file.name}` }), list);
+}
+
+function sceneDetails(file) {
+  return element("details", {}, element("summary", { text: `The scene: ${attributesPath(file)}` }), element("pre", { text: file.scene, tabindex: 0 }));
+}
+
+const attributesPath = (file) => file.attributes.scene_path || file.name;

@@ -1,0 +1,145 @@
+#include "report/piecewise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace eigentrail {
+namespace {
+
+constexpr double shortest_piece = 1e-13;  ///< of the whole; shorter ones are taken as they are
+constexpr double shortest_at_gap = 1e-6;  ///< of the whole; beside a part that is left out
+constexpr double shortest_in_gap = 1e-3;  ///< of the whole; where nothing seen of the piece may stay
+
+using PieceValues = std::vector<Complex>;
+
+std::vector<double> places(std::size_t degree) {
+  std::vector<double> u;
+  for (std::size_t j = 0; j <= degree; ++j)
+    u.push_back(0.5 *
+                (1.0 - std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree))));
+  return u;
+}
+
+/// The polynomial through values at Chebyshev-Lobatto places; their barycentric weights are (-1)^j, halved at
+/// the ends.
+Complex interpolated(const std::vector<double>& places, const PieceValues& values, double u) {
+  Complex above = 0.0;
+  double below = 0.0;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const double distance = u - places[j];
+    if (distance == 0.0) return values[j];
+    const bool end = j == 0 || j + 1 == places.size();
+    const double weight = (j % 2 == 0 ? 1.0 : -1.0) * (end ? 0.5 : 1.0) / distance;
+    above += weight * values[j];
+    below += weight;
+  }
+  return above / below;
+}
+
+class Approximation {
+ public:
+  Approximation(const std::vector<double>& nodes, const std::function<Complex(std::size_t, double)>& value,
+                const PiecewiseOptions& options)
+      : nodes_(nodes),
+        value_(value),
+        options_(options),
+        places_(places(options.degree)),
+        length_(nodes.back() - nodes.front()) {}
+
+  std::vector<PiecewiseCurve> run() {
+    halve({nodes_.front(), nodes_.back(), 0, nodes_.size() - 1});
+    return std::move(curves_);
+  }
+
+ private:
+  /// [from, to], between nodes `first` and `last`, which need not be its ends.
+  struct Range {
+    double from, to;
+    std::size_t first, last;
+  };
+
+  Complex at(const Range& range, double place) const {
+    const auto begin = nodes_.begin() + static_cast<std::ptrdiff_t>(range.first);
+    const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(range.last);
+    const auto behind = std::upper_bound(begin + 1, end, place);
+    const auto i = static_cast<std::size_t>(behind - nodes_.begin()) - 1;
+    return value_(i, std::clamp((place - nodes_[i]) / (nodes_[i + 1] - nodes_[i]), 0.0, 1.0));
+  }
+
+  bool fits(Complex value) const { return std::abs(value) <= options_.largest; }  // not where it is no number
+
+  bool meets(const Range& range, const PieceValues& values, double place) const {
+    const Complex exact = at(range, place);
+    const Complex error =
+        exact - interpolated(places_, values, (place - range.from) / (range.to - range.from));
+    return fits(exact) && std::abs(error.real()) <= options_.real_tolerance &&
+           std::abs(error.imag()) <= options_.imag_tolerance;
+  }
+
+  bool meets_everywhere(const Range& range, const PieceValues& values) const {
+    for (std::size_t j = 0; j < options_.degree; ++j) {
+      const double u = 0.5 * (places_[j] + places_[j + 1]);
+      if (!meets(range, values, range.from + u * (range.to - range.from))) return false;
+    }
+    if (range.last - range.first < 2) return true;
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      for (const double t : {0.0, 0.3, 0.7}) {
+        const double here = nodes_[i] + t * (nodes_[i + 1] - nodes_[i]);
+        if (here > range.from && here < range.to && !meets(range, values, here)) return false;
+      }
+    }
+    return true;
+  }
+
+  void halve(const Range& range) {
+    PieceValues values;
+    for (const double u : places_) values.push_back(at(range, range.from + u * (range.to - range.from)));
+    const auto fitting = std::count_if(values.begin(), values.end(), [this](Complex s) { return fits(s); });
+    const bool finite = fitting == static_cast<std::ptrdiff_t>(values.size());
+    const double shortest = (fitting == 0 ? shortest_in_gap : shortest_at_gap) * length_;
+    if (finite && (range.to - range.from <= shortest_piece * length_ || meets_everywhere(range, values))) {
+      add(range, values);
+    } else if (finite || range.to - range.from > shortest) {
+      const auto [left, right] = halves(range);
+      if (left.to <= left.from || right.to <= right.from) return;
+      halve(left);
+      halve(right);
+    }
+  }
+
+  /// Cut at the middle one of the nodes within, in the middle where there is none.
+  std::pair<Range, Range> halves(const Range& range) const {
+    if (range.last - range.first > 1) {
+      const std::size_t cut = (range.first + range.last) / 2;
+      return {{range.from, nodes_[cut], range.first, cut}, {nodes_[cut], range.to, cut, range.last}};
+    }
+    const double middle = 0.5 * (range.from + range.to);
+    return {{range.from, middle, range.first, range.last}, {middle, range.to, range.first, range.last}};
+  }
+
+  void add(const Range& range, const PieceValues& values) {
+    if (curves_.empty() || curves_.back().knots.back() != range.from)
+      curves_.push_back({{range.from}, {values[0]}});
+    PiecewiseCurve& curve = curves_.back();
+    curve.knots.push_back(range.to);
+    curve.values.insert(curve.values.end(), values.begin() + 1, values.end());
+  }
+
+  const std::vector<double>& nodes_;
+  const std::function<Complex(std::size_t, double)>& value_;
+  const PiecewiseOptions& options_;
+  std::vector<double> places_;
+  double length_;
+  std::vector<PiecewiseCurve> curves_;
+};
+
+}  // namespace
+
+std::vector<PiecewiseCurve> approximate(const std::vector<double>& nodes,
+                                        const std::function<Complex(std::size_t, double)>& value,
+                                        const PiecewiseOptions& options) {
+  return nodes.size() < 2 ? std::vector<PiecewiseCurve>{} : Approximation(nodes, value, options).run();
+}
+
+}  // namespace eigentrail

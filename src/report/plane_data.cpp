@@ -1,0 +1,151 @@
+// Boundaries and maps: data over two parameters.
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "report/file_data.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int samples_per_step = 24;
+
+Json axis(const Hdf5File& file, const std::string& name) {
+  return {{"name", name}, {"unit", file.text_attribute(name, "units")}};
+}
+
+/// Curves of a boundary file as points of its dense output.
+class BoundaryCurves {
+ public:
+  explicit BoundaryCurves(const Hdf5File& file)
+      : shape_(file.shape("dense_output")),
+        dense_(file.read_real("dense_output")),
+        length_(file.read_real("step_length")),
+        step_curve_(file.read_integers("step_curve")),
+        step_point_(file.read_integers("step_point")),
+        others_(file.read_integers("other_unstable")) {
+    const bool fits = shape_.size() == 4 && shape_[0] == length_.size() && shape_[1] == 4 && shape_[2] == 2 &&
+                      shape_[3] >= 2 && step_curve_.size() == shape_[0] && step_point_.size() == shape_[0];
+    if (!fits) throw Hdf5Error("dense_output does not fit the other datasets");
+  }
+
+  /// Steps of one curve: `first`, `second`, `real`, `imag` at places along it, and whether it bounds the
+  /// stable region there.
+  Json steps(std::size_t curve) const {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < length_.size(); ++i) {
+      if (step_curve_[i] == static_cast<std::int64_t>(curve)) list.push_back(step(i));
+    }
+    return list;
+  }
+
+ private:
+  Json step(std::size_t i) const {
+    const auto orders = static_cast<Eigen::Index>(shape_[3]);
+    ComplexMatrix left(4, orders), right(4, orders);
+    for (Eigen::Index row = 0; row < 4; ++row) {
+      for (Eigen::Index k = 0; k < orders; ++k) {
+        const auto at = static_cast<Eigen::Index>(i) * 8 * orders + row * 2 * orders + k;
+        left(row, k) = dense_[static_cast<std::size_t>(at)];
+        right(row, k) = dense_[static_cast<std::size_t>(at + orders)];
+      }
+    }
+    const HermiteInterpolant functions(length_[i], left, right);
+    std::vector<double> first, second, real, imag;
+    for (int k = 0; k <= samples_per_step; ++k) {
+      const ComplexVector f = functions(static_cast<double>(k) / samples_per_step);
+      const Complex s = f[2] + std::sqrt(f[3]);
+      first.push_back(f[0].real());
+      second.push_back(f[1].real());
+      real.push_back(s.real());
+      imag.push_back(std::abs(s.imag()));
+    }
+    const auto point = static_cast<std::size_t>(step_point_[i]);
+    const bool known = step_point_[i] >= 0 && point + 1 < others_.size();
+    return {{"first", first},
+            {"second", second},
+            {"real", real},
+            {"imag", imag},
+            {"bounds", known && others_[point] == 0 && others_[point + 1] == 0}};
+  }
+
+  Shape shape_;
+  std::vector<double> dense_, length_;
+  std::vector<std::int64_t> step_curve_, step_point_, others_;
+};
+
+Json corners(const Hdf5File& file) {
+  const auto kinds = file.read_texts("corner_kind");
+  const auto places = file.read_real("corner_parameter");
+  if (places.size() != 2 * kinds.size()) throw Hdf5Error("corner_parameter does not fit the other datasets");
+  Json list = Json::array();
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    list.push_back({{"kind", kinds[i]}, {"first", places[2 * i]}, {"second", places[2 * i + 1]}});
+  return list;
+}
+
+}  // namespace
+
+Json boundary_data(const Hdf5File& file) {
+  const std::string first = file.text_attribute("parameter");
+  const std::string second = file.text_attribute("second_parameter");
+  Json data{{"kind", "boundary"}, {"first", axis(file, first)}, {"second", axis(file, second)}};
+  const auto kinds = file.read_texts("curve_kind");
+  const auto modes = file.read_texts("curve_mode");
+  const auto begins = file.read_texts("curve_begin");
+  const auto ends = file.read_texts("curve_end");
+  const auto extent = file.read_real("curve_extent");
+  const std::size_t n = kinds.size();
+  if (modes.size() != n || begins.size() != n || ends.size() != n || extent.size() != 4 * n)
+    throw Hdf5Error("the datasets of curves do not fit each other");
+  data["curves"] = Json::array();
+  if (n > 0) {
+    const BoundaryCurves curves(file);
+    for (std::size_t i = 0; i < n; ++i) {
+      data["curves"].push_back(
+          {{"kind", kinds[i]},
+           {"mode", modes[i]},
+           {"begin", begins[i]},
+           {"end", ends[i]},
+           {"extent", {extent[4 * i], extent[4 * i + 1], extent[4 * i + 2], extent[4 * i + 3]}},
+           {"steps", curves.steps(i)}});
+    }
+  }
+  data["corners"] = corners(file);
+  data["window"] = {{"first", {file.text_attribute("option_from"), file.text_attribute("option_to")}},
+                    {"second", {file.real_attribute("second_from"), file.real_attribute("second_to")}}};
+  return data;
+}
+
+Json map_data(const Hdf5File& file) {
+  const std::string first = file.text_attribute("parameter");
+  const std::string second = file.text_attribute("second_parameter");
+  Json data{{"kind", "map"}, {"first", axis(file, first)}, {"second", axis(file, second)}};
+  data["first"]["values"] = file.read_real(first);
+  data["second"]["values"] = file.read_real(second);
+  const auto unstable = file.read_integers("unstable");
+  data["unstable"] = base64(std::vector<std::int32_t>(unstable.begin(), unstable.end()));
+  const auto single = [&file](const char* name) {
+    const auto values = file.read_real(name);
+    return base64(std::vector<float>(values.begin(), values.end()));
+  };
+  data["margin"] = single("margin");
+  data["damping_ratio"] = single("damping_ratio");
+  data["axis_points"] = {{"line", file.read_integers("axis_line")},
+                         {"parameter", file.read_real("axis_parameter")},
+                         {"kind", file.read_texts("axis_kind")},
+                         {"frequency", file.read_real("axis_frequency")}};
+  const std::size_t cells = data["first"]["values"].size() * data["second"]["values"].size();
+  if (unstable.size() != cells) throw Hdf5Error("unstable does not fit the other datasets");
+  return data;
+}
+
+Json accuracy_data(const Hdf5File& file) {
+  Json data{{"kind", "accuracy"}};
+  for (const char* name : {"method", "status"}) data[name] = file.read_texts(name);
+  for (const char* name : {"run_tolerance", "error", "error_parameter", "wall_time"})
+    data[name] = file.read_real(name);
+  for (const char* name : {"order", "points", "factorizations", "spectra"})
+    data[name] = file.read_integers(name);
+  return data;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,58 @@
+#include "eigentrail/report/report.hpp"
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "eigentrail/core/version.hpp"
+#include "eigentrail/store/output_file.hpp"
+#include "report/file_data.hpp"
+
+// The page without data, scripts and styles in it (page.S.in).
+extern "C" const char eigentrail_report_page[];      // NOLINT: named by the assembler
+extern "C" const char eigentrail_report_page_end[];  // NOLINT
+
+namespace eigentrail {
+namespace {
+
+constexpr std::string_view data_mark = "<!-- data -->";
+constexpr std::string_view signature = "<!DOCTYPE html>\n<!-- eigentrail report -->";
+
+std::string_view page() {
+  return {eigentrail_report_page,
+          static_cast<std::size_t>(eigentrail_report_page_end - eigentrail_report_page)};
+}
+
+Json page_data(const std::vector<std::string>& files) {
+  ReportBudget budget;
+  budget.curves /= files.size();
+  budget.shapes /= files.size();
+  Json data{{"program_version", version()}, {"files", Json::array()}};
+  for (const std::string& file : files) data["files"].push_back(file_data(file, budget));
+  return data;
+}
+
+}  // namespace
+
+void write_report(const std::vector<std::string>& files, const std::string& path) {
+  const std::string data = page_json(page_data(files));
+  const std::size_t mark = page().find(data_mark);
+  if (mark == std::string_view::npos || !page().starts_with(signature))
+    throw std::logic_error("write_report: the page in this program is damaged; build it again");
+  write_complete(path, [&](const std::string& partial) {
+    std::ofstream file(partial, std::ios::binary);
+    file << page().substr(0, mark) << data << page().substr(mark + data_mark.size());
+    file.close();
+    if (!file) throw std::runtime_error(path + ": cannot be written; is the disk full?");
+  });
+}
+
+bool is_report(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, signature.size()> begin{};
+  file.read(begin.data(), begin.size());
+  return std::string_view(begin.data(), static_cast<std::size_t>(file.gcount())) == signature;
+}
+
+}  // namespace eigentrail

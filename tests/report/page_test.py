@@ -1,0 +1,219 @@
+"""The report in a real browser: it draws what `eval` says, and does what a hand on mouse or keyboard asks for."""
+
+import os
+import pathlib
+import time
+import unittest
+
+import h5py
+import numpy as np
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+import browser
+from command_test import HOSTILE
+from command_test_case import CommandTest
+from large_file import enlarge
+from program import BIRTH, BLADE, SCENES
+
+SCREENSHOTS = pathlib.Path(os.environ["EIGENTRAIL_SCREENSHOTS"])
+ON_THE_LINE = 1e-6  # of the axis' range
+
+# Points of the lines of one mode in the upper or lower half of the Campbell diagram.
+LINES = """
+const [mode, axis] = arguments;
+return document.querySelector('.campbell').data.filter((trace) => trace.meta && trace.meta.mode === mode && trace.yaxis === axis)
+  .flatMap((trace) => trace.x.map((x, i) => [x, trace.y[i]])).filter(([x]) => x !== null);
+"""
+# Where [x, y] of the Campbell diagram is, from the middle of its element.
+PIXEL = """
+const [x, y] = arguments, figure = document.querySelector('.campbell'), box = figure.getBoundingClientRect();
+const [px, py] = toPixels(figure, 'xaxis', 'yaxis', x, y);
+return [px - Math.floor(box.width / 2), py - Math.floor(box.height / 2)];
+"""
+
+
+class Page(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = browser.start()
+        cls.addClassCleanup(cls.driver.quit)
+
+    def show(self, *files, size=browser.DESKTOP, picture=None):
+        """Writes the page of some files, opens it, and looks for messages in the console."""
+        self.run_well("report", *files, "-o", "page.html", "--force", "--quiet")
+        browser.show(self.driver, self.folder / "page.html", size)
+        if picture:
+            time.sleep(0.3)  # for what is drawn once the layout has settled
+            browser.screenshot(self.driver, SCREENSHOTS / f"{picture}.png")
+        self.assertEqual(browser.messages(self.driver), [])
+
+    def blade(self, **details):
+        self.trace((SCENES / "rotating_mass.toml").read_text(encoding="utf-8"))
+        self.show("loci.h5", **details)
+
+    def lines(self, mode, axis="y"):
+        return np.array(self.driver.execute_script(LINES, mode, axis))
+
+    def isolated(self):
+        """Modes that are drawn in colour."""
+        return sorted({mode for mode in range(2) if len(self.lines(mode))})
+
+    def pointer_to(self, x, y):
+        figure = self.driver.find_element(By.CSS_SELECTOR, ".campbell")
+        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'start' })", figure)
+        dx, dy = self.driver.execute_script(PIXEL, x, y)
+        return ActionChains(self.driver).move_to_element_with_offset(figure, round(dx), round(dy))
+
+    def test_page_asks_for_nothing_and_says_nothing(self):
+        self.blade(picture="blade_desktop")
+        self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').map((entry) => entry.name)"), [])
+
+    def test_lines_are_where_eval_says(self):
+        self.blade()
+        for mode in range(2):
+            frequency, damping = self.lines(mode), self.lines(mode, "y2")
+            for points, value in ((frequency, lambda s: s.imag), (damping, lambda s: -s.real / np.abs(s))):
+                expected = value(self.eval_at("loci.h5", points[:, 0])[:, mode])
+                self.assertGreater(len(points), 20)
+                self.assertLess(np.max(np.abs(points[:, 1] - expected)), ON_THE_LINE * max(np.ptp(expected), 1e-9))
+
+    def test_lines_are_drawn_anew_for_a_smaller_window(self):
+        self.blade()
+        self.driver.execute_script("return Plotly.relayout(document.querySelector('.campbell'), { 'xaxis.range': [5, 8], 'yaxis.range': [1, 6] })")
+        points = self.lines(0)
+        inside = points[(points[:, 0] > 5) & (points[:, 0] < 8)]
+        self.assertGreater(len(inside), 20)
+        expected = self.eval_at("loci.h5", inside[:, 0])[:, 0].imag
+        self.assertLess(np.max(np.abs(inside[:, 1] - expected)), ON_THE_LINE * 100.0)
+
+    def test_pointer_on_a_line_shows_its_mode(self):
+        self.blade()
+        s = self.eval_at("loci.h5", [60.0])[0]
+        self.pointer_to(60.0, s[1].imag).perform()
+        tip = self.driver.find_element(By.CSS_SELECTOR, ".campbell .tip")
+        self.assertTrue(tip.is_displayed())
+        self.assertIn("mode 2", tip.text)
+        self.assertIn("omega = ", tip.text)
+        shown = float(tip.text.split("Im s = ")[1].split()[0])
+        self.assertLess(abs(shown - s[1].imag), 0.5)  # half a pixel is 0.1 rad/s
+
+    def test_click_on_a_line_isolates_it_and_releases_it(self):
+        self.blade()
+        lag = self.eval_at("loci.h5", [60.0])[0][0].imag
+        self.assertEqual(self.isolated(), [0, 1])
+        self.pointer_to(60.0, lag).click().perform()
+        self.assertEqual(self.isolated(), [0])
+        browser.screenshot(self.driver, SCREENSHOTS / "blade_isolated.png")
+        self.pointer_to(60.0, lag).click().perform()
+        self.assertEqual(self.isolated(), [0, 1])
+
+    def test_keyboard_isolates_and_releases(self):
+        self.blade()
+        button = self.driver.find_elements(By.CSS_SELECTOR, "tbody button[aria-pressed]")[1]
+        button.send_keys(Keys.ENTER)
+        self.assertEqual((self.isolated(), button.get_attribute("aria-pressed")), ([1], "true"))
+        button.send_keys(Keys.SPACE)
+        self.assertEqual((self.isolated(), button.get_attribute("aria-pressed")), ([0, 1], "false"))
+
+    def test_units_scale_frequencies(self):
+        self.blade()
+        before = self.lines(1)
+        for unit, factor in (("Hz", 0.5 / np.pi), ("rpm", 30.0 / np.pi)):
+            Select(self.driver.find_elements(By.CSS_SELECTOR, ".controls select")[1]).select_by_value(unit)
+            after = self.lines(1)
+            at = np.interp(after[:, 0][np.argsort(after[:, 0])], before[:, 0][np.argsort(before[:, 0])], before[:, 1][np.argsort(before[:, 0])])
+            np.testing.assert_allclose(after[:, 1][np.argsort(after[:, 0])], factor * at, rtol=1e-2)
+            title = self.driver.execute_script("return document.querySelector('.campbell').layout.yaxis.title.text")
+            self.assertEqual(title, f"Im s, {unit}")
+
+    def test_harmonics_are_rays_of_the_excitation(self):
+        self.blade()
+        field = self.driver.find_element(By.CSS_SELECTOR, "input[aria-label^=harmonics]")
+        field.clear()
+        field.send_keys("2.5", Keys.TAB)
+        rays = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.meta && t.meta.harmonic)"
+                                          ".map((t) => [t.meta.harmonic, t.x[0], t.y[0]])")
+        self.assertEqual(rays, [[2.5, 5.0, 12.5]])
+
+    def test_typed_value_of_the_parameter_fills_the_table(self):
+        self.blade()
+        field = self.driver.find_element(By.CSS_SELECTOR, ".place input[type=text]")
+        field.clear()
+        field.send_keys("33.3", Keys.ENTER)
+        s = self.eval_at("loci.h5", [33.3])[0]
+        rows = [row.text for row in self.driver.find_elements(By.CSS_SELECTOR, "[aria-label=Modes] tbody tr")]
+        for row, value in zip(rows, s):
+            self.assertIn(f"{value.imag:.6g}"[:6], row)
+
+    def test_every_event_is_marked_and_in_the_table(self):
+        self.blade()
+        with h5py.File(self.folder / "loci.h5") as file:
+            places = sorted(file["event_parameter"])
+        marked = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.legendgroup && t.yaxis === 'y').flatMap((t) => t.x)")
+        self.assertEqual(sorted(marked), places)
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "[aria-label=Events] tbody tr")), len(places))
+
+    def test_stretch_that_is_not_certified_is_dashed(self):
+        self.trace(BLADE, "--no-certify")
+        self.show("loci.h5")
+        dashes = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.meta && 'mode' in t.meta).map((t) => t.line.dash)")
+        self.assertEqual(set(dashes), {"6px,4px"})
+
+    def test_shape_is_painted_and_follows_the_mode(self):
+        self.blade()
+        canvas = "const c = document.querySelector('canvas'); return c.toDataURL()"
+        Select(self.driver.find_element(By.CSS_SELECTOR, ".shape select")).select_by_value("0")
+        first = self.driver.execute_script(canvas)
+        Select(self.driver.find_element(By.CSS_SELECTOR, ".shape select")).select_by_value("1")
+        self.assertNotEqual(self.driver.execute_script(canvas), first)
+
+    def test_texts_of_a_file_stay_texts(self):
+        self.trace(BLADE)
+        with h5py.File(self.folder / "loci.h5", "r+") as file:
+            file.attrs["title"] = file.attrs["scene"] = file.attrs["notes"] = HOSTILE
+            for name in ("mode", "mode_name"):
+                file[name][...] = [HOSTILE] * len(file[name])
+        self.show("loci.h5")
+        self.assertEqual(self.driver.find_element(By.TAG_NAME, "h1").text, HOSTILE)
+        self.assertEqual(self.driver.find_elements(By.CSS_SELECTOR, "img, main script"), [])
+
+    def test_page_fits_a_phone(self):
+        self.blade(size=browser.PHONE, picture="blade_phone")
+        self.assertEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), browser.PHONE[0])
+
+    def test_two_traces_share_the_figures(self):
+        self.trace(BLADE)
+        self.trace(BLADE.replace("drag   = 2.0", "drag   = 400.0"), output="more_drag.h5")
+        self.show("loci.h5", "more_drag.h5", picture="comparison")
+        colours = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.meta && 'mode' in t.meta).map((t) => [t.meta.file, t.line.color])")
+        self.assertEqual(len({tuple(pair) for pair in colours}), 2)
+
+    def test_map_boundary_and_study_are_drawn(self):
+        scene = SCENES / "rotating_mass.toml"
+        window = ("--second", "drag", "--from", "0.5", "--to", "320", "--first-from", "16", "--quiet")
+        self.run_well("map", scene, *window, "--grid", "10x20", "-o", "map.h5")
+        self.run_well("boundary", scene, *window, "-o", "boundary.h5")
+        self.run_well("accuracy", scene, "--tolerances", "1e-4,1e-6", "--orders", "2,3", "--grids", "25,50", "--repeat", "1", "--samples", "20",
+                      "-o", "study.h5", "--quiet")
+        self.show("map.h5", "boundary.h5", "study.h5", picture="planes")
+        kinds = self.driver.execute_script("return [...document.querySelectorAll('.chart')].map((chart) => chart.data.map((trace) => trace.type))")
+        self.assertIn("heatmap", kinds[0])
+        self.assertGreater(len(kinds[1]), 3)
+
+    def test_large_file_opens(self):
+        self.trace(BIRTH)
+        enlarge(self.folder / "loci.h5")
+        begin = time.perf_counter()
+        self.show("loci.h5")
+        print(f"2000 points x 100 modes: written and drawn in {time.perf_counter() - begin:.1f} s, page of "
+              f"{(self.folder / 'page.html').stat().st_size / 1e6:.1f} MB, loaded in "
+              f"{self.driver.execute_script('return performance.timing.loadEventEnd - performance.timing.navigationStart') / 1e3:.1f} s")
+        browser.screenshot(self.driver, SCREENSHOTS / "large.png")
+        self.assertEqual(len({mode for mode in range(100) if len(self.lines(mode))}), 100)
+
+
+if __name__ == "__main__":
+    unittest.main()
