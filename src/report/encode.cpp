@@ -1,5 +1,6 @@
 #include "report/encode.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

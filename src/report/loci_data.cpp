@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <set>
 #include <span>
@@ -40,11 +41,13 @@ Json modes_data(const LociFile& loci) {
   return list;
 }
 
-Json mode_numbers(const std::string& text) {
+/// Numbers from 0, of modes that the file has.
+Json mode_numbers(const std::string& text, std::size_t n_modes) {
   Json list = Json::array();
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(';', at), text.size());
-    list.push_back(std::atoi(text.substr(at, end - at).c_str()) - 1);
+    const int number = std::atoi(text.substr(at, end - at).c_str());
+    if (number > 0 && static_cast<std::size_t>(number) <= n_modes) list.push_back(number - 1);
     at = end + 1;
   }
   return list;
@@ -59,7 +62,7 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
               {"parameter", event.parameter},
               {"real", event.s.real()},
               {"imag", event.s.imag()},
-              {"modes", mode_numbers(event.modes)},
+              {"modes", mode_numbers(event.modes, loci.modes.size())},
               {"direction", event.direction},
               {"value", event.value},
               {"half_width", event.half_width},
@@ -122,9 +125,10 @@ Json excitation_data(const LociFile& loci) {
 }  // namespace
 
 Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget) {
-  if (loci.n_nodes() < 2)
+  if (loci.n_nodes() < 2) {
     throw InputError(loci.path + ": holds " + std::to_string(loci.n_nodes()) +
                      " points, a page needs two; trace the scene again");
+  }
   Json data{{"kind", "loci"}};
   data["parameter"] = {{"name", loci.parameter}, {"unit", loci.parameter_unit}};
   data["coordinates"] = loci.coordinates;

@@ -15,9 +15,10 @@ using PieceValues = std::vector<Complex>;
 
 std::vector<double> places(std::size_t degree) {
   std::vector<double> u;
-  for (std::size_t j = 0; j <= degree; ++j)
+  for (std::size_t j = 0; j <= degree; ++j) {
     u.push_back(0.5 *
                 (1.0 - std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree))));
+  }
   return u;
 }
 

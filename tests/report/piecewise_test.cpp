@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                return nodes;
              }(),
              6}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(PiecewiseCurves, OnePieceServesManyStepsOfASmoothFunction) {
   const std::vector<double> nodes{0.0, 0.1, 0.2, 0.5, 0.6, 1.0};

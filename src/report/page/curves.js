@@ -72,6 +72,10 @@ class Path {
     this.highest = Math.max(...values);
   }
   get length() { return this.places[this.places.length - 1]; }
+  get turnsBack() {
+    const up = this.nodes[1] > this.nodes[0];
+    return this.nodes.some((value, i) => i > 0 && value > this.nodes[i - 1] !== up);
+  }
   parameterAt(place) { return this.parameter.at(place)[0]; }
 
   /** [Re s, Im s] of a mode at a place; null where it does not exist, or is too large to show. */

@@ -106,6 +106,7 @@ class LociView {
       ...(several && (ranges("stable") || ranges("marginal")) ? [element("span", { text: "strips above: no mode grows (pale: marginal)" })] : []),
       ...(!several && ranges("stable") ? [item("stable", "stable: all modes decay")] : []),
       ...(!several && ranges("marginal") ? [item("marginal", "marginal: none grows, some stay on the imaginary axis")] : []),
+      ...((ranges("stable") || ranges("marginal")) && has((file) => file.path.turnsBack) ? [element("span", { text: "the path turns back: shaded where one passage is so" })] : []),
       ...(has((file) => file.data.modes.some((mode) => mode.uncertified.length)) ? [item("dashed", "identity of the mode not certified")] : []),
       ...(this.settings.hasRays ? [element("span", { text: "dotted n×: harmonics of the excitation" })] : []),
       element("span", { text: "root locus: ○ begins, ● ends; upper half plane" }));
