@@ -80,6 +80,22 @@ class Page(CommandTest):
                 self.assertGreater(len(points), 20)
                 self.assertLess(np.max(np.abs(points[:, 1] - expected)), ON_THE_LINE * max(np.ptp(expected), 1e-9))
 
+    def test_chords_follow_the_curve_where_stored_points_do_not(self):
+        self.trace((SCENES / "hinged_blade.toml").read_text(encoding="utf-8"))
+        self.show("loci.h5")
+        torsion = 2
+        pixels = self.driver.execute_script("const { yaxis } = document.querySelector('.campbell')._fullLayout;"
+                                            "return yaxis._length / (yaxis.range[1] - yaxis.range[0])")
+
+        def corner(points):
+            middle = 0.5 * (points[1:] + points[:-1])
+            return np.max(np.abs(middle[:, 1] - self.eval_at("loci.h5", middle[:, 0])[:, torsion].imag)) * pixels
+
+        self.assertLess(corner(self.lines(torsion)), 0.5)
+        with h5py.File(self.folder / "loci.h5") as file:
+            stored = np.column_stack([file["omega"], file["eigenvalue"][:, torsion].imag])
+        self.assertGreater(corner(stored), 0.5)
+
     def test_lines_are_drawn_anew_for_a_smaller_window(self):
         self.blade()
         self.driver.execute_script("return Plotly.relayout(document.querySelector('.campbell'), { 'xaxis.range': [5, 8], 'yaxis.range': [1, 6] })")

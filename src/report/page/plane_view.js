@@ -2,7 +2,13 @@
 // Stability over two parameters: maps, and boundaries on them.
 
 const MAP_QUANTITIES = { unstable: "growing modes", margin: "margin −max Re s, 1/s", damping_ratio: "least damping ratio" };
-const COUNT_COLOURS = ["#bdbdbd", "#e6f3ec", "#f6c99b", "#e08a3c", "#b3531c", "#6d2a0c"];  // unknown, 0, 1, 2, 3, 4 and more
+const CELL_KINDS = [["unknown", "#bdbdbd"], ["stable", "#dff0e8"], ["marginal", "#fbf3d3"], ["1", "#f6c08a"], ["2", "#e08a3c"], ["3", "#b3531c"], ["4+", "#6d2a0c"]];
+
+/** Which of CELL_KINDS a cell is, by its growing modes and its margin. */
+function cellKind(growing, margin) {
+  if (growing < 0) return 0;
+  return growing > 0 ? 2 + Math.min(growing, 4) : margin > 0 ? 1 : 2;
+}
 
 class PlaneView {
   /** Files (boundaries and maps) over the same two parameters. */
@@ -22,7 +28,7 @@ class PlaneView {
 
   note() {
     const lines = this.boundaries.length ? ["thick: bounds the stable region", "dashed: others grow already"] : [];
-    const dots = this.maps.length ? ["dots: located events on the lines of the map"] : [];
+    const dots = this.maps.some((map) => map.axis_points.line.length) ? ["dots: located events on the lines of the map"] : [];
     return element("div", { class: "key" }, ...[...lines, ...dots].map((text) => element("span", { text })));
   }
 
@@ -34,7 +40,7 @@ class PlaneView {
       (count < 0 ? "unknown" : `${count} growing<br>margin ${number(margins[i][j], 5)} 1/s<br>least damping ratio ${number(ratios[i][j], 5)}`)));
     const hover = { text, hovertemplate: `${plotText(this.first.name)} %{x}<br>${plotText(this.second.name)} %{y}<br>%{text}<extra></extra>` };
     const common = { type: "heatmap", x, y, ...hover };
-    if (this.quantity === "unstable") return [{ ...common, z: counts.map((row) => row.map((n) => Math.min(n, 4))), ...countScale() }];
+    if (this.quantity === "unstable") return [{ ...common, z: counts.map((row, i) => row.map((n, j) => cellKind(n, margins[i][j]))), ...kindScale() }];
     const values = this.quantity === "margin" ? margins : ratios;
     const limit = Math.max(...values.flat().filter(Number.isFinite).map(Math.abs), Number.MIN_VALUE);
     const scale = [[0, "#b35806"], [0.25, "#f1a340"], [0.5, "#f7f7f7"], [0.75, "#67a9cf"], [1, "#2166ac"]];
@@ -96,10 +102,10 @@ class PlaneView {
   }
 }
 
-/** Colours for −1 (unknown) to 4 (and more). */
-function countScale() {
-  const n = COUNT_COLOURS.length;
-  const colorscale = COUNT_COLOURS.flatMap((colour, i) => [[i / n, colour], [(i + 1) / n, colour]]);
-  return { zmin: -1.5, zmax: 4.5, colorscale, colorbar: { title: { text: "growing modes", side: "right" }, thickness: 12, outlinewidth: 0,
-    tickvals: [-1, 0, 1, 2, 3, 4], ticktext: ["unknown", "none", "1", "2", "3", "4+"] } };
+/** A colour for each of CELL_KINDS. */
+function kindScale() {
+  const n = CELL_KINDS.length;
+  const colorscale = CELL_KINDS.flatMap(([, colour], i) => [[i / n, colour], [(i + 1) / n, colour]]);
+  return { zmin: -0.5, zmax: n - 0.5, colorscale, colorbar: { title: { text: "growing modes", side: "right" }, thickness: 12, outlinewidth: 0,
+    tickvals: CELL_KINDS.map((_, i) => i), ticktext: CELL_KINDS.map(([name]) => name) } };
 }
