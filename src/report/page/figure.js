@@ -46,6 +46,22 @@ function figureLayout(more) {
   };
 }
 
+/** The range of the values; where few of them are far larger than all others (a mode goes to infinity), of the others. */
+function usualRange(values) {
+  if (!values.length) return [0, 1];
+  const sorted = Float64Array.from(values).sort(), n = sorted.length;
+  let low = sorted[0], high = sorted[n - 1];
+  const quantile = (share) => sorted[Math.min(Math.floor(share * n), n - 1)];
+  const most = Math.max(quantile(0.97) - quantile(0.03), 1e-12 * Math.max(Math.abs(low), Math.abs(high)));
+  if (n > 60 && high - quantile(0.97) > 25 * most) high = quantile(0.97) + 0.5 * most;
+  if (n > 60 && quantile(0.03) - low > 25 * most) low = quantile(0.03) - 0.5 * most;
+  return low < high ? [low, high] : [low - (0.05 * Math.abs(low) || 0.05), high + (0.05 * Math.abs(high) || 0.05)];
+}
+
+function padded([low, high], share) {
+  return [low - share * (high - low), high + share * (high - low)];
+}
+
 /** Pixels of a place in a figure, from its upper left corner. */
 function toPixels(figure, xaxis, yaxis, x, y) {
   const { [xaxis]: ax, [yaxis]: ay } = figure._fullLayout;

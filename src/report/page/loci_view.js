@@ -3,20 +3,6 @@
 
 const REACH = 22;  // px within which a line is meant by the pointer
 
-/** A loci file as the page uses it. */
-class LociFile {
-  constructor(data, index, firstEvent) {
-    Object.assign(this, { data, index, firstEvent, path: new Path({ ...data.curves }), colour: COLOURS[index % COLOURS.length] });
-  }
-  modeText(mode) {
-    const { label, name } = this.data.modes[mode] || { label: `mode ${mode + 1}` };
-    return name ? `${label}, ${name}` : label;
-  }
-  /** For the ends of lines. */
-  shortText(mode) { return [mode + 1, this.data.modes[mode].name].filter(Boolean).join(": "); }
-  eventNumber(event) { return `E${this.firstEvent + this.data.events.indexOf(event) + 1}`; }
-}
-
 class LociView {
   constructor(datas) {
     let events = 0;
@@ -397,20 +383,4 @@ class LociView {
     });
     Plotly.react(this.locus, traces, layout, figureConfig("root_locus"));
   }
-}
-
-/** The range of the values; where few of them are far larger than all others (a mode goes to infinity), of the others. */
-function usualRange(values) {
-  if (!values.length) return [0, 1];
-  const sorted = Float64Array.from(values).sort(), n = sorted.length;
-  let low = sorted[0], high = sorted[n - 1];
-  const quantile = (share) => sorted[Math.min(Math.floor(share * n), n - 1)];
-  const most = Math.max(quantile(0.97) - quantile(0.03), 1e-12 * Math.max(Math.abs(low), Math.abs(high)));
-  if (n > 60 && high - quantile(0.97) > 25 * most) high = quantile(0.97) + 0.5 * most;
-  if (n > 60 && quantile(0.03) - low > 25 * most) low = quantile(0.03) - 0.5 * most;
-  return low < high ? [low, high] : [low - (0.05 * Math.abs(low) || 0.05), high + (0.05 * Math.abs(high) || 0.05)];
-}
-
-function padded([low, high], share) {
-  return [low - share * (high - low), high + share * (high - low)];
 }
