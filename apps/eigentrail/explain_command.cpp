@@ -88,10 +88,9 @@ void print_influences(const Influences& influences, const std::string& at) {
   }
 }
 
-void explain_sensitivity(const ExplainArguments& arguments) {
-  const TraceSetup setup =
-      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()}, true);
-  if (is_matrix_family(setup.scene))
+void explain_sensitivity(const Scene& scene, const ExplainArguments& arguments) {
+  const TraceSetup setup = prepare_trace(scene, {arguments.options.begin(), arguments.options.end()}, true);
+  if (is_matrix_family(scene))
     throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
   const Influences influences = effect_influences(setup);
   if (!influences.fault.empty()) throw InputError(arguments.scene + ": " + influences.fault);
@@ -191,7 +190,7 @@ int run_explain(const ExplainArguments& arguments) {
   print_solvers(*model, structure, {freedoms, modes, !options.modes, options.order.value_or(cheapest)},
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
   if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
-  if (arguments.sensitivity) explain_sensitivity(arguments);
+  if (arguments.sensitivity) explain_sensitivity(scene, arguments);
   return done;
 }
 

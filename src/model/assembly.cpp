@@ -36,33 +36,19 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Adds weight_b weight_a block, 3 x 3, for all shares of two moving vectors.
+/// Adds entry (i, j) of a block in rows of `to` and columns of `from`: weight_to weight_from value for every
+/// two of their shares.
 template <class Real, int Q>
-class WeightedBlocks {
- public:
-  using Base = Series<Real, Q>;
-
-  WeightedBlocks(const PathValues<Base>& values, bool& finite) : values_(values), finite_(finite) {}
-
-  /// Entry (i, j) of the block in rows of `to` and columns of `from`.
-  void add(Scatter<Real, Q>& sum, const Place& to, int i, const Place& from, int j, const Base& value) {
-    for (const Term& row : to.terms) {
-      const Base weighted = times(row.weight, value);
-      for (const Term& column : from.terms) {
-        add_entry<Real, Q>(sum, 3 * row.triple + i, 3 * column.triple + j, times(column.weight, weighted),
-                           finite_);
-      }
+void add_weighted(Scatter<Real, Q>& sum, const PathValues<Series<Real, Q>>& values, const Place& to, int i,
+                  const Place& from, int j, const Series<Real, Q>& value, bool& finite) {
+  for (const Term& row : to.terms) {
+    const Series<Real, Q> weighted = values.times(row.weight, value);
+    for (const Term& column : from.terms) {
+      add_entry<Real, Q>(sum, 3 * row.triple + i, 3 * column.triple + j,
+                         values.times(column.weight, weighted), finite);
     }
   }
-
-  Base times(const Quantity& weight, const Base& value) const {
-    return weight.slot < 0 ? value : values_.values[static_cast<std::size_t>(weight.slot)] * value;
-  }
-
- private:
-  const PathValues<Base>& values_;
-  bool& finite_;
-};
+}
 
 template <class Element, class Base>
 std::array<Vec3<Base>, max_arguments> positions(const Placed<Element>& placed,
@@ -79,7 +65,6 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
   using Base = Series<Real, Q>;
   using Scalar = Series<Base, 1>;
   bool finite = true;
-  WeightedBlocks<Real, Q> blocks(values, finite);
   const auto all = positions(placed, values);
   const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
   const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
@@ -90,8 +75,8 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
       placed.element.force(view);
       for (std::size_t i = 0; i < arguments.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-          blocks.add(matrix, placed.arguments[i], axis, from, component % 3,
-                     blocks.times(placed.strength, -view.force(i)[axis][1]));
+          add_weighted<Real, Q>(matrix, values, placed.arguments[i], axis, from, component % 3,
+                                values.times(placed.strength, -view.force(i)[axis][1]), finite);
         }
       }
     }
@@ -107,7 +92,6 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
                     BasicSteadyResidual<Real>& sum) {
   using Base = Series<Real, Q>;
   bool finite = true;
-  const WeightedBlocks<Real, Q> blocks(values, finite);
   const auto all = positions(placed, values);
   ElementView<Base> view(values, std::span<const Vec3<Base>>(all.data(), placed.arguments.size()));
   placed.element.force(view);
@@ -115,7 +99,7 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
     for (const Term& row : placed.arguments[i].terms) {
       for (int axis = 0; axis < 3; ++axis) {
         add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
-                           blocks.times(row.weight, blocks.times(placed.strength, -view.force(i)[axis])),
+                           values.times(row.weight, values.times(placed.strength, -view.force(i)[axis])),
                            finite);
       }
     }
@@ -142,18 +126,16 @@ template <class Real, int Q, class Visit>
 Series<Real, Q> evaluate_row(const ConstraintRow& row, const PathValues<Series<Real, Q>>& values,
                              Visit visit) {
   using Base = Series<Real, Q>;
-  bool finite = true;
-  const WeightedBlocks<Real, Q> blocks(values, finite);
   const Vec3<Base> a = value_of(row.a, values);
   const Base& offset = values.values[static_cast<std::size_t>(row.offset.slot)];
   const auto add = [&](const Difference& difference, const Vec3<Base>& other) {
     for_each_share(difference, [&](const Term& term, double sign) {
-      for (int i = 0; i < 3; ++i) visit(3 * term.triple + i, sign * blocks.times(term.weight, other[i]));
+      for (int i = 0; i < 3; ++i) visit(3 * term.triple + i, sign * values.times(term.weight, other[i]));
     });
   };
   if (!row.b) {
     for_each_share(row.a, [&](const Term& term, double sign) {
-      visit(3 * term.triple + row.axis, sign * blocks.times(term.weight, Base(1.0)));
+      visit(3 * term.triple + row.axis, sign * values.times(term.weight, Base(1.0)));
     });
     return a[row.axis] - offset;
   }
@@ -169,7 +151,6 @@ bool linearize_constraint(const Constraint& constraint, const PathValues<Series<
                           LinearizationScatter<Real, Q>& sum) {
   using Base = Series<Real, Q>;
   bool finite = true;
-  const WeightedBlocks<Real, Q> blocks(values, finite);
   int index = constraint.first_row;
   for (const ConstraintRow& row : constraint.rows) {
     evaluate_row<Real, Q>(row, values, [&](int column, const Base& gradient) {
@@ -178,9 +159,9 @@ bool linearize_constraint(const Constraint& constraint, const PathValues<Series<
     const Base& lambda = values.lambda[static_cast<std::size_t>(index++)];
     if (!row.b) continue;
     for_each_share(row.a, [&](const Term& p, double sign_p) {
-      const Base share = sign_p * blocks.times(p.weight, lambda);
+      const Base share = sign_p * values.times(p.weight, lambda);
       for_each_share(*row.b, [&](const Term& q, double sign_q) {
-        const Base curvature = sign_q * blocks.times(q.weight, share);
+        const Base curvature = sign_q * values.times(q.weight, share);
         for (int i = 0; i < 3; ++i) {
           add_entry<Real, Q>(sum.K, 3 * p.triple + i, 3 * q.triple + i, curvature, finite);
           add_entry<Real, Q>(sum.K, 3 * q.triple + i, 3 * p.triple + i, curvature, finite);

@@ -94,8 +94,7 @@ Place Draft::read_place(TableReader& table, const std::string& key, Carrier* car
   if (table.is_table(key)) {
     TableReader on = table.table(key);
     const int body = read_body(on, "body");
-    const ExpressionVector at = on.vector("at");
-    check_range(on, "at", at, Range::any);
+    const ExpressionVector at = read_vector(on, "at", Range::any);
     on.finish();
     if (carrier != nullptr) *carrier = {body, -1};
     return on_body(body, at);
@@ -172,6 +171,20 @@ void Draft::add_constraint(std::string_view kind, const std::string& label, std:
   const int first = data.n_constraints;
   data.n_constraints += static_cast<int>(rows.size());
   data.constraints.push_back({static_cast<int>(found - kinds.begin()), label, std::move(rows), first});
+}
+
+Expression Draft::read_number(TableReader& table, const std::string& key, Range range,
+                              std::optional<double> otherwise) const {
+  const Expression expression = otherwise ? table.expression(key, *otherwise) : table.expression(key);
+  check_range(table, key, expression, range);
+  return expression;
+}
+
+ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, Range range,
+                                    std::optional<ExpressionVector> otherwise) const {
+  const ExpressionVector vector = otherwise && !table.has(key) ? *otherwise : table.vector(key);
+  check_range(table, key, vector, range);
+  return vector;
 }
 
 std::vector<double> Draft::check_values(const Expression& expression) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "eigentrail/model/build.hpp"
@@ -80,6 +81,13 @@ struct Draft {
 
   /// Adds the rows of a constraint; `label` names its multipliers.
   void add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows);
+
+  // Numbers and vectors whose values are checked; `otherwise`, where the key may be left out.
+
+  Expression read_number(TableReader& table, const std::string& key, Range range,
+                         std::optional<double> otherwise = std::nullopt) const;
+  ExpressionVector read_vector(TableReader& table, const std::string& key, Range range,
+                               std::optional<ExpressionVector> otherwise = std::nullopt) const;
 
   // Checks at the points of the trace that the request lists.
 

@@ -129,15 +129,14 @@ struct PathValues {
   Vec3<Base> vector(const Place& place) const {
     if (!place.moves()) return vector(place.fixed);
     Vec3<Base> sum = Vec3<Base>::Zero();
-    for (const Term& term : place.terms) {
-      const Vec3<Base>& triple = triples[term.triple];
-      if (term.weight.slot < 0) {
-        sum += triple;
-      } else {
-        sum += values[term.weight.slot] * triple;
-      }
-    }
+    for (const Term& term : place.terms) sum += times(term.weight, triples[term.triple]);
     return sum;
+  }
+
+  /// weight value; no slot: the weight is one.
+  template <class Value>
+  Value times(const Quantity& weight, const Value& value) const {
+    return weight.slot < 0 ? value : Value(values[weight.slot] * value);
   }
 };
 

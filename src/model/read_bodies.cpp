@@ -35,8 +35,7 @@ ExpressionRotation read_axis_angle(Draft& draft, TableReader table) {
 /// Turns one after the other about the axes of the body, each as the turns before have left it.
 ExpressionRotation read_euler(Draft& draft, TableReader table) {
   const std::string sequence = table.text("sequence");
-  const ExpressionVector angles = table.vector("angles");
-  draft.check_range(table, "angles", angles, Range::any);
+  const ExpressionVector angles = draft.read_vector(table, "angles", Range::any);
   table.finish();
   const auto is_axis = [](char c) { return c >= 'x' && c <= 'z'; };
   if (sequence.size() != 3 || !std::all_of(sequence.begin(), sequence.end(), is_axis) ||
@@ -57,8 +56,7 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
   const std::array<std::string, 3> keys = {"x_axis", "y_axis", "z_axis"};
   std::array<ExpressionVector, 2> axes;
   for (std::size_t i = 0; i < 2; ++i) {
-    axes[i] = table.vector(keys[given[i]]);
-    draft.check_range(table, keys[given[i]], axes[i], Range::positive);
+    axes[i] = draft.read_vector(table, keys[given[i]], Range::positive);
   }
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d a = draft.vector_at(axes[0], i);
@@ -163,9 +161,7 @@ void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const Expre
   TableReader markers = table.table("markers");
   for (const std::string& name : markers.keys()) {
     if (name == "centre") markers.fail(name, "is the centre of mass already; choose another name");
-    const ExpressionVector at = markers.vector(name);
-    draft.check_range(markers, name, at, Range::any);
-    body.markers[name] = at;
+    body.markers[name] = draft.read_vector(markers, name, Range::any);
   }
 }
 
@@ -195,10 +191,8 @@ void read_bodies(Draft& draft) {
     if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
       table.fail("name", "another body or point is called '" + body.name + "' already");
     }
-    const Expression mass = table.expression("mass");
-    draft.check_range(table, "mass", mass, Range::non_negative);
-    const ExpressionVector centre = table.has("centre") ? table.vector("centre") : ExpressionVector{};
-    draft.check_range(table, "centre", centre, Range::any);
+    const Expression mass = draft.read_number(table, "mass", Range::non_negative);
+    const ExpressionVector centre = draft.read_vector(table, "centre", Range::any, ExpressionVector{});
     const ExpressionMatrix J = read_inertia(draft, table);
     check_inertia(draft, table, J);
     body.position = table.vector("position");

@@ -57,18 +57,14 @@ class FieldReader {
 
   void quantity(const QuantityField& field, Quantity& quantity) {
     const std::string key(field.key);
-    const Expression expression =
-        field.otherwise ? table_.expression(key, *field.otherwise) : table_.expression(key);
-    draft_.check_range(table_, key, expression, field.range);
-    quantity = draft_.quantity(expression);
+    quantity = draft_.quantity(draft_.read_number(table_, key, field.range, field.otherwise));
   }
 
   void vector(const QuantityField& field, std::array<Quantity, 3>& vector) {
     const std::string key(field.key);
-    ExpressionVector components{0.0, 0.0, field.otherwise.value_or(0.0)};
-    if (!field.otherwise || table_.has(key)) components = table_.vector(key);
-    draft_.check_range(table_, key, components, field.range);
-    vector = draft_.vector(components);
+    std::optional<ExpressionVector> otherwise;
+    if (field.otherwise) otherwise = {0.0, 0.0, *field.otherwise};
+    vector = draft_.vector(draft_.read_vector(table_, key, field.range, otherwise));
   }
 
   void matrix(const QuantityField& field, std::array<Quantity, 4>& entries) {
@@ -167,8 +163,7 @@ void read_points(Draft& draft) {
     if (std::find(draft.points.begin(), draft.points.end(), name) != draft.points.end()) {
       table.fail("name", "another point is called '" + name + "' already");
     }
-    const Expression mass = table.expression("mass");
-    draft.check_range(table, "mass", mass, Range::non_negative);
+    const Expression mass = draft.read_number(table, "mass", Range::non_negative);
     for (const Expression& e : table.vector("position")) draft.guess.push_back(e);
     table.finish();
     draft.points.push_back(name);
@@ -198,8 +193,7 @@ std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key)
   if (found.size() > 1)
     throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
   TableReader table = draft.reader(*found[0], label);
-  const ExpressionVector field = table.vector(key);
-  draft.check_range(table, key, field, Range::any);
+  const ExpressionVector field = draft.read_vector(table, key, Range::any);
   table.finish();
   const std::array<Quantity, 3> quantities = draft.vector(field);
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {

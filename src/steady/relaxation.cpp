@@ -57,13 +57,13 @@ class Relaxation {
       const double size = miss.maxCoeff();
       if (!std::isfinite(size)) return false;
       if (size <= on_manifold) return true;
-      if (size < last) note_miss(residual.constraint.col(0), rows);
       if (size >= last) {
         share *= 0.5;
         if (share < 1e-3) return false;
         x = start + share * correction;
         continue;
       }
+      note_miss(residual.constraint.col(0), rows);
       last = size;
       start = x;
       share = 1.0;

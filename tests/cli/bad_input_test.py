@@ -11,8 +11,6 @@ import h5py
 
 from program import BLADE, FAMILY, ProgramTest, each_case, edited
 
-PLACE = "§"
-
 TWO_SHORT_RODS = """\
 [parameters]
 length = 1.0
@@ -289,13 +287,7 @@ class BadScene(ProgramTest):
                     file[path] = matrix
 
     def check(self, scene, fragments, *more_edits):
-        for old, new in more_edits:
-            scene = edited(scene, old, new)
-        where = ""
-        if PLACE in scene:
-            before = scene[:scene.index(PLACE)]
-            where = f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}:"
-        self.write("scene.toml", scene.replace(PLACE, ""))
+        where = self.write_marked(scene, more_edits)
         before = self.contents()
         run = self.run_program("trace", "scene.toml", "-o", "loci.h5")
         self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where} ")

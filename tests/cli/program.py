@@ -119,6 +119,9 @@ axis = [0, 1, 0]
 """
 
 
+PLACE = "§"  # in a scene: where the message must point; it is taken out before the run
+
+
 def edited(scene, old, new):
     """The scene with its one occurrence of `old` replaced."""
     assert scene.count(old) == 1, f"{old!r} occurs {scene.count(old)} times"
@@ -160,6 +163,16 @@ class ProgramTest(unittest.TestCase):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")
         return path
+
+    def write_marked(self, scene, edits):
+        """Writes scene.toml after some edits (old, new) and without its mark; returns "line:column:" of the mark, or ""."""
+        for old, new in edits:
+            scene = edited(scene, old, new)
+        self.write("scene.toml", scene.replace(PLACE, ""))
+        if PLACE not in scene:
+            return ""
+        before = scene[:scene.index(PLACE)]
+        return f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}:"
 
     def contents(self):
         """Every path below the folder with its bytes (None for a folder)."""

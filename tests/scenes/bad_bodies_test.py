@@ -8,8 +8,6 @@ import unittest
 
 from program import ProgramTest, each_case, edited
 
-PLACE = "§"
-
 SCENE = """\
 [parameters]
 omega = 3.0
@@ -221,11 +219,8 @@ EFFECTS = [
 @each_case(BODIES + JOINTS + EFFECTS)
 class BadBodies(ProgramTest):
     def check(self, text, fragments, *more_edits):
-        for old, new in more_edits:
-            text = edited(text, old, new)
-        before = text[:text.index(PLACE)]
-        where = f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}:"
-        self.write("scene.toml", text.replace(PLACE, ""))
+        where = self.write_marked(text, more_edits)
+        self.assertTrue(where, "the scene says nowhere where the message must point")
         contents = self.contents()
         run = self.run_program("trace", "scene.toml", "-o", "loci.h5")
         self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where} ")
