@@ -8,6 +8,7 @@ namespace eigentrail::app {
 /// Exit codes of the program.
 enum ExitCode { done = 0, numbers_failed = 1, bad_input = 2 };
 
+void add_new(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
 void add_eval(CLI::App& program, int& exit_code);
 void add_events(CLI::App& program, int& exit_code);
@@ -18,5 +19,6 @@ void add_explain(CLI::App& program, int& exit_code);
 void add_verify(CLI::App& program, int& exit_code);
 void add_accuracy(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);
+void add_reference(CLI::App& program, int& exit_code);
 
 }  // namespace eigentrail::app

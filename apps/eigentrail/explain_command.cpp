@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "commands.hpp"
@@ -12,6 +13,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "output.hpp"
+#include "scene_in_words.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -156,6 +158,14 @@ void print_solvers(const Model& model, const Structure& structure, const ModeWor
                {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}});
 }
 
+Sizes sizes_at(const Model& model, const PathPoint& point) {
+  Sizes sizes{model.n_coordinates(), model.n_constraints(), 0, model.n_coordinates()};
+  if (point.status != PointStatus::computed) return sizes;
+  sizes.redundant = model.n_constraints() - point.equilibrium.kkt.constraints().rank();
+  sizes.freedoms = point.pencil.size();
+  return sizes;
+}
+
 int run_explain(const ExplainArguments& arguments) {
   const TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
@@ -164,33 +174,29 @@ int run_explain(const ExplainArguments& arguments) {
   const Structure structure = model->structure(traced);
 
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
-  print_parameters(*model, traced);
-  print_effects(*model);
   const PathProblem problem = problem_along(*model, options.parameter);
   RunCounts counts;
   const Vector guess = model->initial_guess(parameters_at(problem, options.from));
   const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
-  std::printf("sizes at %s = %s\n", options.parameter.c_str(), exact_text(options.from).c_str());
-  std::printf("    %lld coordinates, %lld constraints", static_cast<long long>(model->n_coordinates()),
-              static_cast<long long>(model->n_constraints()));
-  if (point.status == PointStatus::computed) {
-    const auto rank = static_cast<long long>(point.equilibrium.kkt.constraints().rank());
-    std::printf(", %lld of them redundant, %lld freedoms\n",
-                static_cast<long long>(model->n_constraints()) - rank,
-                static_cast<long long>(point.pencil.size()));
-  } else {
-    std::printf("\n");
-  }
-  print_structure(structure, model->n_constraints() > 0, options.parameter);
   const bool computed = point.status == PointStatus::computed;
-  const Eigen::Index freedoms = computed ? point.pencil.size() : model->n_coordinates();
-  const int cheapest = cheapest_order({freedoms, options.certify}, options.tolerance);
+  const Sizes sizes = sizes_at(*model, point);
+  if (computed) {
+    for (const std::string& sentence : in_words(setup, structure, sizes))
+      std::printf("  %s\n", sentence.c_str());
+  }
+  print_parameters(*model, traced);
+  print_effects(*model);
+  print_structure(structure, model->n_constraints() > 0, options.parameter);
+  const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues show at the start of a trace only; its modes are then corrected one by one.
-  const Eigen::Index modes = options.modes ? std::min<Eigen::Index>(*options.modes, 2 * freedoms) : freedoms;
-  print_solvers(*model, structure, {freedoms, modes, !options.modes, options.order.value_or(cheapest)},
+  const auto modes =
+      std::min<Eigen::Index>(options.modes.value_or(static_cast<int>(sizes.freedoms)), 2 * sizes.freedoms);
+  print_solvers(*model, structure, {sizes.freedoms, modes, !options.modes, options.order.value_or(cheapest)},
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
-  if (point.status != PointStatus::computed) throw InputError(scene.path + ": " + point.message);
+  if (!computed) throw InputError(scene.path + ": " + point.message);
   if (arguments.sensitivity) explain_sensitivity(scene, arguments);
+  std::printf("next: eigentrail trace %s -o %s\n", scene.path.c_str(),
+              std::filesystem::path(scene.path).stem().replace_extension(".h5").c_str());
   return done;
 }
 

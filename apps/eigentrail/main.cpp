@@ -40,16 +40,18 @@ int run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
   int exit_code = done;
+  add_new(program, exit_code);
+  add_explain(program, exit_code);
   add_trace(program, exit_code);
   add_eval(program, exit_code);
   add_events(program, exit_code);
   add_boundary(program, exit_code);
   add_map(program, exit_code);
   add_info(program, exit_code);
-  add_explain(program, exit_code);
   add_verify(program, exit_code);
   add_accuracy(program, exit_code);
   add_report(program, exit_code);
+  add_reference(program, exit_code);
   reject_unknown_command(program, argc, argv);
   try {
     program.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "interruption.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
 #include "ranges.hpp"
@@ -21,25 +23,12 @@ struct TraceArguments {
   std::string scene;
   std::string output;
   bool force = false;
+  bool resume = false;
   bool quiet = false;
-  int threads = 0;                             ///< 0: one per core
+  int threads = 0;  ///< 0: one per core
+  double save_every = LociWriter::usual_interval;
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
-
-/// Ends of the followed loci, for the summary: by mode, from 0.
-struct Ends {
-  std::map<int, Complex> first, last;
-};
-
-/// A file that cannot be created is a matter of the command line; one that cannot be written to later is not.
-void create_output(std::optional<LociWriter>& writer, const std::string& path, const TraceSetup& setup,
-                   const TraceStart& start) {
-  try {
-    writer.emplace(path, setup.scene, *setup.model, setup.options, start);
-  } catch (const std::exception& error) {
-    throw InputError(path + ": cannot be created: " + error.what());
-  }
-}
 
 std::string percent(double part, double whole) {
   return whole > 0.0 ? rounded(100.0 * part / whole, 2) + " %" : "0 %";
@@ -132,7 +121,7 @@ std::string followed_modes(const TraceResult& result) {
 }
 
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
-                   const TraceResult& result, const Ends& ends, const std::vector<std::string>& names,
+                   const TraceResult& result, const RecordedPath& path, const std::vector<std::string>& names,
                    const std::vector<StableRange>& ranges) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
@@ -147,14 +136,13 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   }
   std::vector<std::vector<std::string>> rows{
       {"mode", "s at " + exact_text(options.from), "s at " + exact_text(result.reached), "what moves"}};
-  const auto text = [](const std::map<int, Complex>& ends_of, int mode) {
-    const auto found = ends_of.find(mode);
-    return found == ends_of.end() ? std::string("-")
-                                  : complex_text(found->second.real(), found->second.imag(), 8);
+  const auto text = [](Complex s) {
+    return std::isnan(s.real()) ? std::string("-") : complex_text(s.real(), s.imag(), 8);
   };
+  const Eigen::Index last = path.eigenvalues.rows() - 1;
   for (int mode = 0; mode < result.n_columns; ++mode) {
-    rows.push_back({std::to_string(mode + 1), text(ends.first, mode), text(ends.last, mode),
-                    printable(names[static_cast<std::size_t>(mode)])});
+    rows.push_back({std::to_string(mode + 1), text(path.eigenvalues(0, mode)),
+                    text(path.eigenvalues(last, mode)), printable(names[static_cast<std::size_t>(mode)])});
   }
   print_table(rows);
   print_findings(options, result);
@@ -163,57 +151,125 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   print_effects(model, result.counts.evaluations);
 }
 
+/// A trace with its file: begun, or gone on with.
+class TraceRun {
+ public:
+  TraceRun(const TraceArguments& arguments, TraceSetup setup)
+      : arguments_(arguments), setup_(std::move(setup)), progress_(arguments.quiet) {}
+
+  int begin() {
+    return guarded([&] {
+      result_ = trace(*setup_.model, setup_.options, observer());
+      if (!has_started(result_.status)) throw InputError(setup_.scene.path + ": " + result_.message);
+    });
+  }
+
+  int resume(const SavedTrace& saved) {
+    recorder_ = PathRecorder(saved.path);
+    writer_.emplace(arguments_.output, *setup_.model, setup_.options, saved, arguments_.save_every);
+    saved_points_ = static_cast<int>(saved.path.n_nodes());
+    return guarded([&] { result_ = resume_trace(*setup_.model, setup_.options, observer(), saved.trace); });
+  }
+
+ private:
+  /// Runs the trace to its end; where the file cannot be written on, says what it holds.
+  template <class Run>
+  int guarded(Run&& run) {
+    try {
+      run();
+      return end();
+    } catch (const WriteError& error) {
+      progress_.finish();
+      const std::string& output = arguments_.output;
+      std::string message = output + ": cannot be written on: " + error.what() + "; ";
+      message += saved_points_ > 0 ? std::to_string(saved_points_) + " points are in " + output +
+                                         "; make room, then the same command with --resume goes on"
+                                   : "nothing was saved";
+      throw std::runtime_error(message);
+    }
+  }
+
+  TraceObserver observer() {
+    TraceObserver observer;
+    observer.started = [this](const TraceStart& start) { started_ = start; };
+    observer.point = [this](const TracePoint& point) {
+      if (!writer_) {
+        writer_.emplace(arguments_.output, setup_.scene, *setup_.model, setup_.options, started_, point,
+                        arguments_.save_every);
+      }
+      writer_->append(point);
+      recorder_.append(point);
+      const TraceOptions& options = setup_.options;
+      progress_.update((point.node.p - options.from) / (options.to - options.from), recorder_.points());
+      return true;
+    };
+    observer.checkpoint = [this](const Checkpoint& checkpoint) {
+      if (!interruption_) {
+        if (writer_->checkpoint(checkpoint)) saved_points_ = recorder_.points();
+        return true;
+      }
+      writer_->interrupt(checkpoint);
+      interrupted_ = true;
+      saved_points_ = recorder_.points();
+      return false;
+    };
+    return observer;
+  }
+
+  int end() {
+    progress_.finish();
+    const std::string& output = arguments_.output;
+    if (interrupted_) {
+      std::fprintf(stderr,
+                   "eigentrail: interrupted at %s = %s; %d points are in %s; the same command with --resume "
+                   "goes on\n",
+                   setup_.options.parameter.c_str(), exact_text(result_.reached).c_str(), result_.nodes,
+                   output.c_str());
+      return interruption_.exit_code();
+    }
+    const RecordedPath path = recorder_.path();
+    const std::vector<StableRange> ranges =
+        stable_ranges(path, result_.events, {setup_.options.tolerance, result_.s_ref});
+    writer_->finish(result_, ranges);
+    if (!arguments_.quiet) {
+      print_summary(setup_.scene, *setup_.model, setup_.options, result_, path, writer_->mode_names(),
+                    ranges);
+      std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
+                  std::filesystem::path(output).replace_extension(".html").c_str());
+    }
+    if (result_.status == TraceStatus::completed) return done;
+    std::fprintf(stderr, "eigentrail: %s; the points before it are in %s\n", result_.message.c_str(),
+                 output.c_str());
+    return numbers_failed;
+  }
+
+  const TraceArguments& arguments_;
+  TraceSetup setup_;
+  ProgressBar progress_;
+  Interruption interruption_;
+  bool interrupted_ = false;
+  int saved_points_ = 0;  ///< in the file that stands under the name
+  TraceStart started_;
+  std::optional<LociWriter> writer_;
+  PathRecorder recorder_;
+  TraceResult result_;
+};
+
 int run_trace(const TraceArguments& arguments) {
   TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   setup.options.threads = arguments.threads > 0
                               ? arguments.threads
                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const Scene& scene = setup.scene;
-  const TraceOptions& options = setup.options;
-  const Model& model = *setup.model;
-  check_parameter_name(scene, options.parameter);
-  check_output(arguments.output, arguments.force, {loci_format, "loci file"});
-
-  std::optional<LociWriter> writer;
-  std::optional<TraceStart> started;
-  ProgressBar progress(arguments.quiet);
-  PathRecorder recorder;
-  Ends ends;
-  int points = 0;
-  TraceObserver observer;
-  observer.started = [&](const TraceStart& start) { started = start; };
-  observer.point = [&](const TracePoint& point) {
-    const auto values = [&point] {
-      std::map<int, Complex> all;
-      for (const ModeState& state : point.modes) all[state.mode] = state.s;
-      return all;
-    };
-    if (!writer) {
-      create_output(writer, arguments.output, setup, *started);
-      ends.first = values();
-    }
-    writer->append(point);
-    recorder.append(point);
-    ends.last = values();
-    progress.update((point.node.p - options.from) / (options.to - options.from), ++points);
-    return true;
-  };
-  const TraceResult result = trace(model, options, observer);
-  if (!has_started(result.status)) throw InputError(scene.path + ": " + result.message);
-  const std::vector<StableRange> ranges =
-      stable_ranges(recorder.path(), result.events, {options.tolerance, result.s_ref});
-  writer->finish(result, ranges);
-  progress.finish();
-
-  if (!arguments.quiet) {
-    print_summary(scene, model, options, result, ends, writer->mode_names(), ranges);
-    std::printf("wrote %s\n", arguments.output.c_str());
-  }
-  if (result.status == TraceStatus::completed) return done;
-  std::fprintf(stderr, "eigentrail: %s; the points before it are in %s\n", result.message.c_str(),
-               arguments.output.c_str());
-  return numbers_failed;
+  check_parameter_name(setup.scene, setup.options.parameter);
+  const std::string& output = arguments.output;
+  const bool goes_on = arguments.resume && std::filesystem::exists(output);
+  check_output(output, arguments.force || goes_on, {loci_format, "loci file"});
+  if (!goes_on) return TraceRun(arguments, std::move(setup)).begin();
+  const auto saved = read_saved_trace(output, setup.scene, setup.options);
+  if (saved) return TraceRun(arguments, std::move(setup)).resume(*saved);
+  if (!arguments.quiet) std::printf("%s: the trace has come to its end already\n", output.c_str());
+  return done;
 }
 
 /// An option of the trace as a flag: "max_step" becomes --max-step.
@@ -230,7 +286,16 @@ void add_trace(CLI::App& program, int& exit_code) {
       program.add_subcommand("trace", "follow the eigenvalues of a scene and write a loci file");
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", arguments->output, "loci file to write (HDF5)")->required();
-  command->add_flag("--force", arguments->force, "replace an existing output");
+  const auto force = command->add_flag("--force", arguments->force, "replace an existing output");
+  command
+      ->add_flag("--resume", arguments->resume,
+                 "go on with an output that was interrupted; begin where there is none")
+      ->excludes(force);
+  command
+      ->add_option("--save-every", arguments->save_every,
+                   "seconds of work that may be lost when the program is killed")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
   TraceOptions defaults;
   TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {
@@ -250,7 +315,9 @@ void add_trace(CLI::App& program, int& exit_code) {
   command->footer(
       "Examples:\n"
       "  eigentrail trace data/scenes/rotating_mass.toml -o blade.h5\n"
-      "  eigentrail trace scene.toml -o out.h5 --from 100 --to 5 --tolerance 1e-8 --modes 4");
+      "  eigentrail trace scene.toml -o out.h5 --from 100 --to 5 --tolerance 1e-8 --modes 4\n"
+      "  eigentrail trace scene.toml -o out.h5 --resume\n\n"
+      "SIGINT and SIGTERM finish the point and save; the exit code is then 130 or 143.");
   command->callback([arguments, &exit_code] { exit_code = run_trace(*arguments); });
 }
 

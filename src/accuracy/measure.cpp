@@ -103,7 +103,7 @@ std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
   TraceObserver observer;
   observer.started = [&](const TraceStart& start) { started = start; };
   observer.point = [&](const TracePoint& point) {
-    if (!writer) writer.emplace(file.name(), setup.scene, *setup.model, setup.options, *started);
+    if (!writer) writer.emplace(file.name(), setup.scene, *setup.model, setup.options, *started, point);
     writer->append(point);
     recorder.append(point);
     return true;

@@ -19,6 +19,13 @@ class Bridge {
   /// `left` and `right`: the path at two values of its coordinate, which is the traced parameter itself or
   /// the distance across a plane (`on_plane`).
   Bridge(double begin, double end, const Path& left, const Path& right, int traced, bool on_plane);
+  Bridge() = default;
+
+  /// Its state, for files that a trace goes on from.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit(self.begin_, self.end_, self.parameters_, self.n_, self.traced_, self.on_plane_, self.interpolant_);
+  }
 
   bool covers(double coordinate) const { return (coordinate - begin_) * (coordinate - end_) <= 0.0; }
 
@@ -36,11 +43,11 @@ class Bridge {
   double end() const { return end_; }
 
  private:
-  double begin_, end_;
+  double begin_ = 0.0, end_ = 0.0;
   Vector parameters_;
-  Eigen::Index n_;
-  int traced_;
-  bool on_plane_;
+  Eigen::Index n_ = 0;
+  int traced_ = 0;
+  bool on_plane_ = false;
   HermiteInterpolant interpolant_;  ///< x, lambda, p less `parameters_`
 };
 

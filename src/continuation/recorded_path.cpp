@@ -44,6 +44,14 @@ ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
                           eigenvalues.row(left + 1).transpose(), position.t);
 }
 
+PathRecorder::PathRecorder(const RecordedPath& path)
+    : p_(path.p), steps_(path.steps), n_modes_(static_cast<std::size_t>(path.eigenvalues.cols())) {
+  for (Eigen::Index node = 0; node < path.eigenvalues.rows(); ++node) {
+    const ComplexVector row = path.eigenvalues.row(node).transpose();
+    eigenvalues_.emplace_back(row.begin(), row.end());
+  }
+}
+
 void PathRecorder::append(const TracePoint& point) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const ModeState& state : point.modes)

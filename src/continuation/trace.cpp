@@ -12,12 +12,28 @@ bool has_started(TraceStatus status) {
          status == TraceStatus::stopped;
 }
 
-TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
-                  BasisChoice basis) {
+namespace {
+
+void check(const Model& model, const TraceOptions& options) {
   const std::vector<OptionFault> faults = find_faults(options, model.description().parameters);
   if (!faults.empty())
     throw std::invalid_argument("trace: " + faults.front().key + ": " + faults.front().message);
+}
+
+}  // namespace
+
+TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+                  BasisChoice basis) {
+  check(model, options);
   return Tracer(model, options, observer, basis).run();
+}
+
+TraceResult resume_trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+                         std::string_view state) {
+  check(model, options);
+  Tracer tracer(model, options, observer, BasisChoice::aligned);
+  tracer.restore(state);
+  return tracer.resume();
 }
 
 }  // namespace eigentrail

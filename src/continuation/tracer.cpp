@@ -40,10 +40,16 @@ Tracer::Tracer(const Model& model, const TraceOptions& options, const TraceObser
 }
 
 TraceResult Tracer::run() {
-  const auto begin = std::chrono::steady_clock::now();
-  if (start()) follow();
-  result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (start()) {
+    prepare_to_follow();
+    follow();
+  }
+  result_.seconds = seconds_so_far();
   return std::move(result_);
+}
+
+double Tracer::seconds_so_far() const {
+  return seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 std::string Tracer::at_parameter(double p) const {
@@ -70,34 +76,44 @@ double first_step(const PathNode& node, const PathProblem& problem, double toler
 
 }  // namespace
 
-/// The loop: propose, compute, judge, keep or try a shorter step.
-void Tracer::follow() {
+void Tracer::prepare_to_follow() {
   // A step must move p by more than its rounding.
   const double rounding =
       8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(options_.from), std::abs(options_.to));
   const double min_step = std::max(smallest_step * range(), rounding);
   const double max_step = std::max(options_.max_step.value_or(0.25 * range()), min_step);
   const double begin = options_.first_step.value_or(first_step(node_, problem_, options_.tolerance, range()));
-  StepControl control(problem_.order, begin, max_step, min_step);
-  part(problem_, nullptr, node_, control.step(), 0.0, part_reach_, 0.0, result_.counts);
+  control_ = StepControl(problem_.order, begin, max_step, min_step);
+  part(problem_, nullptr, node_, control_.step(), 0.0, part_reach_, 0.0, result_.counts);
+}
+
+/// The loop: propose, compute, judge, keep or try a shorter step.
+void Tracer::follow() {
   while (!reached_end(node_)) {
     if (result_.nodes >= options_.max_nodes) {
       stop(TraceStatus::too_many_nodes, "stopped after " + std::to_string(result_.nodes) + " points at " +
                                             at_parameter(node_.p) + "; raise max_nodes or the tolerance");
       return;
     }
-    if (!advance(control)) return;
+    // They served the point; what follows begins from series.
+    for (Track& track : node_.tracks) track.pair.factors.reset();
+    result_.seconds = seconds_so_far();
+    if (!observer_.checkpoint(*this)) {
+      stop(TraceStatus::stopped, "stopped on request at " + at_parameter(node_.p));
+      return;
+    }
+    if (!advance()) return;
     if (turned_step_ > 0.0) {
       // In the path's own coordinate the range has length one.
       const double longest = options_.max_step ? *options_.max_step / range() : 0.25;
-      control = StepControl(problem_.order, turned_step_, std::max(longest, smallest_step), smallest_step);
+      control_ = StepControl(problem_.order, turned_step_, std::max(longest, smallest_step), smallest_step);
       turned_step_ = 0.0;
     }
   }
 }
 
-bool Tracer::advance(StepControl& control) {
-  const double length = control.propose(std::min(remaining(), longest_allowed_step()));
+bool Tracer::advance() {
+  const double length = control_.propose(std::min(remaining(), longest_allowed_step()));
   double h = direction_ * length;
   std::optional<PathNode> next;
   double error = 0.0;
@@ -113,16 +129,16 @@ bool Tracer::advance(StepControl& control) {
     if (trouble.kind == Trouble::Kind::uncertified && length <= uncertified_below_) {
       trouble = {};  // taken as it is, and marked
     } else {
-      control.reject(length, trouble.kind == Trouble::Kind::uncertified ? uncertified_error : trouble.error);
-      return control.exhausted() ? give_up(trouble) : true;
+      control_.reject(length, trouble.kind == Trouble::Kind::uncertified ? uncertified_error : trouble.error);
+      return control_.exhausted() ? give_up(trouble) : true;
     }
   }
   if (!land_on_end(h, next) || !land_on_fold(h, next) || !land_on_meeting(h, next)) {
-    control.reject(length, INFINITY);
-    return control.exhausted() ? give_up(trouble) : true;
+    control_.reject(length, INFINITY);
+    return control_.exhausted() ? give_up(trouble) : true;
   }
-  control.accept(length, error);
-  return accept(h, std::move(*next), control.step());
+  control_.accept(length, error);
+  return accept(h, std::move(*next), control_.step());
 }
 
 /// More than one meeting may hide in a long step of a large block.

@@ -1,6 +1,7 @@
 // The state of a trace and its stages. The public function trace() builds one and returns its result.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
@@ -17,13 +18,26 @@
 
 namespace eigentrail {
 
-class Tracer {
+class Tracer final : private Checkpoint {
  public:
   Tracer(const Model& model, const TraceOptions& options, const TraceObserver& observer, BasisChoice basis);
 
   TraceResult run();
 
+  // tracer_state.cpp: leaving a trace between two points, and going on with it.
+  /// Throws InputError when the bytes are no state of a trace of this model.
+  void restore(std::string_view bytes);
+  TraceResult resume();
+
  private:
+  const TraceResult& so_far() const override { return result_; }
+  std::string save() const override;
+  /// Calls visit(...) with all that changes while a trace goes on.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit);
+  /// What of a restored state does not fit the model; empty when all of it does.
+  std::string misfit() const;
+
   /// Why a step was not taken, and which track is to blame (-1: none in particular).
   struct Trouble {
     enum class Kind {
@@ -53,8 +67,9 @@ class Tracer {
   bool start_tracks(PathPoint& point, const std::vector<StartingMode>& modes, std::optional<PathNode>& node);
 
   // tracer.cpp: the loop.
+  void prepare_to_follow();
   void follow();
-  bool advance(StepControl& control);
+  bool advance();
   Prediction predict(const PathNode& base, double h) const;
   /// The same from the node, with what the last step and the last attempt tell.
   Prediction predict_all(double h);
@@ -64,6 +79,7 @@ class Tracer {
   bool accept(double h, PathNode next, double next_step);
   bool give_up(const Trouble& trouble);
   double remaining() const;
+  double seconds_so_far() const;
   double longest_allowed_step() const;
 
   // tracer_judgement.cpp: whether a step is taken, and what may help where it is not.
@@ -139,6 +155,10 @@ class Tracer {
     double value() const { return value_; }
     bool is_pair() const { return is_pair_; }
     void is_pair(bool value) { is_pair_ = value; }
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit(self.known_, self.skipped_, self.is_pair_, self.value_, self.change_, self.bend_, self.top_);
+    }
     double bend() const { return bend_; }  ///< second difference at the extremum
     double top() const { return top_; }    ///< value at the extremum, about
 
@@ -256,6 +276,7 @@ class Tracer {
   const TraceObserver& observer_;
   PathProblem problem_;
   TraceResult result_;
+  StepControl control_;
   double direction_ = 1.0;  ///< sign of steps in the path's coordinate
   PathNode node_;           ///< the last accepted point
   PathNode previous_;       ///< the one before it
@@ -266,9 +287,9 @@ class Tracer {
   std::optional<PathPlane> plane_;
   /// Where the steady equations are too near to singular to be solved; in the coordinate of `plane_`.
   std::optional<Bridge> bridge_;
-  struct {
+  struct BranchPoint {
     double coordinate = 0.0, p = 0.0;
-  } branch_;  ///< the branch point on the bridge
+  } branch_;  ///< on the bridge
   std::optional<Crossing> crossing_;
   std::size_t branch_points_ = 0;   ///< passed so far
   int bridges_tried_ = 0;           ///< from the last point
@@ -285,6 +306,8 @@ class Tracer {
   double turned_step_ =
       0.0;  ///< length of the next step in a coordinate that has just changed; 0: it has not
   double longest_step_ = 0.0;  ///< of late
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double seconds_before_ = 0.0;  ///< of the runs that this one goes on from
 };
 
 }  // namespace eigentrail

@@ -4,6 +4,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 
@@ -229,6 +230,50 @@ Hdf5File Hdf5File::open(const std::string& path) {
   silence_error_stack();
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
   return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+}
+
+namespace {
+
+/// Properties of a file that never reaches the disk by itself. HDF5 does not bear errors of writing.
+Handle memory_access() {
+  constexpr std::size_t increment = 1u << 20u;
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
+  check(H5Pset_fapl_core(access, increment, false), "keep a file in memory");
+  return access;
+}
+
+/// HDF5 takes files of one name for one file.
+std::string unique_name(const std::string& name) {
+  static std::atomic<std::uint64_t> count{0};
+  return name + "#" + std::to_string(++count);
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::in_memory(const std::string& name) {
+  silence_error_stack();
+  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access()), H5Fclose,
+              "create " + name);
+  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+}
+
+Hdf5File Hdf5File::from_image(const std::string& name, std::string_view image) {
+  silence_error_stack();
+  const Handle access = memory_access();
+  check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
+  Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);
+  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+}
+
+std::string Hdf5File::image() {
+  const std::string action = "make an image of " + implementation_->path;
+  flush();
+  const ssize_t size = H5Fget_file_image(implementation_->file, nullptr, 0);
+  if (size < 0) throw Hdf5Error("HDF5 could not " + action);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(implementation_->file, bytes.data(), bytes.size()) != size)
+    throw Hdf5Error("HDF5 could not " + action);
+  return bytes;
 }
 
 void Hdf5File::create_dataset(const DatasetSpec& spec) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "eigentrail/core/types.hpp"
@@ -39,6 +40,10 @@ class Hdf5File {
   /// Creates `path`; throws Hdf5Error when it exists already or cannot be created. Switches off, for the
   /// whole process, HDF5's own printing of errors: they are reported by exceptions.
   static Hdf5File create(const std::string& path);
+  /// Begins a file in memory; `name` is for messages.
+  static Hdf5File in_memory(const std::string& name);
+  /// Goes on with one, in memory, from its bytes. Throws Hdf5Error when they are none.
+  static Hdf5File from_image(const std::string& name, std::string_view image);
   /// Opens `path` for reading. Throws Hdf5Error when it is missing or no HDF5 file.
   static Hdf5File open(const std::string& path);
 
@@ -68,6 +73,9 @@ class Hdf5File {
   void set_attribute(const std::string& name, std::int64_t value);
 
   void flush();
+
+  /// The bytes of the file as it would be on disk.
+  std::string image();
 
   bool has(const std::string& dataset) const;
   /// Names of what a group holds, in alphabetical order; "/" is the root.

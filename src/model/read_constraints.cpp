@@ -259,13 +259,13 @@ const std::vector<ConstraintKind>& constraint_kinds() {
        "keeps a point on a plane of the frame: c = normal . x - offset",
        {{"point", "moving place", "the point"},
         {"normal", "[x, y, z]", "normal of the plane, of any length"},
-        {"offset", "m", "normal . x on the plane; 0"}},
+        {"offset", "m", "normal . x on the plane", "0"}},
        read_plane},
       {"fixed",
        "holds one coordinate of a point: c = x_i - value",
        {{"point", "moving place", "the point"},
         {"coordinate", "axis", "which coordinate: \"x\", \"y\" or \"z\""},
-        {"value", "m", "what it is held at; 0"}},
+        {"value", "m", "what it is held at", "0"}},
        read_fixed},
       {"ball", "two places coincide", {from_help, to_help}, read_ball},
       {"revolute",
@@ -275,8 +275,8 @@ const std::vector<ConstraintKind>& constraint_kinds() {
         axis_help,
         {"angle", "rad",
          "holds the second side turned by this angle about the axis, from the orientations that the scene "
-         "gives; "
-         "absent: it is free"}},
+         "gives",
+         "free"}},
        read_revolute},
       {"universal",
        "two places coincide, turning about two crossed axes",
@@ -291,10 +291,7 @@ const std::vector<ConstraintKind>& constraint_kinds() {
        read_cylindrical},
       {"prismatic",
        "sliding along an axis without turning",
-       {from_help,
-        to_help,
-        axis_help,
-        {"length", "m", "holds the distance along the axis; absent: it is free"}},
+       {from_help, to_help, axis_help, {"length", "m", "holds the distance along the axis", "free"}},
        read_prismatic},
       {"weld", "no relative motion", {from_help, to_help}, read_weld},
       {"point_on_line",
@@ -308,7 +305,7 @@ const std::vector<ConstraintKind>& constraint_kinds() {
        {{"from", "place", "a place of the plane"},
         {"to", "place", "what stays on it"},
         {"normal", "direction", "normal of the plane"},
-        {"distance", "m", "distance from the plane along the normal; 0"}},
+        {"distance", "m", "distance from the plane along the normal", "0"}},
        read_point_on_plane}};
   return kinds;
 }

@@ -282,34 +282,6 @@ ModelDescription describe(const Draft& draft) {
   return description;
 }
 
-/// Collects an element's keys for the reference.
-class HelpCollector {
- public:
-  explicit HelpCollector(std::vector<FieldHelp>& fields) : fields_(fields) {}
-  void place(std::string_view key, const Place&, std::string_view help) { add(key, "place", help); }
-  void point(std::string_view key, const Place&, std::string_view help) { add(key, "moving place", help); }
-  void direction(std::string_view key, const Place&, std::string_view help) { add(key, "direction", help); }
-  void body(std::string_view key, const std::array<Place, 3>&, std::string_view help) {
-    add(key, "name of a body", help);
-  }
-  void joint(std::string_view key, const HingeAngle&, std::string_view help) {
-    add(key, "name of a joint", help);
-    add("about", "\"axis\" or \"cross_axis\"", "which angle of a universal joint");
-  }
-  void quantity(const QuantityField& field, const Quantity&) { add(field, ""); }
-  void vector(const QuantityField& field, const std::array<Quantity, 3>&) { add(field, "[x, y, z] "); }
-  void matrix(const QuantityField& field, const std::array<Quantity, 4>&) { add(field, "2 x 2 "); }
-
- private:
-  void add(std::string_view key, const std::string& shape, std::string_view help) {
-    fields_.push_back({std::string(key), shape, std::string(help)});
-  }
-  void add(const QuantityField& field, const std::string& shape) {
-    add(field.key, shape + std::string(field.unit), field.help);
-  }
-  std::vector<FieldHelp>& fields_;
-};
-
 }  // namespace
 
 std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request) {
@@ -341,27 +313,6 @@ std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& re
   ModelDescription description = describe(draft);
   if (rotation) description.rotation_axis = axis_of(draft, *rotation);
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
-}
-
-std::vector<EffectHelp> effect_reference() {
-  std::vector<EffectHelp> reference;
-  Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
-    EffectHelp& help = reference.emplace_back();
-    help.name = Element::name;
-    help.description = Element::description;
-    if constexpr (std::is_same_v<Element, BladeElement>) {
-      help.fields = strip_fields();
-    } else {
-      HelpCollector collector(help.fields);
-      const Element element;
-      Element::fields(element, collector);
-    }
-  });
-  for (const ConstraintKind& kind : constraint_kinds()) {
-    if (kind.read != nullptr)
-      reference.push_back({std::string(kind.name), std::string(kind.description), kind.fields});
-  }
-  return reference;
 }
 
 }  // namespace eigentrail

@@ -104,12 +104,12 @@ std::vector<FieldHelp> strip_fields() {
           {"leading", "[x, y, z]", "direction from trailing to leading edge, in the body's axes"},
           {"lift", "[x, y, z]", "direction of lift, in the body's axes"},
           {"chord", "m", "chord"},
-          {"lift_slope", "1/rad", "slope of the lift coefficient; 2 pi"},
-          {"profile_drag", "", "profile drag coefficient; 0"},
-          {"pitch", "rad", "pitch of the sections, nose up, besides that of the body; 0"},
-          {"inflow", "[x, y, z] m/s", "velocity of the air in the frame; 0"},
-          {"density", "kg/m^3", "density of the air; 1.225"},
-          {"strips", "", "number of strips, 1 to 64; 4"}};
+          {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
+          {"profile_drag", "", "profile drag coefficient", "0"},
+          {"pitch", "rad", "pitch of the sections, nose up, besides that of the body", "0"},
+          {"inflow", "[x, y, z] m/s", "velocity of the air in the frame", "[0, 0, 0]"},
+          {"density", "kg/m^3", "density of the air", "1.225"},
+          {"strips", "", "number of strips, 1 to 64", "4"}};
 }
 
 }  // namespace eigentrail

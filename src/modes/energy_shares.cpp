@@ -101,6 +101,19 @@ EnergyShares::EnergyShares(const ModelDescription& description, const SystemMatr
   }
 }
 
+bool EnergyShares::fits(const ModelDescription& description) const {
+  if (carriers_.size() != description.masses.size()) return false;
+  for (std::size_t i = 0; i < carriers_.size(); ++i) {
+    const MassCarrier& mass = description.masses[i];
+    const MassCarrier& own = carriers_[i].mass;
+    if (own.first_triple != mass.first_triple || own.n_triples != mass.n_triples) return false;
+    for (const Index row : carriers_[i].rows) {
+      if (row < 0 || row >= static_cast<Index>(motions_.size())) return false;
+    }
+  }
+  return true;
+}
+
 Index EnergyShares::row_of(const std::string& mass, const std::string& kind) {
   const auto known = std::find_if(motions_.begin(), motions_.end(),
                                   [&](const MassMotion& m) { return m.mass == mass && m.kind == kind; });

@@ -40,12 +40,7 @@ void write_report(const std::vector<std::string>& files, const std::string& path
   const std::size_t mark = page().find(data_mark);
   if (mark == std::string_view::npos || !page().starts_with(signature))
     throw std::logic_error("write_report: the page in this program is damaged; build it again");
-  write_complete(path, [&](const std::string& partial) {
-    std::ofstream file(partial, std::ios::binary);
-    file << page().substr(0, mark) << data << page().substr(mark + data_mark.size());
-    file.close();
-    if (!file) throw std::runtime_error(path + ": cannot be written; is the disk full?");
-  });
+  write_durably(path, {page().substr(0, mark), data, page().substr(mark + data_mark.size())});
 }
 
 bool is_report(const std::string& path) {

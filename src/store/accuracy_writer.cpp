@@ -108,13 +108,11 @@ void write_references(Hdf5File& file, const ReferenceSet& reference, const std::
 void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
                  const Study& study) {
   const std::string unit = label_unit(setup.scene.parameters.at(setup.options.parameter).unit);
-  write_complete(path, [&](const std::string& partial) {
-    Hdf5File file = Hdf5File::create(partial);
-    write_attributes(file, setup, options, study.reference);
-    write_runs(file, study.runs, unit);
-    write_references(file, study.reference, unit);
-    file.flush();
-  });
+  Hdf5File file = Hdf5File::in_memory(path);
+  write_attributes(file, setup, options, study.reference);
+  write_runs(file, study.runs, unit);
+  write_references(file, study.reference, unit);
+  write_durably(path, {file.image()});
 }
 
 }  // namespace eigentrail

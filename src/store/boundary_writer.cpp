@@ -57,20 +57,21 @@ std::vector<std::int64_t> count_to(std::size_t n) {
 class BoundaryFile {
  public:
   BoundaryFile(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result)
-      : file_(Hdf5File::create(path)),
+      : file_(Hdf5File::in_memory(path)),
         setup_(setup),
         result_(result),
         first_(setup.scene.parameters.at(setup.options.trace.parameter)),
         second_(setup.scene.parameters.at(setup.options.second)) {}
 
-  void write() {
+  /// The bytes of the whole file.
+  std::string write() {
     write_attributes();
     write_dimensions();
     write_points();
     write_steps();
     write_curves();
     write_corners();
-    file_.flush();
+    return file_.image();
   }
 
  private:
@@ -275,7 +276,7 @@ void check_boundary_names(const Scene& scene, const BoundaryOptions& options) {
 }
 
 void write_boundaries(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result) {
-  write_complete(path, [&](const std::string& partial) { BoundaryFile(partial, setup, result).write(); });
+  write_durably(path, {BoundaryFile(path, setup, result).write()});
 }
 
 }  // namespace eigentrail

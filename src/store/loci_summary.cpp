@@ -6,8 +6,8 @@
 
 namespace eigentrail {
 
-void write_events(Hdf5File& file, const std::vector<Event>& events) {
-  if (events.empty()) return;
+void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first) {
+  if (first >= events.size()) return;
   std::vector<std::string> lines;
   std::vector<double> parameters, half_widths;
   std::vector<Complex> eigenvalues, puiseux;
@@ -22,8 +22,9 @@ void write_events(Hdf5File& file, const std::vector<Event>& events) {
       all.push_back(static_cast<Eigen::Index>(i) < row.size() ? row[static_cast<Eigen::Index>(i)]
                                                               : Item(nan));
   };
-  for (const Event& event : events) {
-    numbers.push_back(static_cast<std::int64_t>(numbers.size()));
+  for (std::size_t i = first; i < events.size(); ++i) {
+    const Event& event = events[i];
+    numbers.push_back(static_cast<std::int64_t>(i));
     lines.push_back(event_line(event));
     parameters.push_back(event.p);
     half_widths.push_back(event.kind == EventKind::veering ? event.half_width : nan);
@@ -36,25 +37,24 @@ void write_events(Hdf5File& file, const std::vector<Event>& events) {
     append(sensitivities, event.sensitivity, file.shape("scene_parameter")[0]);
     append(shifts, event.shift, file.shape("scene_parameter")[0]);
   }
-  file.write_rows("event", 0, numbers);
-  file.write_rows("events", 0, lines);
-  file.write_rows("event_parameter", 0, parameters);
-  file.write_rows("event_eigenvalue", 0, eigenvalues);
-  file.write_rows("event_half_width", 0, half_widths);
-  file.write_rows("event_puiseux", 0, puiseux);
-  file.write_rows("event_node", 0, nodes);
-  file.write_rows("event_direction", 0, directions);
-  file.write_rows("event_value", 0, values);
-  file.write_rows("event_shape", 0, shapes);
-  file.write_rows("event_sensitivity", 0, sensitivities);
-  file.write_rows("event_shift", 0, shifts);
+  file.write_rows("event", first, numbers);
+  file.write_rows("events", first, lines);
+  file.write_rows("event_parameter", first, parameters);
+  file.write_rows("event_eigenvalue", first, eigenvalues);
+  file.write_rows("event_half_width", first, half_widths);
+  file.write_rows("event_puiseux", first, puiseux);
+  file.write_rows("event_node", first, nodes);
+  file.write_rows("event_direction", first, directions);
+  file.write_rows("event_value", first, values);
+  file.write_rows("event_shape", first, shapes);
+  file.write_rows("event_sensitivity", first, sensitivities);
+  file.write_rows("event_shift", first, shifts);
 }
 
 void write_summary(Hdf5File& file, const TraceResult& result) {
   const auto count = [&file](const std::string& name, std::uint64_t value) {
     file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
   };
-  file.set_attribute("status", result.status == TraceStatus::completed ? "completed" : "ended early");
   file.set_attribute("message", result.message);
   write_notes(file, result.notes);
   file.set_attribute("seconds", result.seconds);

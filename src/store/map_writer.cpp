@@ -20,18 +20,19 @@ const std::array<std::string, 11> reserved = {"unstable",       "margin",    "da
 class MapFile {
  public:
   MapFile(const std::string& path, const MapSetup& setup, const StabilityMap& map)
-      : file_(Hdf5File::create(path)),
+      : file_(Hdf5File::in_memory(path)),
         setup_(setup),
         map_(map),
         first_(setup.trace.scene.parameters.at(setup.trace.options.parameter)),
         second_(setup.trace.scene.parameters.at(setup.options.second)) {}
 
-  void write(const std::vector<std::string>& notes) {
+  /// The bytes of the whole file.
+  std::string write(const std::vector<std::string>& notes) {
     write_attributes(notes);
     write_cells();
     write_lines();
     write_axis_points();
-    file_.flush();
+    return file_.image();
   }
 
  private:
@@ -146,7 +147,7 @@ void check_map_names(const MapSetup& setup) {
 
 void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map,
                const std::vector<std::string>& notes) {
-  write_complete(path, [&](const std::string& partial) { MapFile(partial, setup, map).write(notes); });
+  write_durably(path, {MapFile(path, setup, map).write(notes)});
 }
 
 }  // namespace eigentrail

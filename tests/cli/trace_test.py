@@ -21,7 +21,7 @@ class Trace(CommandTest):
         for scene in scenes:
             with self.subTest(scene.name):
                 self.assertIn("effects", self.run_well("explain", scene))
-                self.assertIn(f"wrote {scene.stem}.h5\n", self.run_well("trace", scene, "-o", f"{scene.stem}.h5"))
+                self.assertIn(f"wrote {scene.stem}.h5; next: ", self.run_well("trace", scene, "-o", f"{scene.stem}.h5"))
 
     def test_summary_counts_every_active_effect_and_no_absent_one(self):
         for scene in sorted(SCENES.glob("*.toml")):

@@ -10,7 +10,7 @@ KEPT = {"point", "body", "directors"}
 def formulas(explanation):
     """Formulas per linearization, by active effect, and the absent ones."""
     active = {}
-    block = explanation.split("effects\n")[1].split("sizes at")[0]
+    block = explanation.split("effects\n")[1].split("structure of")[0]
     for line in block.splitlines():
         row = re.match(r"\s+(\w+)\s+(\d+)\s+(\d+)\s+\S", line)
         if row:

@@ -80,6 +80,8 @@ class SceneTest(CommandTest):
     def redundant(self, text=None):
         """Coordinates, constraints, redundant ones and freedoms that `explain` reports."""
         self.write("sizes.toml", text or self.scene_text())
-        found = re.search(r"(\d+) coordinates, (\d+) constraints, (\d+) of them redundant, (\d+) freedoms",
-                          self.run_well("explain", "sizes.toml"))
-        return tuple(map(int, found.groups()))
+        explained = self.run_well("explain", "sizes.toml")
+        found = re.search(r"(\d+) freedoms?: (\d+) coordinates?, (no|\d+) constraints?(?: \((\d+) more)?", explained)
+        freedoms, coordinates, independent, redundant = (int(number) if number and number != "no" else 0
+                                                         for number in found.groups())
+        return coordinates, independent + redundant, redundant, freedoms

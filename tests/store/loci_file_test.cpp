@@ -32,7 +32,7 @@ class LociFileTest : public testing::Test {
     TraceObserver observer;
     observer.started = [&](const TraceStart& known) { start = known; };
     observer.point = [&](const TracePoint& point) {
-      if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, *start);
+      if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, *start, point);
       writer->append(point);
       recorder.append(point);
       return true;

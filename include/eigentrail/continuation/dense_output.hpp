@@ -20,6 +20,13 @@ class HermiteInterpolant {
   /// `left` and `right` hold power series coefficients (rows: functions, columns: order + 1) at the ends of a
   /// step of signed length `length`, not zero.
   HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right);
+  HermiteInterpolant() = default;
+
+  /// Its state, for files that a trace goes on from.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit(self.left_value_, self.right_value_, self.slope_);
+  }
 
   /// Number of functions.
   Eigen::Index size() const { return slope_.rows(); }

@@ -40,6 +40,11 @@ struct RecordedPath {
 /// Collects the points of a trace, as its observer.
 class PathRecorder {
  public:
+  PathRecorder() = default;
+  /// Goes on with what was recorded before.
+  explicit PathRecorder(const RecordedPath& path);
+
+  int points() const { return static_cast<int>(p_.size()); }
   void append(const TracePoint& point);
 
   /// What was collected so far.

@@ -11,6 +11,14 @@ class StepControl {
  public:
   /// Steps are positive lengths along the trace; below `min_step` they mean nothing any more.
   StepControl(int order, double first_step, double max_step, double min_step);
+  StepControl() : StepControl(1, 1.0, 1.0, 0.0) {}
+
+  /// Its state, for files that a trace goes on from.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit(self.order_, self.step_, self.max_step_, self.min_step_, self.last_step_, self.last_error_,
+          self.rejected_);
+  }
 
   /// Length of the next step with `remaining` ahead; lands on the end without a sliver before it.
   double propose(double remaining) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "eigentrail/continuation/event.hpp"
 #include "eigentrail/continuation/path_point.hpp"
@@ -92,11 +93,23 @@ struct TracePoint {
   const PathStep* step = nullptr;  ///< from the point before; none at the first
 };
 
-/// Called during a trace, in this order: `started` once, then `point` for every point, which returns whether
-/// to go on.
+/// What a trace can go on from: all points up to here have been handed to the observer.
+class Checkpoint {
+ public:
+  virtual const TraceResult& so_far() const = 0;
+  /// The state of the trace as bytes, for resume_trace. They belong to this version of the program.
+  virtual std::string save() const = 0;
+
+ protected:
+  ~Checkpoint() = default;
+};
+
+/// Called during a trace, in this order: `started` once, then `point` for every point; `checkpoint` between
+/// points. The latter two return whether to go on.
 struct TraceObserver {
   std::function<void(const TraceStart&)> started = [](const TraceStart&) {};
   std::function<bool(const TracePoint&)> point = [](const TracePoint&) { return true; };
+  std::function<bool(const Checkpoint&)> checkpoint = [](const Checkpoint&) { return true; };
 };
 
 /// Follows the modes of `model` as `options` say. Numerical failures end in the result's status; the points
@@ -104,5 +117,11 @@ struct TraceObserver {
 /// (find_faults).
 TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                   BasisChoice basis = BasisChoice::aligned);
+
+/// Goes on from a checkpoint of a trace of the same model with the same options: the points that follow, and
+/// the result, are bit for bit those of the trace that was left; `started` is not called. Throws InputError
+/// when the state is damaged or belongs to another model.
+TraceResult resume_trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+                         std::string_view state);
 
 }  // namespace eigentrail

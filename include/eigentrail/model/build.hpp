@@ -40,8 +40,9 @@ bool is_matrix_family(const Scene& scene);
 /// One line per key that a table of the given effect takes, for help and documentation.
 struct FieldHelp {
   std::string key;
-  std::string unit;
+  std::string unit;  ///< or what kind of value it is
   std::string help;
+  std::string otherwise = {};  ///< value when the scene is silent, as text; empty: the key is required
 };
 struct EffectHelp {
   std::string name;

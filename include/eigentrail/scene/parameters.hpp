@@ -18,9 +18,9 @@ struct Parameter {
   double value = 0.0;   ///< in `unit`; of a derived parameter: not used
   std::string unit;     ///< as written; empty: SI or dimensionless
   double factor = 1.0;  ///< SI value = factor * value
-  std::optional<Expression>
-      definition;  ///< derived parameter: its value, in `unit`, from SI values of the others
-  SourceLocation where;
+  std::optional<Expression> definition =
+      {};  ///< derived parameter: its value, in `unit`, from SI values of the others
+  SourceLocation where = {};
 };
 
 /// Parameters that define each other; the message names the cycle.

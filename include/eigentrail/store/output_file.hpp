@@ -1,8 +1,9 @@
 // Files that commands write: what may be written over, and files that appear complete or not at all.
 #pragma once
 
-#include <functional>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace eigentrail {
 
@@ -14,9 +15,10 @@ bool may_be_replaced(const std::string& path, const std::string& format);
 /// not: better before the work than after it.
 void check_can_create(const std::string& path);
 
-/// Calls `write` with a name beside `path` that nobody else uses and renames what it wrote: the file appears
-/// complete or not at all, and an existing one is replaced in that moment. Exceptions of `write` pass, and
-/// std::filesystem::filesystem_error when the file cannot be renamed; nothing is left behind.
-void write_complete(const std::string& path, const std::function<void(const std::string& partial)>& write);
+/// Writes `parts`, one after the other, under a name beside `path` that nobody else uses, and renames it: the
+/// file appears complete or not at all, and an existing one is replaced in that moment. The contents reach
+/// the disk first, the new name after: also without power either file is there. Throws std::system_error, and
+/// leaves nothing behind then.
+void write_durably(const std::string& path, std::initializer_list<std::string_view> parts);
 
 }  // namespace eigentrail

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "check_output.hpp"
+#include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/store/output_file.hpp"
+#include "starters.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct NewArguments {
+  std::string output;
+  std::string starter = "blade";
+};
+
+/// The text with the name of the file in the commands that it shows.
+std::string text_for(const Starter& starter, const std::string& file) {
+  const std::string mark = "@file@";
+  std::string text(starter.text);
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += file.size())
+    text.replace(at, mark.size(), file);
+  return text;
+}
+
+int run_new(const NewArguments& arguments) {
+  std::vector<std::string> names;
+  for (const Starter& starter : starters) names.emplace_back(starter.name);
+  const auto chosen = std::find(names.begin(), names.end(), arguments.starter);
+  if (chosen == names.end()) {
+    throw InputError("--starter: there is none called '" + arguments.starter + "'; " +
+                     suggestion(arguments.starter, names));
+  }
+  const std::string& path = arguments.output;
+  std::error_code error;
+  if (std::filesystem::exists(path, error))
+    throw InputError(path + ": exists already, and a scene is never replaced; give another name");
+  check_output(path, false, OtherOutput{[](const std::string&) { return false; }, "scene"});
+  check_can_create(path);
+  write_durably(path, {text_for(starters[static_cast<std::size_t>(chosen - names.begin())], path)});
+  std::printf("wrote %s; next: eigentrail explain %s\n", path.c_str(), path.c_str());
+  return done;
+}
+
+}  // namespace
+
+void add_new(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<NewArguments>();
+  CLI::App* command = program.add_subcommand("new", "write a commented scene to start from");
+  command->add_option("SCENE", arguments->output, "scene file to write (TOML)")->required();
+  command
+      ->add_option(
+          "--starter", arguments->starter,
+          "blade: bodies, hinges and a rotating frame; pendulum: a point on a rod; matrices: M, C, K")
+      ->capture_default_str();
+  command->footer("Examples:\n  eigentrail new blade.toml\n  eigentrail new flutter.toml --starter matrices");
+  command->callback([arguments, &exit_code] { exit_code = run_new(*arguments); });
+}
+
+}  // namespace eigentrail::app

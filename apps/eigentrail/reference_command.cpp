@@ -1,0 +1,108 @@
+#include <cstdio>
+#include <memory>
+#include <set>
+
+#include "commands.hpp"
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/model/build.hpp"
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct ReferenceArguments {
+  std::vector<std::string> tables;
+  bool markdown = false;
+};
+
+/// Tables that a scene has once at most.
+std::string heading(const std::string& name) {
+  static const std::set<std::string> single = {"trace", "events", "frame", "gravity"};
+  return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
+}
+
+EffectHelp trace_help() {
+  EffectHelp help{"trace", "what is followed, and how accurately; each key is an option of `trace`, too", {}};
+  const TraceOptions defaults;
+  TraceOptions::fields(defaults, [&](const char* key, const char* text, const auto&) {
+    const std::string name = key;
+    const bool required = name == "parameter" || name == "from" || name == "to";
+    help.fields.push_back({name, "", text, required ? "" : "automatic"});
+  });
+  for (const auto& [key, text] : describe_options(defaults)) {
+    for (FieldHelp& field : help.fields) {
+      if (field.key == key && !field.otherwise.empty()) field.otherwise = text;
+    }
+  }
+  return help;
+}
+
+std::vector<EffectHelp> whole_reference() {
+  std::vector<EffectHelp> all = {
+      trace_help(),
+      {"events",
+       "what counts as a special point beside stability, collisions and veerings",
+       {{"damping_ratio", "number or list", "where the damping ratio of a pair has this value", "none"},
+        {"harmonics", "number or list", "where Im s is this multiple of the excitation frequency", "none"},
+        {"excitation", "rad/s", "the excitation frequency", "the traced parameter"},
+        {"extrema", "true or false", "locate extrema of damping ratios", "true"}}}};
+  for (EffectHelp& effect : effect_reference()) all.push_back(std::move(effect));
+  return all;
+}
+
+void print_text(const EffectHelp& table) {
+  std::printf("%s  %s\n", heading(table.name).c_str(), table.description.c_str());
+  std::vector<std::vector<std::string>> rows;
+  for (const FieldHelp& field : table.fields) {
+    const std::string otherwise = field.otherwise.empty() ? "required" : "default: " + field.otherwise;
+    rows.push_back({"  " + field.key, field.unit, field.help, otherwise});
+  }
+  print_table(rows);
+}
+
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+void print_markdown(const EffectHelp& table) {
+  std::printf("\n## %s\n\n`%s`: %s.\n\n", table.name.c_str(), heading(table.name).c_str(),
+              cell(table.description).c_str());
+  std::printf("| key | value | meaning | default |\n|---|---|---|---|\n");
+  for (const FieldHelp& field : table.fields) {
+    std::printf("| `%s` | %s | %s | %s |\n", field.key.c_str(), cell(field.unit).c_str(),
+                cell(field.help).c_str(),
+                field.otherwise.empty() ? "required" : cell(field.otherwise).c_str());
+  }
+}
+
+int run_reference(const ReferenceArguments& arguments) {
+  const std::vector<EffectHelp> all = whole_reference();
+  std::vector<std::string> names;
+  for (const EffectHelp& table : all) names.push_back(table.name);
+  const std::set<std::string> known(names.begin(), names.end());
+  for (const std::string& name : arguments.tables) {
+    if (known.count(name) == 0)
+      throw InputError("no table of a scene is called '" + name + "'; " + suggestion(name, names));
+  }
+  const std::set<std::string> wanted(arguments.tables.begin(), arguments.tables.end());
+  for (const EffectHelp& table : all) {
+    if (!wanted.empty() && wanted.count(table.name) == 0) continue;
+    arguments.markdown ? print_markdown(table) : print_text(table);
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_reference(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<ReferenceArguments>();
+  CLI::App* command =
+      program.add_subcommand("reference", "every table that a scene may have, with its keys and units");
+  command->add_option("TABLE", arguments->tables, "tables to show, such as spring; default: all");
+  command->add_flag("--markdown", arguments->markdown, "as the documentation has it");
+  command->footer("Examples:\n  eigentrail reference\n  eigentrail reference spring damper");
+  command->callback([arguments, &exit_code] { exit_code = run_reference(*arguments); });
+}
+
+}  // namespace eigentrail::app

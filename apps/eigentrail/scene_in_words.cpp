@@ -1,0 +1,63 @@
+#include "scene_in_words.hpp"
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+std::string counted(long long number, const std::string& one, const std::string& many) {
+  return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+std::string freedoms(const Sizes& sizes) {
+  std::string text = counted(sizes.freedoms, "freedom", "freedoms") + ": ";
+  text += counted(sizes.coordinates, "coordinate", "coordinates");
+  const long long independent = sizes.constraints - sizes.redundant;
+  text += independent == 0 ? ", no constraints" : ", " + counted(independent, "constraint", "constraints");
+  if (sizes.redundant > 0) text += " (" + std::to_string(sizes.redundant) + " more say what others do)";
+  return text + ".";
+}
+
+/// What the structure of the pencil lets eigenvalues do.
+std::string prospects(const Structure& structure) {
+  if (structure.circulatory)
+    return "Forces without a potential (unsymmetric K): flutter is possible, with and without damping.";
+  if (structure.damped && structure.gyroscopic)
+    return "Damping and gyroscopic forces: modes decay where damping is external; damping that rotates may "
+           "make them grow.";
+  if (structure.damped)
+    return "Damping and a potential: modes decay until the stiffness is lost (divergence), as long as no "
+           "damping is negative.";
+  if (structure.gyroscopic)
+    return "Gyroscopic forces without damping: modes neither grow nor decay until two of them meet "
+           "(flutter), or the stiffness is lost.";
+  return "A potential without damping: modes neither grow nor decay until the stiffness is lost "
+         "(divergence).";
+}
+
+std::string equilibrium(const Structure& structure, const std::string& parameter) {
+  if (structure.known_equilibrium) return "The equilibrium is zero throughout.";
+  if (structure.fixed_equilibrium) return "The equilibrium does not depend on " + parameter + ".";
+  return "The equilibrium may move with " + parameter +
+         " and is followed; eigenvalues belong to where it is.";
+}
+
+std::string followed(const TraceSetup& setup, const Sizes& sizes) {
+  const TraceOptions& options = setup.options;
+  const std::string unit = setup.model->description().parameters.at(options.parameter).unit;
+  const std::string modes = options.modes && *options.modes < sizes.freedoms
+                                ? "The " + std::to_string(*options.modes) + " lowest modes are"
+                                : "All modes are";
+  return modes + " followed from " + options.parameter + " = " + exact_text(options.from) + " to " +
+         exact_text(options.to) + (unit.empty() ? "" : " " + unit) + ", every eigenvalue to " +
+         exact_text(options.tolerance) + " of its magnitude, everywhere on the range.";
+}
+
+}  // namespace
+
+std::vector<std::string> in_words(const TraceSetup& setup, const Structure& structure, const Sizes& sizes) {
+  return {freedoms(sizes), prospects(structure), equilibrium(structure, setup.options.parameter),
+          followed(setup, sizes)};
+}
+
+}  // namespace eigentrail::app

@@ -1,0 +1,266 @@
+// Values as bytes and back: the state that a trace goes on from.
+//
+// A struct lists its members once, fields(self, visit), found by argument or as a static member; writing and
+// reading both go through that list. Reading trusts nothing: every count is checked against the bytes that
+// are left, so damaged input ends in an ArchiveError and never in memory that is not there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "eigentrail/core/system_matrix.hpp"
+
+namespace eigentrail {
+
+class ArchiveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// T, or const T: what a list of fields is of.
+template <class Self, class T>
+concept SameAs = std::is_same_v<std::remove_const_t<Self>, T>;
+
+template <class T>
+inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Complex>;
+
+class ArchiveWriter {
+ public:
+  template <class... T>
+  void operator()(const T&... values) {
+    (write(values), ...);
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  void count(std::size_t n) { write(static_cast<std::uint64_t>(n)); }
+
+  template <class T>
+  void write(const T& value) {
+    if constexpr (is_plain<T>) {
+      append(&value, sizeof value);
+    } else if constexpr (requires { T::fields(value, *this); }) {
+      T::fields(value, *this);
+    } else {
+      fields(value, *this);
+    }
+  }
+  void write(const std::string& text) {
+    count(text.size());
+    append(text.data(), text.size());
+  }
+  template <class T>
+  void write(const std::vector<T>& items) {
+    count(items.size());
+    for (const T& item : items) write(item);
+  }
+  void write(const std::vector<bool>& items) {
+    count(items.size());
+    for (const bool item : items) write(item);
+  }
+  template <class T, std::size_t N>
+  void write(const std::array<T, N>& items) {
+    for (const T& item : items) write(item);
+  }
+  template <class A, class B>
+  void write(const std::pair<A, B>& pair) {
+    (*this)(pair.first, pair.second);
+  }
+  template <class Key, class T>
+  void write(const std::map<Key, T>& items) {
+    count(items.size());
+    for (const auto& item : items) (*this)(item.first, item.second);
+  }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write(value.has_value());
+    if (value) write(*value);
+  }
+  template <class Scalar, int Rows>
+  void write(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {
+    write_dense(matrix);
+  }
+  template <class Scalar>
+  void write(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
+    write_dense(vector);
+  }
+  template <class Dense>
+  void write_dense(const Dense& matrix) {
+    (*this)(static_cast<std::int64_t>(matrix.rows()), static_cast<std::int64_t>(matrix.cols()));
+    append(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(typename Dense::Scalar));
+  }
+  void write(const Eigen::Matrix3d& matrix) { append(matrix.data(), 9 * sizeof(double)); }
+  void write(const SystemMatrix& matrix) {
+    write(matrix.is_sparse());
+    if (!matrix.is_sparse()) return write_dense(matrix.dense());
+    const SparseMatrix& sparse = matrix.sparse();
+    (*this)(static_cast<std::int64_t>(sparse.rows()), static_cast<std::int64_t>(sparse.cols()));
+    count(static_cast<std::size_t>(sparse.nonZeros()));
+    for (Eigen::Index j = 0; j < sparse.outerSize(); ++j) {
+      for (SparseMatrix::InnerIterator entry(sparse, j); entry; ++entry)
+        (*this)(static_cast<std::int64_t>(entry.row()), static_cast<std::int64_t>(j), entry.value());
+    }
+  }
+
+  std::string bytes_;
+};
+
+/// Throws ArchiveError when the bytes are not those of the values asked for.
+class ArchiveReader {
+ public:
+  explicit ArchiveReader(std::string_view bytes) : left_(bytes) {}
+
+  template <class... T>
+  void operator()(T&... values) {
+    (read(values), ...);
+  }
+
+  /// All bytes must have been read.
+  void finish() const {
+    if (!left_.empty()) throw ArchiveError("more bytes than there are values");
+  }
+
+ private:
+  void take(void* data, std::size_t size) {
+    if (size > left_.size()) throw ArchiveError("fewer bytes than there are values");
+    if (size > 0) std::memcpy(data, left_.data(), size);
+    left_.remove_prefix(size);
+  }
+
+  /// A number of items that take `size` bytes each, at least.
+  std::size_t count(std::size_t size) {
+    std::uint64_t n = 0;
+    read(n);
+    if (n > left_.size() / size) throw ArchiveError("a count that exceeds the bytes that are left");
+    return static_cast<std::size_t>(n);
+  }
+
+  template <class T>
+  void read(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      unsigned char byte = 0;
+      take(&byte, 1);
+      if (byte > 1) throw ArchiveError("neither true nor false");
+      value = byte == 1;
+    } else if constexpr (is_plain<T>) {
+      take(&value, sizeof value);
+    } else if constexpr (requires { T::fields(value, *this); }) {
+      T::fields(value, *this);
+    } else {
+      fields(value, *this);
+    }
+  }
+  void read(std::string& text) {
+    text.resize(count(1));
+    take(text.data(), text.size());
+  }
+  template <class T>
+  void read(std::vector<T>& items) {
+    // Items are made one by one: however large they are, no more of them than the bytes hold.
+    const std::size_t n = count(1);
+    items.clear();
+    for (std::size_t i = 0; i < n; ++i) read(items.emplace_back());
+  }
+  void read(std::vector<bool>& items) {
+    items.assign(count(1), false);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      bool item = false;
+      read(item);
+      items[i] = item;
+    }
+  }
+  template <class T, std::size_t N>
+  void read(std::array<T, N>& items) {
+    for (T& item : items) read(item);
+  }
+  template <class A, class B>
+  void read(std::pair<A, B>& pair) {
+    (*this)(pair.first, pair.second);
+  }
+  template <class Key, class T>
+  void read(std::map<Key, T>& items) {
+    items.clear();
+    for (std::size_t n = count(1); n > 0; --n) {
+      Key key{};
+      read(key);
+      read(items[key]);
+    }
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    bool has_value = false;
+    read(has_value);
+    value.reset();
+    if (!has_value) return;
+    T item{};
+    read(item);
+    value = std::move(item);
+  }
+  template <class Scalar, int Rows>
+  void read(Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {
+    read_dense(matrix);
+  }
+  template <class Scalar>
+  void read(Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
+    read_dense(vector);
+  }
+
+  std::pair<std::int64_t, std::int64_t> read_shape() {
+    std::pair<std::int64_t, std::int64_t> shape;
+    read(shape);
+    constexpr std::int64_t most = 1 << 30;
+    if (shape.first < 0 || shape.second < 0 || shape.first > most || shape.second > most)
+      throw ArchiveError("no shape of a matrix");
+    return shape;
+  }
+  template <class Dense>
+  void read_dense(Dense& matrix) {
+    using Scalar = typename Dense::Scalar;
+    const auto [rows, columns] = read_shape();
+    if (Dense::ColsAtCompileTime == 1 && columns != 1) throw ArchiveError("no vector");
+    if (static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) >
+        left_.size() / sizeof(Scalar))
+      throw ArchiveError("a matrix that exceeds the bytes that are left");
+    matrix.resize(rows, columns);
+    take(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
+  }
+  void read(Eigen::Matrix3d& matrix) { take(matrix.data(), 9 * sizeof(double)); }
+  void read(SystemMatrix& matrix) {
+    bool is_sparse = false;
+    read(is_sparse);
+    if (!is_sparse) {
+      Matrix dense;
+      read_dense(dense);
+      matrix = std::move(dense);
+      return;
+    }
+    const auto [rows, columns] = read_shape();
+    std::vector<Eigen::Triplet<double>> entries(count(sizeof(double) + 2 * sizeof(std::int64_t)));
+    for (auto& entry : entries) {
+      std::int64_t row = 0, column = 0;
+      double value = 0.0;
+      (*this)(row, column, value);
+      if (row < 0 || column < 0 || row >= rows || column >= columns)
+        throw ArchiveError("an entry outside of its matrix");
+      entry = {static_cast<int>(row), static_cast<int>(column), value};
+    }
+    SparseMatrix sparse(rows, columns);
+    sparse.setFromTriplets(entries.begin(), entries.end());
+    matrix = std::move(sparse);
+  }
+
+  std::string_view left_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,133 @@
+#include "eigentrail/store/saved_trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "core/archive.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/core/version.hpp"
+#include "eigentrail/store/loci_file.hpp"
+#include "store/saved_state.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// The last bytes of a file with a state.
+struct Mark {
+  static constexpr std::string_view text = "eigentrail-state";
+  std::array<char, text.size()> name = {};
+  std::uint64_t size = 0;      ///< of the state before it, bytes
+  std::uint64_t checksum = 0;  ///< of the state
+};
+
+/// FNV-1a (Fowler, Noll, Vo): tells damage, not malice.
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file && !file.eof()) throw InputError(path + ": cannot be read");
+  return bytes;
+}
+
+std::string quoted(const std::string& text) {
+  return "'" + printable(text) + "'";
+}
+
+/// The first line in which two texts differ; an empty text where one has ended.
+std::string first_difference(const std::string& before, const std::string& now) {
+  std::istringstream a(before), b(now);
+  for (int line = 1;; ++line) {
+    std::string line_a, line_b;
+    const bool has_a = static_cast<bool>(std::getline(a, line_a));
+    const bool has_b = static_cast<bool>(std::getline(b, line_b));
+    if (!has_a && !has_b) return "line ends";
+    if (line_a != line_b)
+      return "line " + std::to_string(line) + " was " + quoted(line_a) + " and is " + quoted(line_b);
+  }
+}
+
+void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& options) {
+  const std::string advice = "; restore it, or trace anew with --force";
+  if (loci.attribute("program_version") != version()) {
+    throw InputError(loci.path + ": cannot be resumed: it was written by eigentrail " +
+                     printable(loci.attribute("program_version")) + ", this is " + version() +
+                     "; trace anew with --force");
+  }
+  if (loci.attribute("scene") != scene.text) {
+    throw InputError(loci.path + ": cannot be resumed: the scene has changed since: " +
+                     first_difference(loci.attribute("scene"), scene.text) + advice);
+  }
+  std::string differences;
+  for (const auto& [key, text] : describe_options(options)) {
+    const std::string& before = loci.attribute("option_" + key);
+    if (before == text) continue;
+    differences +=
+        (differences.empty() ? "" : ", ") + key + " was " + printable(before) + " and is " + printable(text);
+  }
+  if (!differences.empty())
+    throw InputError(loci.path + ": cannot be resumed: other options: " + differences + advice);
+}
+
+}  // namespace
+
+std::string saved_state(const SavedTrace& saved) {
+  ArchiveWriter archive;
+  archive(saved.trace, saved.writer);
+  std::string bytes = archive.bytes();
+  Mark mark{{}, bytes.size(), checksum(bytes)};
+  std::copy(Mark::text.begin(), Mark::text.end(), mark.name.begin());
+  bytes.append(reinterpret_cast<const char*>(&mark), sizeof mark);
+  return bytes;
+}
+
+namespace {
+
+/// Takes the states and the HDF5 data apart.
+SavedTrace split(const std::string& path, std::string_view bytes) {
+  Mark mark;
+  const bool has_mark = bytes.size() >= sizeof mark;
+  if (has_mark) std::memcpy(&mark, bytes.data() + bytes.size() - sizeof mark, sizeof mark);
+  if (!has_mark || std::string_view(mark.name.data(), mark.name.size()) != Mark::text)
+    throw InputError(path + ": cannot be resumed: it holds no state of the trace; trace anew with --force");
+  const std::string_view before = bytes.substr(0, bytes.size() - sizeof mark);
+  const bool fits = mark.size <= before.size();
+  const std::string_view state = before.substr(fits ? before.size() - mark.size : 0);
+  if (!fits || checksum(state) != mark.checksum)
+    throw InputError(path +
+                     ": cannot be resumed: the state of the trace is damaged; trace anew with --force");
+  SavedTrace saved;
+  ArchiveReader archive(state);
+  archive(saved.trace, saved.writer);
+  archive.finish();
+  saved.image = before.substr(0, before.size() - state.size());
+  return saved;
+}
+
+}  // namespace
+
+std::optional<SavedTrace> read_saved_trace(const std::string& path, const Scene& scene,
+                                           const TraceOptions& options) {
+  const LociFile loci = read_loci(path);
+  check_same(loci, scene, options);
+  const std::string& status = loci.attribute("status");
+  if (status != "running" && status != "interrupted") return std::nullopt;
+  try {
+    SavedTrace saved = split(path, read_file(path));
+    saved.path = loci;
+    return saved;
+  } catch (const ArchiveError& error) {
+    throw InputError(path + ": cannot be resumed: the state of the trace is damaged: " + error.what());
+  }
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,202 @@
+"""Traces that are interrupted, killed, or left without room on the disk, and go on."""
+
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, ProgramTest, edited
+
+# Long enough to be met in the middle: a thousand points and more.
+LONG = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02")
+
+NOT_COMPARED = {"seconds"}  # the wall time of a run
+
+
+def differences(a, b):
+    """Names of what is not the same, bit for bit, in two loci files."""
+    found = []
+    with h5py.File(a) as first, h5py.File(b) as second:
+        found += [name for name in set(first.attrs) ^ set(second.attrs)]
+        found += [name for name in first.attrs if name in second.attrs and name not in NOT_COMPARED
+                  and first.attrs[name] != second.attrs[name]]
+        names = set(first) | set(second)
+        for name in names:
+            if name not in first or name not in second:
+                found.append(name)
+            elif first[name].shape != second[name].shape or \
+                    np.asarray(first[name][()]).tobytes() != np.asarray(second[name][()]).tobytes() and \
+                    not (first[name].dtype.kind == "O" and (first[name][()] == second[name][()]).all()):
+                found.append(name)
+    return found
+
+
+class Interrupted(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", LONG)
+
+    def start(self, *options, output="out.h5", **settings):
+        return subprocess.Popen([PROGRAM, "trace", "scene.toml", "-o", output, "--quiet", *options], cwd=self.folder,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **settings)
+
+    def wait_for(self, name):
+        """Until the running trace has published something."""
+        end = time.monotonic() + 20
+        while not (self.folder / name).exists():
+            self.assertLess(time.monotonic(), end, "nothing is published")
+            time.sleep(0.002)
+
+    def whole(self):
+        if not (self.folder / "whole.h5").exists():
+            self.run_well("trace", "scene.toml", "-o", "whole.h5", "--quiet")
+        return self.folder / "whole.h5"
+
+    def assert_resumes_to_whole(self):
+        self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet", "--resume")
+        self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
+        self.assertEqual({path.name for path in self.folder.iterdir()}, {"scene.toml", "out.h5", "whole.h5"})
+
+    def test_signals_save_and_say_how_to_go_on(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                run = self.start("--force")
+                self.wait_for("out.h5")
+                time.sleep(0.1)
+                run.send_signal(number)
+                said = run.communicate(timeout=20)[1]
+                self.assertEqual(run.returncode, 128 + number)
+                self.assertRegex(said, r"^eigentrail: interrupted at omega = [\d.]+; \d+ points are in out\.h5; "
+                                       r"the same command with --resume goes on\n$")
+                with h5py.File(self.folder / "out.h5") as file:
+                    self.assertEqual(file.attrs["status"], "interrupted")
+                    self.assertGreater(len(file["omega"]), 1)
+                self.assertFalse((self.folder / "out.h5.lock").exists())
+                self.run_well("info", "out.h5")
+                self.run_well("eval", "out.h5", "--at", "99.9")
+                self.assert_resumes_to_whole()
+                for name in ("out.h5", "whole.h5"):
+                    (self.folder / name).unlink()
+
+    def test_killed_trace_leaves_a_file_that_goes_on(self):
+        """A few kills at different times; kills.py does a thousand."""
+        whole = self.whole()
+        for delay in (0.0, 0.02, 0.05, 0.1, 0.2):
+            with self.subTest(delay):
+                run = self.start("--save-every", "0.02")
+                self.wait_for("out.h5")
+                time.sleep(delay)
+                run.kill()
+                run.communicate()
+                with h5py.File(self.folder / "out.h5") as file:
+                    self.assertGreaterEqual(len(file["omega"]), 1)
+                self.run_well("info", "out.h5")
+                self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet", "--resume")
+                self.assertEqual(differences(self.folder / "out.h5", whole), [])
+                (self.folder / "out.h5").unlink()
+
+    def test_reader_sees_a_consistent_prefix(self):
+        run = self.start("--save-every", "0.01")
+        self.wait_for("out.h5")
+        lengths = []
+        while run.poll() is None:
+            with h5py.File(self.folder / "out.h5") as file:
+                n = len(file["omega"])
+                self.assertEqual(file["eigenvalue"].shape[0], n)
+                self.assertEqual(len(file["step_length"]), n - 1)
+                self.assertTrue(np.isfinite(file["eigenvalue"][()]).all())
+                lengths.append(n)
+        run.communicate()
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(lengths, sorted(lengths))
+        self.assertGreater(len(set(lengths)), 2)
+
+    def test_second_writer_of_a_file_is_refused(self):
+        first = self.start()
+        self.wait_for("out.h5.lock")
+        second = self.run_program("trace", "scene.toml", "-o", "out.h5", "--force")
+        self.assert_refused(second, ["out.h5: another process writes it", "out.h5.lock is locked"])
+        self.assertEqual(first.communicate(timeout=60)[1], "")
+        self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
+
+    def test_disk_that_fills_up_keeps_what_was_saved(self):
+        """A limit on the size of files stands for the disk: the system refuses to write beyond it."""
+        size = (self.whole()).stat().st_size
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size // 2, size // 2))
+
+        run = self.start("--save-every", "0", preexec_fn=limit)
+        said = run.communicate(timeout=60)[1]
+        self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED, said)
+        self.assertRegex(said, r"^eigentrail: out\.h5: cannot be written on: .*; \d+ points are in out\.h5; make room, "
+                               r"then the same command with --resume goes on\n$")
+        self.assertEqual(said.count("\n"), 1)
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertGreater(len(file["omega"]), 10)
+        self.assertEqual({path.name for path in self.folder.iterdir()}, {"scene.toml", "out.h5", "whole.h5"})
+        self.assert_resumes_to_whole()
+
+    def test_finished_trace_is_left_alone(self):
+        before = self.whole().read_bytes()
+        said = self.run_well("trace", "scene.toml", "-o", "whole.h5", "--resume")
+        self.assertEqual(said, "whole.h5: the trace has come to its end already\n")
+        self.assertEqual((self.folder / "whole.h5").read_bytes(), before)
+
+    def test_resume_without_a_file_begins(self):
+        self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet", "--resume")
+        self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
+
+    def interrupted_file(self):
+        run = self.start()
+        self.wait_for("out.h5")
+        run.kill()
+        run.communicate()
+        return (self.folder / "out.h5").read_bytes()
+
+    def test_other_scene_options_or_version_are_refused_with_the_difference(self):
+        before = self.interrupted_file()
+        self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume", "--to", "50"),
+                            ["out.h5: cannot be resumed: other options: to was 5 and is 50"])
+        self.write("scene.toml", edited(LONG, "mass   = 50.0", "mass   = 51.0"))
+        self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),
+                            ["the scene has changed since: line 5 was 'mass   = 50.0' and is 'mass   = 51.0'"])
+        self.write("scene.toml", LONG)
+        self.assertEqual((self.folder / "out.h5").read_bytes(), before)
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            file.attrs["program_version"] = "0.0.1"
+        self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),
+                            ["was written by eigentrail 0.0.1, this is "])
+
+    def test_damaged_state_is_refused(self):
+        self.interrupted_file()
+        path = self.folder / "out.h5"
+        whole = path.read_bytes()
+        for what, damaged in (("is damaged", whole[:-300] + bytes(100) + whole[-200:]),
+                              ("holds no state", whole[:-1]), ("is damaged", whole[:-4] + b"\xff" * 4)):
+            path.write_bytes(damaged)
+            self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),
+                                ["out.h5: cannot be resumed: ", what, "trace anew with --force"])
+            self.assertEqual(path.read_bytes(), damaged)
+
+    def test_force_and_resume_together_are_refused(self):
+        self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume", "--force"),
+                            ["--force", "--resume"])
+
+    def test_lock_of_a_killed_run_is_in_nobodys_way(self):
+        run = self.start()
+        self.wait_for("out.h5.lock")
+        run.kill()
+        run.communicate()
+        (self.folder / "out.h5").unlink(missing_ok=True)
+        self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet")
+        self.assertFalse((self.folder / "out.h5.lock").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,85 @@
+"""`eigentrail new` writes scenes that work; `eigentrail reference` says what a scene may have."""
+
+import re
+import unittest
+
+from program import EXIT_BAD_INPUT, ProgramTest
+
+STARTERS = ["blade", "pendulum", "matrices"]
+
+
+class New(ProgramTest):
+    def test_every_starter_is_explained_traced_and_reported(self):
+        for starter in STARTERS:
+            with self.subTest(starter):
+                said = self.run_well("new", f"{starter}.toml", "--starter", starter)
+                self.assertEqual(said, f"wrote {starter}.toml; next: eigentrail explain {starter}.toml\n")
+                self.assertIn("freedom", self.run_well("explain", f"{starter}.toml"))
+                self.assertIn("certified on every step", self.run_well("trace", f"{starter}.toml", "-o", f"{starter}.h5"))
+
+    def test_commands_in_the_comments_work(self):
+        for starter in STARTERS:
+            with self.subTest(starter):
+                name = f"my_{starter}.toml"
+                self.run_well("new", name, "--starter", starter)
+                commands = re.findall(r"^#   eigentrail (\S+)((?: +\S+)*?)(?:  .*)?$", (self.folder / name).read_text(),
+                                      re.MULTILINE)
+                self.assertGreaterEqual(len(commands), 3)
+                for command, rest in commands:
+                    self.run_well(command, *rest.split())
+
+    def test_blade_is_the_one_that_is_meant_without_a_word(self):
+        self.run_well("new", "scene.toml")
+        self.assertIn("Hinged blade", (self.folder / "scene.toml").read_text())
+
+    def test_no_file_is_ever_replaced(self):
+        self.write("scene.toml", "mine")
+        self.assert_refused(self.run_program("new", "scene.toml"), ["scene.toml: exists already", "never replaced"])
+        self.assertEqual((self.folder / "scene.toml").read_text(), "mine")
+
+    def test_bad_names_are_refused(self):
+        self.assert_refused(self.run_program("new", "scene.toml", "--starter", "blades"), ["did you mean 'blade'"])
+        self.assert_refused(self.run_program("new", "absent/scene.toml"), ["the folder absent does not exist"])
+        self.assert_refused(self.run_program("new", ""), ["--output", "name of a file"])
+        self.assertEqual(self.contents(), {})
+
+
+class Reference(ProgramTest):
+    def tables(self):
+        """Keys of every table, in print."""
+        tables = {}
+        for line in self.run_well("reference").splitlines():
+            if heading := re.match(r"\[+(\w+)\]+  \S", line):
+                keys = tables.setdefault(heading[1], [])
+            else:
+                keys.append(line.split()[0])
+        return tables
+
+    def test_tables_and_keys_are_those_the_reader_knows(self):
+        """The reader, given a key that nothing resembles, lists what it knows; `name` may stand everywhere."""
+        tables = self.tables()
+        self.assertGreater(len(tables), 30)
+        scene = "[parameters]\nq = 1\n[trace]\nparameter = \"q\"\nfrom = 1\nto = 2\n"
+        for name, keys in tables.items():
+            self.assertEqual(len(keys), len(set(keys)), name)
+            self.assertTrue(keys, name)
+        said = self.run_program("explain", self.write("s.toml", scene + "[[xxxxxxxxxxxxxxxx]]\n")).stderr
+        known = set(re.search(r"one of (.*)|known are (.*)|: ([\w, ]+)$", said).group(0).replace(",", " ").split())
+        for name in tables:
+            self.assertIn(name, known)
+
+    def test_one_table_can_be_asked_for(self):
+        text = self.run_well("reference", "spring")
+        self.assertTrue(text.startswith("[[spring]]  linear spring"))
+        self.assertRegex(text, r"stiffness +N/m +force per elongation +required")
+        self.assertRegex(text, r"preload +N +tension at the free length +default: 0")
+        self.assertNotIn("damper", text)
+
+    def test_unknown_table_is_refused(self):
+        run = self.run_program("reference", "sprong")
+        self.assertEqual(run.returncode, EXIT_BAD_INPUT)
+        self.assertIn("did you mean 'spring'", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
