@@ -21,6 +21,16 @@ std::string heading(const std::string& name) {
   return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
 }
 
+constexpr const char* page_heading =
+    "# Tables of a scene\n\n"
+    "Every table that a scene may have, with its keys. Written by `eigentrail reference --markdown` from "
+    "what the "
+    "program reads; [the scene reference](scene.md) explains parameters, places and directions, and families "
+    "of "
+    "matrices. Every table but `[trace]`, `[events]`, `[frame]` and `[gravity]` may stand several times and "
+    "have "
+    "a `name`.\n";
+
 EffectHelp trace_help() {
   EffectHelp help{"trace", "what is followed, and how accurately; each key is an option of `trace`, too", {}};
   const TraceOptions defaults;
@@ -55,7 +65,7 @@ void print_text(const EffectHelp& table) {
   std::vector<std::vector<std::string>> rows;
   for (const FieldHelp& field : table.fields) {
     const std::string otherwise = field.otherwise.empty() ? "required" : "default: " + field.otherwise;
-    rows.push_back({"  " + field.key, field.unit, field.help, otherwise});
+    rows.push_back({"  " + field.key, field.unit, otherwise, field.help});
   }
   print_table(rows);
 }
@@ -86,6 +96,7 @@ int run_reference(const ReferenceArguments& arguments) {
       throw InputError("no table of a scene is called '" + name + "'; " + suggestion(name, names));
   }
   const std::set<std::string> wanted(arguments.tables.begin(), arguments.tables.end());
+  if (arguments.markdown) std::printf("%s", page_heading);
   for (const EffectHelp& table : all) {
     if (!wanted.empty() && wanted.count(table.name) == 0) continue;
     arguments.markdown ? print_markdown(table) : print_text(table);

@@ -38,8 +38,11 @@ T back(const T& value) {
 }
 
 TEST(Archive, NumbersKeepEveryBit) {
-  for (const double value : {0.0, -0.0, 1.0 / 3.0, std::numeric_limits<double>::denorm_min(), INFINITY})
-    EXPECT_EQ(std::signbit(back(value)), std::signbit(value)), EXPECT_EQ(back(value), value);
+  for (const double value : {0.0, -0.0, 1.0 / 3.0, std::numeric_limits<double>::denorm_min(),
+                             std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(std::signbit(back(value)), std::signbit(value));
+    EXPECT_EQ(back(value), value);
+  }
   EXPECT_TRUE(std::isnan(back(std::numeric_limits<double>::quiet_NaN())));
   EXPECT_EQ(back(Complex(1, -2)), Complex(1, -2));
 }

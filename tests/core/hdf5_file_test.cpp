@@ -68,6 +68,23 @@ TEST_F(Hdf5FileTest, RealNumbersSurviveARoundTripBitForBit) {
   EXPECT_EQ(file.read_real("x"), data);
 }
 
+TEST_F(Hdf5FileTest, FileInMemoryGoesOnFromItsImage) {
+  Hdf5File first = Hdf5File::in_memory("same name");
+  Hdf5File second = Hdf5File::in_memory("same name");
+  DatasetSpec spec = fixed("x", ElementType::real, {0});
+  spec.growing = true;
+  first.create_dataset(spec);
+  first.write_rows("x", 0, std::vector<double>{1.0, 2.0});
+  Hdf5File again = Hdf5File::from_image("again", first.image() + "what stands behind is passed over");
+  again.write_rows("x", 2, std::vector<double>{3.0});
+  EXPECT_EQ(again.read_real("x"), (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(first.read_real("x"), (std::vector<double>{1.0, 2.0}));
+  EXPECT_FALSE(second.has("x"));
+  std::ofstream(path, std::ios::binary) << again.image();
+  EXPECT_EQ(Hdf5File::open(path).read_real("x").size(), 3u);
+  EXPECT_THROW(Hdf5File::from_image("none", "no HDF5 file"), Hdf5Error);
+}
+
 TEST_F(Hdf5FileTest, ComplexNumbersAreACompoundOfRAndI) {
   const std::vector<Complex> data = {{1.0, -2.0}, {0.0, 1e-3}, {-4.5, 0.0}};
   {

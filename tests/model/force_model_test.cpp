@@ -58,7 +58,7 @@ struct Logarithm : Bead {
   }
 };
 
-const Parameters one_parameter({{"p", 2.0}});
+const Parameters one_parameter({{"p", 2.0, ""}});
 
 /// x = (0.3 + h, 0.5 - 2 h), p = 2 + h.
 Path straight_path() {

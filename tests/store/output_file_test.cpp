@@ -2,13 +2,17 @@
 #include "eigentrail/store/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "store/output_lock.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -57,26 +61,42 @@ TEST_F(OutputFileTest, TryingToCreateLeavesNothingBehindAndTouchesNothing) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(OutputFileTest, WritingReplacesWhenItIsComplete) {
+TEST_F(OutputFileTest, WritingReplacesWithAllParts) {
   write_text(path, "old");
-  write_complete(path, [this](const std::string& partial) {
-    write_text(partial, "new");
-    EXPECT_EQ(text(), "old");
-  });
+  write_durably(path, {"n", "", "ew"});
   EXPECT_EQ(text(), "new");
   EXPECT_EQ(files(), 1u);
 }
 
+/// A limit on the size of files stands for a full disk.
 TEST_F(OutputFileTest, FailedWritingKeepsTheOldFile) {
   write_text(path, "old");
-  const auto fail = [](const std::string& partial) {
-    write_text(partial, "half");
-    throw Hdf5Error("no space left");
+  const auto write_too_much = [this] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit few{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &few);
+    try {
+      write_durably(path, {std::string(600, 'x'), std::string(600, 'y')});
+    } catch (const std::system_error& error) {
+      std::exit(error.code().value() == EFBIG ? 7 : 8);
+    }
+    std::exit(0);
   };
-  EXPECT_THROW(write_complete(path, fail), Hdf5Error);
-  EXPECT_THROW(write_complete(path, [](const std::string&) {}), std::filesystem::filesystem_error);
+  EXPECT_EXIT(write_too_much(), testing::ExitedWithCode(7), "");
   EXPECT_EQ(text(), "old");
   EXPECT_EQ(files(), 1u);
+  EXPECT_THROW(write_durably(folder / "none" / "out.h5", {"x"}), std::system_error);
+}
+
+TEST_F(OutputFileTest, LockIsHeldByOneAndGivenBack) {
+  {
+    const OutputLock lock(path);
+    EXPECT_THROW(OutputLock second(path), InputError);
+    EXPECT_NO_THROW(OutputLock(folder / "other.h5"));
+  }
+  EXPECT_EQ(files(), 0u);
+  write_text(path + ".lock", "");  // left by a process that was killed
+  EXPECT_NO_THROW(OutputLock{path});
 }
 
 }  // namespace
