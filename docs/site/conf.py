@@ -15,7 +15,7 @@ project = "eigentrail"
 version = re.search(r"VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 release = version
 
-extensions = ["myst_parser", "contents", "katex", "listings", "notebooks"]
+extensions = ["myst_parser", "contents", "debian_furo", "katex", "listings", "notebooks"]
 source_suffix = {".md": "markdown"}
 root_doc = "index"
 exclude_patterns = ["site"]
@@ -32,5 +32,6 @@ templates_path = ["templates"]
 html_sidebars = {"**": ["sidebar/brand.html", "sidebar/search.html", "sidebar/scroll-start.html", "sidebar/navigation.html",
                         "api_link.html", "sidebar/scroll-end.html"]}
 pygments_style = "friendly"
-pygments_dark_style = "monokai"
+pygments_dark_style = "native"
 highlight_language = "none"
+html_show_copyright = False

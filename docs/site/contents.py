@@ -1,5 +1,6 @@
 """The order of the pages. Pages that are not named here are listed at the end, so that none is lost."""
 import pathlib
+import re
 
 CONTENTS = {
     "Start": ["first-trace", "commands", "scenes/README"],
@@ -40,9 +41,16 @@ def add_contents(app, page, source):
     if page == ROOT:
         source[0] += "".join(contents(known))
     elif page == GALLERY:
-        source[0] += toctree([name.removeprefix("scenes/") for name in pages_of(["scenes/*"], known) if name != GALLERY])
+        named = re.findall(r"\]\((\w+)\.md\)", source[0])
+        source[0] += toctree(dict.fromkeys(name for name in named if f"scenes/{name}" in known))
+
+
+def leave_out_headings(app, page, template, context, tree):
+    """The start page has no headings to list beside it."""
+    context["furo_hide_toc"] = context.get("furo_hide_toc", False) or page == ROOT
 
 
 def setup(app):
     app.connect("source-read", add_contents)
+    app.connect("html-page-context", leave_out_headings, priority=900)
     return {"parallel_read_safe": True}
