@@ -86,7 +86,7 @@ def commands(text):
     """The commands of a block, each with the lines that it prints according to the document."""
     found = []
     for line in text.split("\n"):
-        if is_command(line):
+        if is_command(line) or (line.strip() and not found):
             found.append((line, []))
         elif line.strip():
             found[-1][1].append(line)
