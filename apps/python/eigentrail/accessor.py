@@ -76,8 +76,8 @@ class Eigentrail:
         """The modes of these labels or names; all of them for None."""
         if wanted is None:
             return data
-        names = [dict(zip(data[key].values, range(data.sizes["mode"]))) for key in ("mode", "mode_name") if key in data.coords]
-        number = {name: i for of_kind in names for name, i in of_kind.items()}
+        labels = [key for key in ("mode", "mode_name") if key in data.coords]
+        number = {name: i for key in labels for i, name in enumerate(data[key].values)}
         several = not isinstance(wanted, str)
         unknown = [name for name in (wanted if several else [wanted]) if name not in number]
         if unknown:

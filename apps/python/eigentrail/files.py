@@ -2,6 +2,7 @@
 
 import os
 
+import numpy as np
 import xarray
 
 SCHEMA = 1
@@ -52,9 +53,9 @@ def _checked_format(path, attributes):
 
 def _with_event_kinds(data):
     """Adds `event_kind` and `event_modes`, the first and last word of the lines in `events`."""
-    lines = [line.split(",") for line in data.events.values]
-    texts = {"event_kind": ("what happens", [words[0] for words in lines]),
-             "event_modes": ("numbers of the modes", [words[-1] for words in lines])}
-    return data.assign({name: ("event", xarray.Variable("event", column).astype(object).values,
-                               {"long_name": long_name, "units": "1"})
-                        for name, (long_name, column) in texts.items()})
+    words = [line.split(",") for line in data.events.values]
+
+    def texts(place, long_name):
+        return "event", np.array([line[place] for line in words], object), {"long_name": long_name, "units": "1"}
+
+    return data.assign(event_kind=texts(0, "what happens"), event_modes=texts(-1, "numbers of the modes"))

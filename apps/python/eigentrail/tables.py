@@ -6,7 +6,7 @@ import pandas
 def events(loci):
     """One row per special point, in the order of the trace."""
     parameter = loci.attrs["parameter"]
-    table = pandas.DataFrame({
+    return pandas.DataFrame({
         "kind": loci.event_kind.values,
         parameter: loci.event_parameter.values,
         "eigenvalue": loci.event_eigenvalue.values,
@@ -16,14 +16,14 @@ def events(loci):
         "half_width": loci.event_half_width.values,
         "node": loci.event_node.values,
     }, index=pandas.Index(loci.event.values, name="event"))
-    return table
 
 
 def stable_ranges(loci):
     """One row per range without growing modes, as the trace goes."""
     table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
     for end, name in (("left", "from"), ("right", "to")):
-        table[f"cause_{name}"] = loci.stable_cause.sel(end=end).values
+        for what in ("cause", "margin", "mode"):
+            table[f"{what}_{name}"] = loci[f"stable_{what}"].sel(end=end).values
     for name in ("least_margin", "largest_margin", "largest_at"):
         table[name] = loci[f"stable_{name}"].values
     return pandas.DataFrame(table, index=pandas.Index(loci.range.values, name="range"))
