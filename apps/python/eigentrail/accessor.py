@@ -77,7 +77,7 @@ class Eigentrail:
         if wanted is None:
             return data
         labels = [key for key in ("mode", "mode_name") if key in data.coords]
-        number = {name: i for key in labels for i, name in enumerate(data[key].values)}
+        number = {name: i for key in labels for i, name in enumerate(data[key].values) if name}
         several = not isinstance(wanted, str)
         unknown = [name for name in (wanted if several else [wanted]) if name not in number]
         if unknown:

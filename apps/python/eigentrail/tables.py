@@ -30,6 +30,8 @@ def stable_ranges(loci):
 
 
 def _mode_names(loci, text):
-    """'mode 1; mode 3', or what these modes are called, from the numbers '1;3'."""
-    names = loci.mode_name if "mode_name" in loci.coords else loci.mode
-    return "; ".join(str(names.values[int(number) - 1]) for number in text.split(";") if number)
+    """'flap; lag', or the labels 'mode 1; mode 3' of modes without a name, from the numbers '1;3'."""
+    labels = loci.mode.values
+    names = loci.mode_name.values if "mode_name" in loci.coords else labels
+    numbers = [int(number) - 1 for number in text.split(";") if number]
+    return "; ".join(names[i] or labels[i] for i in numbers)
