@@ -90,7 +90,8 @@ class Contract(ProgramTest):
 
     def dumped(self, *options):
         self.assertTrue(shutil.which("ncdump"), "ncdump is missing: install netcdf-bin")
-        run = subprocess.run(["ncdump", *options, self.path], capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+        run = subprocess.run(["ncdump", *options, self.path], capture_output=True, text=True, timeout=TIME_LIMIT,
+                             check=False)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return run.stdout
 

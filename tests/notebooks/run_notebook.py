@@ -1,7 +1,7 @@
 """Runs a notebook from a clean kernel: python3 run_notebook.py NOTEBOOK [FOLDER]
 
-Fails when a cell fails or prints a warning, when the notebook was committed with outputs, or when it draws nothing and shows
-nothing. With FOLDER its pictures are written there.
+Fails when a cell fails or prints a warning, when the notebook was committed with outputs, or when it shows nothing. With
+FOLDER its pictures, and the notebook as it was run, are written there.
 """
 
 import base64

@@ -1,4 +1,4 @@
-"""The reader's dense output is that of `eigentrail eval`, to rounding, on every scene and where modes are hard to tell apart."""
+"""The reader's dense output is that of `eigentrail eval`, on every scene and where modes are hard to tell apart."""
 
 import csv
 import io
@@ -100,7 +100,8 @@ class TurningBack(AgainstEval):
         # Times abs(s)^2 / g: cos(angle), of the hanging one as a pair, of the standing one as two real eigenvalues.
         cosine = np.sqrt(1.0 - s.p.values**2)
         np.testing.assert_allclose(s.isel(passage=0, mode=0), 1j * np.sqrt(9.81 * cosine), rtol=1e-6)
-        np.testing.assert_allclose(np.sort(s.isel(passage=1).real.values), np.sqrt(9.81 * cosine)[:, None] * [-1, 1], rtol=1e-6)
+        standing = np.sort(s.isel(passage=1).real.values)
+        np.testing.assert_allclose(standing, np.sqrt(9.81 * cosine)[:, np.newaxis] * [-1, 1], rtol=1e-6)
 
     def test_the_fold_is_passed_once(self):
         at_fold = self.loci.eigentrail.sel(p=self.loci.event_parameter.values)

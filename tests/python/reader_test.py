@@ -77,8 +77,8 @@ class Loci(FileTest):
     def test_axes_of_plots_have_names_and_units(self):
         found = self.file.eigentrail.sel(omega=[12.5, 40])
         units = {name: found[name].attrs["units"] for name in found.variables if "units" in found[name].attrs}
-        self.assertEqual({name: units[name] for name in ("omega", "eigenvalue", "frequency", "damping_ratio", "certified")},
-                         {"omega": "rad/s", "eigenvalue": "1/s", "frequency": "rad/s", "damping_ratio": "1", "certified": "1"})
+        expected = {"omega": "rad/s", "eigenvalue": "1/s", "frequency": "rad/s", "damping_ratio": "1", "certified": "1"}
+        self.assertEqual({name: units[name] for name in expected}, expected)
         self.assertTrue(all(found[name].attrs["long_name"] for name in found.variables))
 
     def test_certified_is_that_of_the_steps(self):
@@ -107,7 +107,8 @@ class Loci(FileTest):
         self.assert_says(ValueError, "omega = 200 lies outside the traced range 5 ... 100 rad/s", sel, omega=[40, 200])
         self.assert_says(ValueError, "omega: expected finite numbers", sel, omega=np.nan)
         self.assert_says(ValueError, "omega = an array of shape (1, 2): expected a number or a list", sel, omega=[[5, 6]])
-        self.assert_says(ValueError, "mode 'pitch': expected one of 'mode 1', 'mode 2', 'lag', 'flap'", sel, omega=40, mode="pitch")
+        self.assert_says(ValueError, "mode 'pitch': expected one of 'mode 1', 'mode 2', 'lag', 'flap'", sel, omega=40,
+                         mode="pitch")
         self.assert_says(TypeError, "expected the traced parameter, omega=..., found speed=...", sel, speed=40)
         self.assert_says(ValueError, "only boundary files have this", self.file.eigentrail.curve, 0)
 
@@ -180,7 +181,8 @@ class OtherFiles(ProgramTest):
     def test_files_of_others_and_of_other_schemas_are_refused(self):
         self.assert_refused_with({}, "has no attribute 'format'; expected a file of eigentrail")
         self.assert_refused_with({"format": "eigentrail-x"}, "holds 'eigentrail-x'; expected a file of eigentrail")
-        self.assert_refused_with({"format": "eigentrail-loci", "schema_version": 2}, "has schema 2, this reader knows schema 1")
+        later = {"format": "eigentrail-loci", "schema_version": 2}
+        self.assert_refused_with(later, "has schema 2, this reader knows schema 1")
 
 
 class Version(unittest.TestCase):

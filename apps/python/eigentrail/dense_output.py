@@ -22,7 +22,7 @@ class DenseOutput:
         self.path = Path(length, loci.step_parameter.values)
 
     def at(self, step, t):
-        """Eigenvalues (n, mode) at places on the path: steps (n) and t in [0, 1] on them; NaN where a mode does not exist."""
+        """Eigenvalues (n, mode) at t in [0, 1] on steps (n); NaN where a mode does not exist."""
         s = self._of_single_modes(step, t)
         for one in np.unique(step):
             here = np.flatnonzero(step == one)
