@@ -90,7 +90,7 @@ def parameter(loci, step, t):
 def main():
     matplotlib.rcParams["svg.hashsalt"] = "eigentrail"  # the same input gives the same file
     with h5py.File(sys.argv[1]) as file:
-        loci = {name: file[name][()] for name in file}
+        loci = {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
     places = [(step, t) for step in range(len(loci["step_length"])) for t in np.linspace(0, 1, 41)]
     x = np.array([parameter(loci, *place) for place in places])
     s = np.array([eigenvalues(loci, *place) for place in places])

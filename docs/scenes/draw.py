@@ -38,7 +38,7 @@ class Loci:
 
     def __init__(self, path, per_step=None):
         with h5py.File(path) as file:
-            self.data = {name: file[name][()] for name in file}
+            self.data = {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
             self.attributes = dict(file.attrs)
             self.name = self.attributes["parameter"]
             self.unit = file[self.name].attrs["units"]

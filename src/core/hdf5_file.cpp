@@ -48,6 +48,9 @@ Handle text_type() {
   return type;
 }
 
+/// Before the names of all complex datasets in the order of the alphabet, in which netCDF reads.
+constexpr const char* complex_type_name = "complex128";
+
 Handle complex_type() {
   Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Complex)), H5Tclose, "make a complex type");
   check(H5Tinsert(type, "r", 0, H5T_NATIVE_DOUBLE), "make a complex type");
@@ -66,6 +69,20 @@ Handle memory_type(ElementType type) {
     default:
       return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
   }
+}
+
+/// The type of a dataset. That of complex numbers has a name in the file: netCDF passes over compounds
+/// without one.
+Handle stored_type(hid_t file, ElementType type) {
+  if (type != ElementType::complex) return memory_type(type);
+  const std::string action = "name the type of complex numbers";
+  if (H5Lexists(file, complex_type_name, H5P_DEFAULT) > 0)
+    return {H5Topen2(file, complex_type_name, H5P_DEFAULT), H5Tclose, action};
+  Handle named = complex_type();
+  const Handle properties(H5Pcreate(H5P_DATATYPE_CREATE), H5Pclose, action);
+  check(H5Pset_obj_track_times(properties, false), action);
+  check(H5Tcommit2(file, complex_type_name, named, H5P_DEFAULT, properties, H5P_DEFAULT), action);
+  return named;
 }
 
 void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
@@ -280,7 +297,7 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
   const std::string action = "create dataset " + spec.name + " of " + implementation_->path;
   std::vector<hsize_t> dims(spec.shape.begin(), spec.shape.end());
   std::vector<hsize_t> limits = dims;
-  const Handle type = memory_type(spec.type);
+  const Handle type = stored_type(implementation_->file, spec.type);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
   // Without the time of day the same results are the same bytes.
   check(H5Pset_obj_track_times(properties, false), action);

@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 
 from command_test_case import CommandTest
-from program import BLADE, EXIT_NUMBERS_FAILED, PUSHED_PENDULUM, SCENES, edited
+from program import BLADE, EXIT_NUMBERS_FAILED, PUSHED_PENDULUM, SCENES, datasets, edited
 
 ACCURATE = 1e-8
 ROUNDING = 1e-12
@@ -102,7 +102,7 @@ class BoundaryTest(CommandTest):
         self.run_well("boundary", "scene.toml", "--second", second, "--from", low, "--to", high, "-o", output, "-q",
                       *options)
         with h5py.File(self.folder / output) as file:
-            return {name: dataset[()] for name, dataset in file.items()}
+            return {name: dataset[()] for name, dataset in datasets(file).items()}
 
     def square(self, scene, *options, **keywords):
         return self.boundary(scene, "Q", -1, 1, *options, **keywords)
@@ -209,7 +209,7 @@ class File(BoundaryTest):
                     self.assertTrue(file[name].attrs["long_name"])
             scales = {"point", "step", "curve", "corner", "coordinate", "parameter", "function", "end", "order", "bound",
                       "member"}
-            self.assertEqual(set(file) - set(LAYOUT), scales)
+            self.assertEqual(set(datasets(file)) - set(LAYOUT), scales)
 
     def test_root_attributes(self):
         with h5py.File(self.path) as file:

@@ -7,7 +7,7 @@ import math
 import h5py
 import numpy as np
 
-from program import ProgramTest
+from program import ProgramTest, datasets
 
 DEFAULT_TOLERANCE = 1e-6
 
@@ -41,7 +41,7 @@ class CommandTest(ProgramTest):
 
     def assert_layout(self, file, layout):
         """`layout` has dimensions and units of every dataset by name."""
-        self.assertEqual(set(file), set(layout))
+        self.assertEqual(set(datasets(file)), set(layout))
         for name, (dimensions, units) in layout.items():
             with self.subTest(name):
                 dataset = file[name]

@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import BIRTH, CROSSING, SCENES, ProgramTest
+from program import BIRTH, CROSSING, SCENES, ProgramTest, datasets
 
 
 def between(h, left, right, t):
@@ -94,7 +94,7 @@ class DenseOutput(ProgramTest):
         self.write("scene.toml", scene)
         self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
         with h5py.File(self.folder / "loci.h5") as file:
-            data = {name: dataset[()] for name, dataset in file.items()}
+            data = {name: dataset[()] for name, dataset in datasets(file).items()}
         sizes = {int(n) for row in data["dense_block"] for n in np.unique(row[row >= 0], return_counts=True)[1]}
         self.assertEqual(sizes, set(block_sizes))
         self.assertEqual(set(data["dense_chart"].ravel().tolist()) - {-1}, set(charts))

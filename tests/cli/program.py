@@ -139,6 +139,11 @@ def each_case(cases):
     return add
 
 
+def datasets(file):
+    """The datasets of an open HDF5 file by name; beside them is the type of its complex numbers."""
+    return {name: file[name] for name in file if name != "complex128"}
+
+
 class ProgramTest(unittest.TestCase):
     """Each test runs in an empty folder, so that names in messages are short and leftovers show."""
 

@@ -1,0 +1,85 @@
+"""What `.eigentrail` adds to the Dataset of a file."""
+
+from functools import cached_property
+
+import numpy as np
+import xarray
+
+from . import boundary, tables
+from .selection import Selection
+
+
+@xarray.register_dataset_accessor("eigentrail")
+class Eigentrail:
+    """Of a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; of a boundary file: `curve`."""
+
+    def __init__(self, data):
+        self._data = data
+
+    @property
+    def parameter(self):
+        """Name of the traced parameter."""
+        return self._of("loci").attrs["parameter"]
+
+    def sel(self, mode=None, **at):
+        """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
+
+        A Dataset of eigenvalue, frequency, damping_ratio and certified along parameter and mode. The values may be
+        a number (no dimension then), a list, an array, or a DataArray with a dimension of its own, which is kept.
+        Where the path turns back there is a dimension `passage`, too: the first, second, ... time that the path takes
+        the value, NaN where it does so less often. `mode` takes labels ("mode 1") or names ("blade lag"), one or a list.
+        """
+        return self._modes(self._selection.at(self._wanted(at)), mode)
+
+    def nearest(self, mode=None, **at):
+        """What is stored at the path point nearest to a value of the parameter: mode shapes, equilibrium, ...
+
+        nearest(omega=12.5, mode="blade lag").mode_shape
+        """
+        loci, value = self._of("loci"), float(self._wanted(at))
+        at_points = loci[[name for name, variable in loci.data_vars.items() if "node" in variable.dims]]
+        distance = np.abs(loci[self.parameter].values - value)
+        return self._modes(at_points.isel(node=int(distance.argmin())), mode)
+
+    @property
+    def events(self):
+        """Special points of a trace, a pandas DataFrame."""
+        return tables.events(self._of("loci"))
+
+    @property
+    def stable_ranges(self):
+        """Ranges of a trace on which no mode grows, a pandas DataFrame."""
+        return tables.stable_ranges(self._of("loci"))
+
+    def curve(self, number, points=200):
+        """One curve of a boundary file, counted from 0, smooth between its points: a Dataset along `point`."""
+        return boundary.curve(self._of("boundary"), number, points)
+
+    @cached_property
+    def _selection(self):
+        return Selection(self._of("loci"))
+
+    def _of(self, kind):
+        found = self._data.attrs.get("format")
+        if found != f"eigentrail-{kind}":
+            raise ValueError(f"only {kind} files have this; the Dataset is of the format {found!r}")
+        return self._data
+
+    def _wanted(self, at):
+        """The value of the one keyword that names the parameter."""
+        if list(at) != [self.parameter]:
+            found = ", ".join(f"{name}=..." for name in at) or "nothing"
+            raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
+        return at[self.parameter]
+
+    def _modes(self, data, wanted):
+        """The modes of these labels or names; all of them for None."""
+        if wanted is None:
+            return data
+        labels = [key for key in ("mode", "mode_name") if key in data.coords]
+        number = {name: i for key in labels for i, name in enumerate(data[key].values) if name}
+        several = not isinstance(wanted, str)
+        unknown = [name for name in (wanted if several else [wanted]) if name not in number]
+        if unknown:
+            raise ValueError(f"mode {unknown[0]!r}: expected one of {', '.join(map(repr, number))}")
+        return data.isel(mode=[number[name] for name in wanted] if several else number[wanted])

@@ -1,0 +1,23 @@
+"""Smooth curves of a boundary file, from its dense output."""
+
+import numpy as np
+import xarray
+
+from .interpolation import TwoPointTaylor
+
+
+def curve(boundary, number, points):
+    """Both parameters and the eigenvalue at `points` places along one curve, at equal shares of every step."""
+    steps = np.flatnonzero(boundary.step_curve.values == number)
+    if not len(steps):
+        raise ValueError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")
+    place = np.linspace(0.0, len(steps), points)
+    which = np.minimum(place.astype(int), len(steps) - 1)
+    series = boundary.dense_output.values[steps[which]]
+    length = boundary.step_length.values[steps[which]]
+    values = TwoPointTaylor(length[:, np.newaxis], series)((place - which)[:, np.newaxis])
+    first, second, mean, delta = values.T
+    s = mean + np.sqrt(delta.astype(complex))
+    parameters = {name: ("point", column, boundary[name].attrs)
+                  for name, column in zip(boundary.parameter.values, (first, second))}
+    return xarray.Dataset({"eigenvalue": ("point", s, boundary.eigenvalue.attrs)}, coords=parameters)

@@ -1,0 +1,74 @@
+"""The dense output of a loci file, as docs/loci-file.md describes it."""
+
+import numpy as np
+
+from .blocks import followed, least_gap, named, roots_of
+from .interpolation import TwoPointTaylor
+from .path import Path
+
+
+class DenseOutput:
+    """Eigenvalues of all modes anywhere on the path of a trace."""
+
+    def __init__(self, loci):
+        """`loci` is the Dataset of a loci file."""
+        self._eigenvalue = loci.eigenvalue.values
+        self._certified = loci.certified.values
+        self._mode_block = loci.mode_block.values
+        self._function_block = loci.dense_block.values
+        self._chart = loci.dense_chart.values
+        length = loci.step_length.values
+        self._functions = TwoPointTaylor(length[:, np.newaxis], loci.dense_output.values)
+        self.path = Path(length, loci.step_parameter.values)
+
+    def at(self, step, t):
+        """Eigenvalues (n, mode) at t in [0, 1] on steps (n); NaN where a mode does not exist."""
+        s = self._of_single_modes(step, t)
+        for one in np.unique(step):
+            here = np.flatnonzero(step == one)
+            for block, count in zip(*np.unique(self._function_block[one], return_counts=True)):
+                if block >= 0 and count > 1:
+                    modes = np.flatnonzero(self._mode_block[one] == block)
+                    s[np.ix_(here, modes)] = self._of_block(one, block, modes, t[here])
+        s = np.where(s.imag < 0.0, s.conj(), s)
+        for end in (0, 1):
+            s[t == end] = self._eigenvalue[step[t == end] + end]
+        return s
+
+    def certified_at(self, step, t):
+        """Whether modes are certified to be the same at both ends of the step (n, mode): 1, 0, or -1 where they do not
+        exist. At a point it is told of the step before it, and of the step behind it where a mode begins there."""
+        here = self._certified[step]
+        behind = self._certified[np.minimum(step + 1, len(self._certified) - 1)]
+        return np.where((t == 1.0)[:, np.newaxis] & (here == -1), behind, here)
+
+    def _of_single_modes(self, step, t):
+        """Of modes that are followed by themselves; NaN for all others."""
+        function = self._mode_block[step]
+        first = np.maximum(function, 0)
+        values = self._functions[step[:, np.newaxis], first](t[:, np.newaxis])
+        s = _from_chart(values, self._chart[step[:, np.newaxis], first])
+        s[function < 0] = complex(np.nan, np.nan)
+        return s
+
+    def _of_block(self, step, block, modes, t):
+        """Of some modes, which are followed together, at places t (n) on one step: (n, modes)."""
+        functions = self._functions[step, self._function_block[step] == block]
+        chart = self._chart[step, block]
+
+        def roots_at(places):
+            return roots_of(functions(places[:, np.newaxis]))
+
+        at_ends = roots_at(np.array([0.0, 1.0]))
+        end = 0 if least_gap(at_ends[0]) >= least_gap(at_ends[1]) else 1
+        known = _from_chart(self._eigenvalue[step + end, modes], chart)
+        roots = followed(roots_at, end, named(known, at_ends[end]), t)
+        return _from_chart(roots[:, :len(modes)], chart)
+
+
+def _from_chart(values, chart):
+    """s from s where `chart` is 0, from 1/s where it is 1 (and the other way round); infinity is (inf, 0)."""
+    values = np.asarray(values, complex)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inverse = np.where(np.isinf(values), 0.0, np.where(values == 0.0, complex(np.inf, 0.0), 1.0 / values))
+    return np.where(np.asarray(chart) == 1, inverse, values)

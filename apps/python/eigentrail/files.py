@@ -1,0 +1,61 @@
+"""Opens loci, boundary, map and accuracy files as xarray Datasets."""
+
+import os
+
+import numpy as np
+import xarray
+
+SCHEMA = 1
+
+# Variables that say what a row of the file is: they go along as coordinates, and label plots and tables.
+COORDINATES = {
+    "eigentrail-loci": ["mode_name", "event_kind", "event_modes", "stable_kind", "coordinate_unit",
+                        "scene_parameter_unit"],
+    "eigentrail-boundary": ["point_curve", "step_curve", "curve_kind", "curve_mode", "corner_kind"],
+    "eigentrail-map": ["axis_line", "axis_kind"],
+    "eigentrail-accuracy": ["method", "run_tolerance", "order", "sample_parameter"],
+}
+
+
+def open(path):
+    """A file that eigentrail wrote, read into memory, as an xarray Dataset with labels as coordinates.
+
+    What its accessor `.eigentrail` adds depends on the kind of file; see `Eigentrail`.
+    """
+    with _opened(path) as file:
+        kind = _checked_format(path, file.attrs)
+        data = file.load()
+    if kind == "eigentrail-loci":
+        data = _with_event_kinds(data)
+    return data.set_coords([name for name in COORDINATES[kind] if name in data])
+
+
+def _opened(path):
+    path = os.fspath(path)
+    try:
+        return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
+    except BlockingIOError as error:
+        raise BlockingIOError(f"{path}: is still being written; wait until its trace has ended") from error
+
+
+def _checked_format(path, attributes):
+    expected = "expected a file of eigentrail trace, boundary, map or accuracy"
+    kind = attributes.get("format")
+    if kind is None:
+        raise ValueError(f"{path}: has no attribute 'format'; {expected}")
+    if kind not in COORDINATES:
+        raise ValueError(f"{path}: holds {kind!r}; {expected}")
+    if attributes.get("schema_version") != SCHEMA:
+        raise ValueError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
+                         "take the reader that came with the program that wrote it")
+    return kind
+
+
+def _with_event_kinds(data):
+    """Adds `event_kind` and `event_modes`, the first and last word of the lines in `events`."""
+    words = [line.split(",") for line in data.events.values]
+
+    def texts(place, long_name):
+        return "event", np.array([line[place] for line in words], object), {"long_name": long_name, "units": "1"}
+
+    return data.assign(event_kind=texts(0, "what happens"), event_modes=texts(-1, "numbers of the modes"))

@@ -1,0 +1,37 @@
+"""Events and stable ranges of a loci file as pandas tables."""
+
+import pandas
+
+
+def events(loci):
+    """One row per special point, in the order of the trace."""
+    parameter = loci.attrs["parameter"]
+    return pandas.DataFrame({
+        "kind": loci.event_kind.values,
+        parameter: loci.event_parameter.values,
+        "eigenvalue": loci.event_eigenvalue.values,
+        "modes": [_mode_names(loci, text) for text in loci.event_modes.values],
+        "direction": loci.event_direction.values,
+        "value": loci.event_value.values,
+        "half_width": loci.event_half_width.values,
+        "node": loci.event_node.values,
+    }, index=pandas.Index(loci.event.values, name="event"))
+
+
+def stable_ranges(loci):
+    """One row per range without growing modes, as the trace goes."""
+    table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
+    for end, name in (("left", "from"), ("right", "to")):
+        for what in ("cause", "margin", "mode"):
+            table[f"{what}_{name}"] = loci[f"stable_{what}"].sel(end=end).values
+    for name in ("least_margin", "largest_margin", "largest_at"):
+        table[name] = loci[f"stable_{name}"].values
+    return pandas.DataFrame(table, index=pandas.Index(loci.range.values, name="range"))
+
+
+def _mode_names(loci, text):
+    """'flap; lag', or the labels 'mode 1; mode 3' of modes without a name, from the numbers '1;3'."""
+    labels = loci.mode.values
+    names = loci.mode_name.values if "mode_name" in loci.coords else labels
+    numbers = [int(number) - 1 for number in text.split(";") if number]
+    return "; ".join(names[i] or labels[i] for i in numbers)

@@ -1,0 +1,112 @@
+"""The reader's dense output is that of `eigentrail eval`, on every scene and where modes are hard to tell apart."""
+
+import csv
+import io
+import unittest
+
+import eigentrail
+import numpy as np
+
+from families import (THROUGH_INFINITY_ONCE, THROUGH_INFINITY_TWICE, coalescing, oscillators, random_family)
+from program import BIRTH, CROSSING, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
+
+ROUNDING = 1e-12
+
+# Sizes of blocks, and the charts, that the case must have: else it would test less than its name says.
+HARD = [("modes are born", BIRTH, {1, 2}, {0}),
+        ("two cross", CROSSING, {1, 2}, {0}),
+        ("three coalesce", coalescing(3), {1, 3}, {0}),
+        ("four damped ones coalesce", coalescing(4, damping=0.1), {1, 4}, {0}),
+        ("six coalesce", coalescing(6), {1, 6}, {0}),
+        ("three cross at once", oscillators([1, 1, 1], [0.5, -0.5, 0]), {1, 2, 3}, {0}),
+        ("three veer by 1e-5", oscillators([1, 1, 1], [0.5, -0.5, 0], 1e-5), {1, 2, 3}, {0}),
+        ("two veer by 1e-8", oscillators([1, 1], [0.5, -0.5], 1e-8), {1, 2}, {0}),
+        ("two coincide all along", oscillators([1, 1, 2], [0.5, 0.5, 0.1]), {1, 2}, {0}),
+        ("a mode passes through infinity", THROUGH_INFINITY_ONCE, {1, 2}, {0, 1}),
+        ("two modes pass through infinity", THROUGH_INFINITY_TWICE, {1, 2}, {0, 1}),
+        ("the path turns back", PUSHED_PENDULUM, {1, 2}, {0}),
+        ("the path turns back closely followed", edited(PUSHED_PENDULUM, "1e-2", "1e-10"), {1, 2}, {0}),
+        ("random matrices of four", random_family(4, 3), {1, 2}, {0}),
+        ("random matrices of six", random_family(6, 1), {1, 2}, {0})]
+
+
+class AgainstEval(ProgramTest):
+    def compare(self, scene, places=200):
+        self.write("scene.toml", scene)
+        self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
+        loci = eigentrail.open(self.folder / "loci.h5")
+        parameter = loci.eigentrail.parameter
+        values = self.values(loci, places)
+        found = loci.eigentrail.sel(**{parameter: values}).eigenvalue
+        actual = self.rows(found, parameter)
+        expected = self.printed(values)
+        self.assertEqual([row[:2] for row in actual], [row[:2] for row in expected])
+        for (value, mode, s), (_, _, printed) in zip(actual, expected):
+            if s != printed:  # infinities are equal
+                self.assertLess(abs(s - printed), ROUNDING * max(abs(printed), loci.attrs["reference"]), (value, mode))
+        return loci
+
+    @staticmethod
+    def values(loci, places):
+        """Random ones and those of the stored points, but for the places where the path turns back: where `eval` lists
+        what lies within rounding of there, too."""
+        path = loci[loci.eigentrail.parameter].values
+        turns = np.sign(np.diff(path))
+        inner = np.concatenate([[True], turns[1:] == turns[:-1], [True]])
+        return np.concatenate([np.random.default_rng(1).uniform(path.min(), path.max(), places), path[inner]])
+
+    @staticmethod
+    def rows(found, parameter):
+        """(value, mode, s) in the order in which `eval` prints them."""
+        if "passage" in found.dims:
+            found = found.transpose(parameter, "passage", "mode")
+        flat = found.values.reshape(found.sizes[parameter], -1)
+        modes = np.tile(found.mode.values, flat.shape[1] // found.sizes["mode"])
+        return [(value, mode, s) for value, row in zip(found[parameter].values, flat)
+                for mode, s in zip(modes, row) if not np.isnan(s.real)]
+
+    def printed(self, values):
+        text = self.run_well("eval", "loci.h5", "--csv", "--at", *map(repr, map(float, values)))
+        return [(float(row["parameter"]), row["mode"], complex(float(row["real"]), float(row["imag"])))
+                for row in csv.DictReader(io.StringIO(text))]
+
+
+@each_case([(path.stem, path) for path in sorted(SCENES.glob("*.toml"))])
+class Scenes(AgainstEval):
+    def check(self, path):
+        self.compare(path.read_text(encoding="utf-8"))
+
+
+@each_case(HARD)
+class HardOnes(AgainstEval):
+    def check(self, scene, sizes, charts):
+        loci = self.compare(scene)
+        functions = {int(count) for row in loci.dense_block.values
+                     for count in np.unique(row[row >= 0], return_counts=True)[1]}
+        self.assertEqual({count if count < 3 else round(count**0.5) for count in functions}, sizes)
+        self.assertEqual(set(loci.dense_chart.values.ravel().tolist()) - {-1}, charts)
+
+
+class TurningBack(AgainstEval):
+    """sin(angle) = p: hanging on the way to p = 1, standing on the way back."""
+
+    def setUp(self):
+        super().setUp()
+        self.loci = self.compare(edited(PUSHED_PENDULUM, "1e-2", "1e-8"), places=10)
+
+    def test_both_passages_are_there_in_the_order_of_the_path(self):
+        s = self.loci.eigentrail.sel(p=[0.3, 0.6, 0.9]).eigenvalue.transpose("passage", "p", "mode")
+        self.assertEqual(s.shape, (2, 3, 2))
+        # Times abs(s)^2 / g: cos(angle), of the hanging one as a pair, of the standing one as two real eigenvalues.
+        cosine = np.sqrt(1.0 - s.p.values**2)
+        np.testing.assert_allclose(s.isel(passage=0, mode=0), 1j * np.sqrt(9.81 * cosine), rtol=1e-6)
+        standing = np.sort(s.isel(passage=1).real.values)
+        np.testing.assert_allclose(standing, np.sqrt(9.81 * cosine)[:, np.newaxis] * [-1, 1], rtol=1e-6)
+
+    def test_the_fold_is_passed_once(self):
+        at_fold = self.loci.eigentrail.sel(p=self.loci.event_parameter.values)
+        self.assertEqual(at_fold.sizes["passage"], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
