@@ -99,11 +99,12 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
   write_attribute(object, name, text_type(), &text);
 }
 
-/// Rows per chunk for about 64 KiB, at least one.
+/// Rows per chunk for about 16 KiB, at least one: files have some thirty growing datasets, and most are
+/// small.
 hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
   std::uint64_t row = element_size;
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
-  return std::clamp<std::uint64_t>(65536 / std::max<std::uint64_t>(row, 1), 1, 4096);
+  return std::clamp<std::uint64_t>(16384 / std::max<std::uint64_t>(row, 1), 1, 1024);
 }
 
 /// Opens an attribute that holds one value; an array would be read past the end of that value.

@@ -9,30 +9,11 @@ import unittest
 import h5py
 import numpy as np
 
+from loci_comparison import differences
 from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, ProgramTest, edited
 
 # Long enough to be met in the middle: a thousand points and more.
 LONG = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02")
-
-NOT_COMPARED = {"seconds"}  # the wall time of a run
-
-
-def differences(a, b):
-    """Names of what is not the same, bit for bit, in two loci files."""
-    found = []
-    with h5py.File(a) as first, h5py.File(b) as second:
-        found += [name for name in set(first.attrs) ^ set(second.attrs)]
-        found += [name for name in first.attrs if name in second.attrs and name not in NOT_COMPARED
-                  and first.attrs[name] != second.attrs[name]]
-        names = set(first) | set(second)
-        for name in names:
-            if name not in first or name not in second:
-                found.append(name)
-            elif first[name].shape != second[name].shape or \
-                    np.asarray(first[name][()]).tobytes() != np.asarray(second[name][()]).tobytes() and \
-                    not (first[name].dtype.kind == "O" and (first[name][()] == second[name][()]).all()):
-                found.append(name)
-    return found
 
 
 class Interrupted(ProgramTest):

@@ -1,0 +1,190 @@
+"""Kills traces at random times, resumes them, and compares the files bit for bit with uninterrupted ones.
+
+    kills.py [--kills 1000] [--seed 1]        kills by SIGKILL
+    kills.py --full-disk 100                  a file system that fills up, in place of kills (needs to mount, or a
+                                              limit on the size of files stands for it)
+
+EIGENTRAIL names the program. Every file that is left must open and hold a prefix of the whole trace.
+"""
+
+import argparse
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
+from loci_comparison import differences  # noqa: E402
+from program import BLADE, PUSHED_PENDULUM, edited  # noqa: E402
+
+PROGRAM = os.environ["EIGENTRAIL"]
+SCENES = pathlib.Path(os.environ["EIGENTRAIL_DATA"]) / "scenes"
+
+
+def scenes():
+    """Traces of several sizes: from a few points to thousands, from one mode to many, with branches and folds."""
+    yield "long", edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02"), []
+    yield "short", BLADE, []
+    yield "fold", PUSHED_PENDULUM, ["--tolerance", "1e-8", "--max-step", "0.001"]
+    for name in ("rotating_mass", "ground_resonance", "princeton_blade", "watt_governor"):
+        options = {"ground_resonance": ["--max-step", "0.5"], "rotating_mass": ["--max-step", "0.05"],
+                   "watt_governor": ["--max-step", "0.05"]}.get(name, [])
+        yield name, (SCENES / f"{name}.toml").read_text(encoding="utf-8"), options
+
+
+class Trace:
+    """One scene, its whole trace, and how long that takes."""
+
+    def __init__(self, folder, name, text, options):
+        self.folder = folder / name
+        self.folder.mkdir()
+        (self.folder / "scene.toml").write_text(text, encoding="utf-8")
+        self.options = options
+        begin = time.monotonic()
+        self.run("whole.h5", "--save-every", "0.02")
+        self.seconds = time.monotonic() - begin
+        self.size = (self.folder / "whole.h5").stat().st_size
+
+    def command(self, output, *options):
+        return [PROGRAM, "trace", "scene.toml", "-o", output, "--quiet", *self.options, *options]
+
+    def run(self, output, *options):
+        run = subprocess.run(self.command(output, *options), cwd=self.folder, capture_output=True, text=True, check=False)
+        assert (run.returncode, run.stderr) == (0, ""), (run.args, run.stderr)
+
+    def start(self, output, *options, **settings):
+        return subprocess.Popen(self.command(output, *options), cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **settings)
+
+    def check_readable(self, output):
+        """The file holds the first points of the whole one; how many, or none when there is no file yet."""
+        path = self.folder / output
+        if not path.exists():
+            return None
+        with h5py.File(path) as file, h5py.File(self.folder / "whole.h5") as whole:
+            points = len(file["node"])
+            columns = file["eigenvalue"].shape[1]
+            found = file["eigenvalue"][()]
+            assert found.tobytes() == whole["eigenvalue"][:points, :columns].tobytes(), "no prefix of the whole trace"
+            assert len(file["step_length"]) == points - 1
+        return points
+
+    def finish(self, output):
+        self.run(output, "--resume")
+        found = differences(self.folder / output, self.folder / "whole.h5")
+        assert not found, found
+        (self.folder / output).unlink()
+
+
+class Counts:
+    def __init__(self):
+        self.killed = self.too_late = self.before_first_save = self.resumed = 0
+
+
+def kill_once(trace, chance, counts):
+    run = trace.start("out.h5", "--save-every", chance.choice(["0", "0.005", "0.02", "0.1"]))
+    time.sleep(chance.random() * 1.1 * trace.seconds)
+    run.kill()
+    run.communicate()
+    counts.killed += run.returncode == -signal.SIGKILL
+    counts.too_late += run.returncode == 0
+    points = trace.check_readable("out.h5")
+    counts.before_first_save += points is None
+    # Sometimes the trace that goes on is killed, too.
+    while chance.random() < 0.3:
+        run = trace.start("out.h5", "--resume", "--save-every", "0.01")
+        time.sleep(chance.random() * trace.seconds)
+        run.kill()
+        run.communicate()
+        trace.check_readable("out.h5")
+    trace.finish("out.h5")
+    counts.resumed += 1
+
+
+class SmallDisk:
+    """A file system of a given size where one can be mounted; else a limit on the size of files."""
+
+    def __init__(self, trace, size):
+        self.trace, self.limit = trace, size
+        self.place = trace.folder / "disk"
+        self.place.mkdir(exist_ok=True)
+        self.is_mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", self.place],
+                                         capture_output=True, check=False).returncode == 0
+        self.output = "disk/out.h5"
+
+    def limit_files(self):
+        if not self.is_mounted:
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (self.limit, self.limit))
+
+    def make_room(self):
+        if self.is_mounted:
+            subprocess.run(["mount", "-o", "remount,size=1G", self.place], check=True)
+
+    def close(self):
+        if self.is_mounted:
+            subprocess.run(["umount", self.place], check=True)
+
+
+def fill_once(trace, chance, counts):
+    """Room for a part of the file and its copy."""
+    disk = SmallDisk(trace, int(trace.size * chance.uniform(0.3, 1.7)) // 4096 * 4096 + 65536)
+    try:
+        run = trace.start(disk.output, "--save-every", "0", preexec_fn=disk.limit_files)
+        said = run.communicate(timeout=600)[1]
+        if run.returncode == 0:
+            counts.too_late += 1
+        else:
+            assert run.returncode == 1, (run.returncode, said)
+            assert re.fullmatch(r"eigentrail: \S+: cannot be written on: .*(No space left on device|File too large); "
+                                r"(\d+ points are in \S+; make room, then the same command with --resume goes on"
+                                r"|nothing was saved)\n", said), said
+            counts.killed += 1
+            counts.before_first_save += trace.check_readable(disk.output) is None
+        assert {path.name for path in disk.place.iterdir()} <= {"out.h5"}, list(disk.place.iterdir())
+        disk.make_room()
+        trace.finish(disk.output)
+        counts.resumed += 1
+    finally:
+        disk.close()
+    return disk.is_mounted
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--full-disk", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    chance = random.Random(arguments.seed)
+    counts = Counts()
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="eigentrail-kills-"))
+    try:
+        traces = [Trace(folder, *scene) for scene in scenes()]
+        for trace in traces:
+            print(f"{trace.folder.name}: {trace.seconds:.2f} s, {trace.size} bytes", flush=True)
+        how = "killed"
+        for i in range(arguments.full_disk or arguments.kills):
+            trace = traces[i % len(traces)]
+            if arguments.full_disk:
+                mounted = fill_once(trace, chance, counts)
+                how = "on a file system that filled up" if mounted else "at a limit on the size of files"
+            else:
+                kill_once(trace, chance, counts)
+    finally:
+        shutil.rmtree(folder)
+    print(f"{counts.killed} {how}, {counts.too_late} had ended before, {counts.before_first_save} before the first save; "
+          f"all files readable, {counts.resumed} resumed and equal bit for bit")
+
+
+if __name__ == "__main__":
+    main()
