@@ -194,7 +194,8 @@ bool fits(const Track& track, const PointSizes& sizes) {
          track.pair.Z.cols() == k && track.pair.W.rows() == 2 * n && track.pair.W.cols() == k &&
          all_are(track.series.Z, sizes.coordinates, k) && all_are(track.series.Lambda, k, k) &&
          track.functions.rows() == functions && track.functions.cols() >= 2 && track.roots.size() == k &&
-         fits(track.modes, k, sizes.columns) && fits(track.arriving, k, sizes.columns) &&
+         fits(track.modes, k, sizes.columns) &&
+         (track.arriving.empty() || fits(track.arriving, k, sizes.columns)) &&
          (!track.departure || track.departure->roots.size() == k);
 }
 

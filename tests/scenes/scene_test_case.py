@@ -67,7 +67,7 @@ class SceneTest(CommandTest):
         text = self.scene_text()
         self.write("effects.toml", text)
         explained = self.run_well("explain", "effects.toml")
-        named, absent = explained[:explained.index("sizes")].split("absent, never evaluated: ")
+        named, absent = explained[:explained.index("structure of")].split("absent, never evaluated: ")
         active = re.findall(r"^ +(\w+) +\d+  ", named[named.index("effects"):], re.MULTILINE)
         self.assertEqual(sorted(active), sorted(effects))
         self.assertFalse(set(absent.strip().split(", ")) & set(effects))
