@@ -217,8 +217,9 @@ bool fits(const PathNode& node, const PointSizes& sizes) {
 }
 
 /// The same up to rounding, whatever the scene reads them from.
-bool same_matrices(const Model& model, const PathNode& node) {
-  const Path here{node.path.parameters.col(0), node.path.x.col(0), node.path.lambda.col(0)};
+bool same_matrices(const PathProblem& problem, const PathNode& node) {
+  const Model& model = problem.model;
+  const Path here{parameters_at(problem, node.p), node.path.x.col(0), node.path.lambda.col(0)};
   EvaluationCounts counts = model.new_counts();
   Linearization now;
   if (model.linearize(here, 0, now, counts)) return false;
@@ -258,7 +259,7 @@ std::string Tracer::misfit() const {
       }
     }
   }
-  if (!same_matrices(model, node_))
+  if (!same_matrices(problem_, node_))
     return "other matrices at " + at_parameter(node_.p) + "; has a file of matrices changed since?";
   return "";
 }
