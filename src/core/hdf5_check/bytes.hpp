@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/hdf5_check/checksum.hpp"
 #include "core/hdf5_file.hpp"
 
 namespace eigentrail::hdf5_check {
@@ -90,6 +91,12 @@ class Cursor {
 inline Cursor piece(std::string_view file, std::uint64_t at, std::uint64_t size) {
   if (at > file.size() || size > file.size() - at) damaged(at, "lies outside of the file");
   return {file.substr(at, size), at};
+}
+
+/// Throws where the four bytes behind a piece are not its checksum.
+inline void expect_checksum(std::string_view file, std::uint64_t at, std::uint64_t size) {
+  (void)piece(file, at, size);
+  if (piece(file, at + size, 4).u32() != checksum(file.substr(at, size))) damaged(at, "wrong checksum");
 }
 
 }  // namespace eigentrail::hdf5_check

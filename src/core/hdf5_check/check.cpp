@@ -52,11 +52,13 @@ class FileCheck {
 
   void begin_2(Cursor data) {
     check_widths(data);
-    data.skip(1);
+    if (data.u8() != 0) refused(11, "the file is still being written, or was never closed");
     check_base(data.u64());
     if (data.u64() != undefined) refused(data.offset(), "the file has an extension that is not read");
     check_end(data.u64());
-    object(data.u64(), 0);
+    const std::uint64_t root = data.u64();
+    expect_checksum(parts_.file, 0, data.offset());
+    object(root, 0);
   }
 
   static void check_widths(Cursor& data) {

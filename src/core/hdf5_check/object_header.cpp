@@ -46,7 +46,9 @@ class HeaderReader {
     order_ = (flags & 0x04U) != 0;
     if ((flags & 0x20U) != 0) begin.skip(16);
     if ((flags & 0x10U) != 0) begin.skip(4);
-    return begin.part(begin.number(std::uint64_t{1} << (flags & 3U)));
+    const Cursor block = begin.part(begin.number(std::uint64_t{1} << (flags & 3U)));
+    expect_checksum(file_, address, begin.offset() - address);
+    return block;
   }
 
   void follow(Cursor where) {
@@ -57,7 +59,8 @@ class HeaderReader {
     if (version_ == 2) {
       block.expect("OCHK");
       if (block.left() < 4) damaged(address, "what begins here ends too early");
-      block = block.part(block.left() - 4);  // a checksum follows
+      expect_checksum(file_, address, size - 4);
+      block = block.part(block.left() - 4);
     }
     read_block(block);
   }
