@@ -27,15 +27,15 @@ struct Closeness {
 };
 constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}};
 
-/// Roots of blocks that may be computed for a page: for every mode in a block and step, and besides. Where
-/// modes only come close some hundred do; where a damaged file makes them change places all along, millions.
-constexpr std::size_t roots_per_step = 10'000;
-constexpr std::size_t roots_besides = 100'000;
+/// Roots of blocks that may be computed for every mode of a block on a step, besides those of the budget. Where
+/// modes only come close some hundred do, where they meet a quarter of a million; where a damaged file makes
+/// them change places all along no number is enough.
+constexpr std::size_t roots_per_step = 3'000;
 
 /// What is left of them.
 class RootBudget {
  public:
-  explicit RootBudget(const LociFile& loci) : path_(loci.path), most_(roots_besides) {
+  RootBudget(const LociFile& loci, std::size_t besides) : path_(loci.path), most_(besides) {
     for (const PathStep& step : loci.steps) {
       for (const DenseBlock& block : step.blocks)
         most_ += block.size() > 1 ? roots_per_step * block.modes.size() : 0;
@@ -231,7 +231,7 @@ Json curves_data(const LociFile& loci, const ReportBudget& budget) {
   const std::vector<double> places = distances(loci);
   ModeCurves curves;
   Closeness used = closeness.back();
-  RootBudget roots(loci);
+  RootBudget roots(loci, budget.roots);
   for (const Closeness& close : closeness) {
     const bool last = close.degree == closeness.back().degree && close.share == closeness.back().share;
     curves = approximate_modes(loci, places, close, last ? SIZE_MAX : budget.curves, roots);

@@ -1,6 +1,7 @@
 #include "core/hdf5_check/types.hpp"
 
 #include <array>
+#include <utility>
 
 namespace eigentrail::hdf5_check {
 namespace {
@@ -54,8 +55,19 @@ void read_real(Cursor& data, const Head& head) {
   refused(head.at, "a real number that is not of IEEE's 16, 32 or 64 bits; write it as 64-bit number");
 }
 
+/// Where a member begins and ends.
+using Range = std::pair<std::uint64_t, std::uint64_t>;
+
+void check_member(const std::vector<Range>& others, const Range& member, const Head& head) {
+  bool fits = member.second <= head.size;
+  for (const Range& other : others)
+    fits = fits && (member.first >= other.second || other.first >= member.second);
+  if (!fits) damaged(head.at, "members of a compound lie outside of it, or in each other");
+}
+
 Datatype read_compound(Cursor& data, const Head& head, int depth) {
   Datatype type{head.size, {}};
+  std::vector<Range> ranges;
   const std::uint64_t members = head.bits & 0xffffU;
   if (members == 0 || members > most_members) refused(head.at, "a compound of too many members");
   for (std::uint64_t i = 0; i < members; ++i) {
@@ -68,8 +80,9 @@ Datatype read_compound(Cursor& data, const Head& head, int depth) {
       data.skip(27);
     }
     const Datatype member = read_datatype(data, depth + 1);
-    if (offset > head.size || member.size > head.size - offset)
-      damaged(head.at, "a member lies outside of its compound");
+    if (offset > head.size) damaged(head.at, "a member lies outside of its compound");
+    ranges.emplace_back(offset, offset + member.size);
+    check_member({ranges.begin(), ranges.end() - 1}, ranges.back(), head);
     for (const HeapPart& part : member.heap_parts)
       type.heap_parts.push_back({offset + part.offset, part.unit});
   }
