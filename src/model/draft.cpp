@@ -201,9 +201,10 @@ ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, 
 
 std::vector<double> Draft::check_values(const Expression& expression) const {
   std::vector<double> values;
-  for (const Vector& si : check_at)
-    values.push_back(
-        expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size()))));
+  for (const Vector& si : check_at) {
+    const std::span<const double> span(si.data(), static_cast<std::size_t>(si.size()));
+    values.push_back(expression.evaluate(span));
+  }
   return values;
 }
 

@@ -146,9 +146,12 @@ std::string beside_scene(const FamilyReader& reader, const std::string& name) {
   const fs::path folder = fs::canonical(beside.empty() ? "." : beside, error);
   const fs::path file = error ? fs::path() : fs::canonical(folder / path, error);
   // A file that is missing is reported where it is opened.
-  if (!error && std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end())
+  const bool within =
+      std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  if (!error && !within) {
     reader.fail("file", "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
                             "; expected a file in the folder or below it");
+  }
   return (beside / path).string();
 }
 

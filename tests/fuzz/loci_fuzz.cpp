@@ -38,7 +38,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     // Roots take twenty times as long with sanitizers.
     ReportBudget budget;
-    budget.roots = 50'000;
+    budget.roots = 20'000;
     (void)page_json(file_data(path, budget));
   } catch (const InputError&) {
   }

@@ -76,9 +76,9 @@ class FileCheck {
   }
   /// What is behind the end belongs to nobody.
   void check_end(std::uint64_t end) {
+    const std::string found = std::to_string(parts_.file.size());
     if (end > parts_.file.size())
-      throw Hdf5Error("is cut off: " + std::to_string(parts_.file.size()) + " bytes of " +
-                      std::to_string(end));
+      throw Hdf5Error("is cut off: " + found + " bytes of " + std::to_string(end));
     parts_.file = parts_.file.substr(0, end);
     parts_.heaps = GlobalHeaps(parts_.file);
   }
@@ -136,10 +136,7 @@ class FileCheck {
     if ((flags & 1U) != 0) data.skip(index_size);
     const bool dense = data.u64() != undefined;
     data.skip((flags & 2U) != 0 ? 16 : 8);
-    if (dense)
-      refused(
-          at,
-          "a group or a set of attributes in the newest format of HDF5; write it with libver = \"earliest\"");
+    if (dense) refused(at, "many members in HDF5's newest format; write them with libver = \"earliest\"");
   }
 
   static void check_group_info(Cursor data) {

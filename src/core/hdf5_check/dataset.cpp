@@ -36,9 +36,10 @@ class DatasetCheck {
     if (const Message* fill = single(messages_, old_fill_value)) check_fill_size(fill->data);
     check_layout(require(layout));
     if (text_bytes_ > parts_.file.size()) damaged(at_, "its texts are longer than the file");
-    if (bytes_ / unwritten_multiple > stored_ + unwritten_bytes / unwritten_multiple)
+    if (bytes_ / unwritten_multiple > stored_ + unwritten_bytes / unwritten_multiple) {
       damaged(at_, "a dataset of " + std::to_string(bytes_) + " bytes, of which the file holds " +
                        std::to_string(stored_));
+    }
   }
 
  private:

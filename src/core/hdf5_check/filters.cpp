@@ -8,8 +8,7 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr unsigned deflate_filter = 1;
-constexpr unsigned shuffle_filter = 2;
+constexpr unsigned deflate_filter = 1;  // 2 is shuffle, which changes no size
 constexpr unsigned fletcher32_filter = 3;
 constexpr std::uint64_t checksum_size = 4;
 

@@ -59,7 +59,7 @@ std::uint64_t GlobalHeaps::check_reference(Cursor reference, std::uint64_t unit)
   const std::uint64_t length = reference.u32();
   const std::uint64_t address = reference.u64();
   const std::uint64_t number = reference.u32();
-  if (length == 0 || address == 0) return 0;
+  if (address == 0) return 0;  // never written; a text without characters has a place all the same
   const Sizes& objects = collection(address);
   const auto object = objects.find(number);
   if (object == objects.end() || object->second != length * unit)

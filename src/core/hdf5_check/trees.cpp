@@ -62,7 +62,7 @@ class TreeWalk {
 /// Members in one leaf of a group.
 void symbol_node(std::string_view file, const TreeSizes& sizes, std::uint64_t address, const LocalHeap& heap,
                  std::set<std::uint64_t>& blocks, const std::function<void(const SymbolEntry&)>& visit) {
-  Cursor data = piece(file, address, 8 + 2 * sizes.symbols * symbol_size);
+  Cursor data = piece(file, address, 8 + 2 * symbol_size * sizes.symbols);
   use(blocks, address);
   data.expect("SNOD");
   data.expect_version(1);
