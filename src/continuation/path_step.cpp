@@ -258,6 +258,7 @@ ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_
       // Followed from the end where the eigenvalues lie further apart: at a special point they do not tell.
       const ComplexVector left = block_roots(block.left.col(0));
       const ComplexVector right = block_roots(block.right.col(0));
+      work += 2 * static_cast<std::size_t>(block.size());
       const bool from_left = least_gap(left) >= least_gap(right);
       const ComplexVector start =
           ordered_by_modes(from_left ? left : right, block, from_left ? at_left : at_right);

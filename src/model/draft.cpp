@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
 
@@ -24,6 +25,12 @@ TableReader Draft::reader(const Table& table, const std::string& label) {
 }
 
 Quantity Draft::quantity(const Expression& expression) {
+  operations += expression.size();
+  if (operations > limits::scene_operations) {
+    throw ExpressionError("the expressions made of this scene take too much memory; " +
+                              std::string("give parts of those in its orientations a name in [parameters]"),
+                          0);
+  }
   data.quantities.push_back(expression);
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }

@@ -37,6 +37,7 @@ struct Draft {
   std::set<int> used;
   std::string begun;           ///< the table that is being read, for messages about what is made of it
   SourceLocation begun_where;  ///< its place
+  std::size_t operations = 0;  ///< in all quantities
   MultibodyData data;
   std::vector<std::string> points;  ///< by triple, before those of bodies
   std::vector<BodyDraft> bodies;

@@ -27,10 +27,10 @@ struct Closeness {
 };
 constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}};
 
-/// Roots of blocks that may be computed for every mode of a block on a step, besides those of the budget. Where
-/// modes only come close some hundred do, where they meet a quarter of a million; where a damaged file makes
-/// them change places all along no number is enough.
-constexpr std::size_t roots_per_step = 3'000;
+/// Every mode of a block on a step adds this share to the budget of roots. Where modes only come close some
+/// hundred roots are computed, where they meet a quarter of a million; where a damaged file makes them change
+/// places all along no number is enough.
+constexpr std::size_t share_of_step = 1000;
 
 /// What is left of them.
 class RootBudget {
@@ -38,7 +38,7 @@ class RootBudget {
   RootBudget(const LociFile& loci, std::size_t besides) : path_(loci.path), most_(besides) {
     for (const PathStep& step : loci.steps) {
       for (const DenseBlock& block : step.blocks)
-        most_ += block.size() > 1 ? roots_per_step * block.modes.size() : 0;
+        most_ += block.size() > 1 ? besides / share_of_step * block.modes.size() : 0;
     }
   }
   std::size_t& used() { return used_; }

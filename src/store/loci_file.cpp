@@ -161,8 +161,9 @@ void read_steps(const Hdf5File& file, LociFile& loci) {
                                                          static_cast<Eigen::Index>(orders));
     std::vector<std::vector<int>> modes = modes_of_blocks(arrays, loci, step);
     for (std::size_t i = 0; i < functions; ++i) {
-      if (arrays.block[step * functions + i] == static_cast<std::int64_t>(i))
-        path_step.blocks.push_back(read_block(arrays, loci, step, i, std::move(modes[i])));
+      const bool begins = arrays.block[step * functions + i] == static_cast<std::int64_t>(i);
+      require(begins || modes[i].empty(), loci, "mode_block");
+      if (begins) path_step.blocks.push_back(read_block(arrays, loci, step, i, std::move(modes[i])));
     }
     loci.steps.push_back(std::move(path_step));
   }

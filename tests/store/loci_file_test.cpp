@@ -318,7 +318,7 @@ TEST_F(LociFileTest, ContentsThatContradictEachOtherAreRefused) {
       {"f['length'][1] = float('nan')", "length holds nan as its number 2 where a finite number is needed"},
       {"f['step_length'][0] = float('inf')", "step_length holds inf"},
       {"f['mode_block'][0] = 7", "mode_block does not fit"},
-      {"f['dense_block'][0] = -1", "dense_block does not fit"},
+      {"f['dense_block'][0] = -1", "mode_block does not fit"},
       {"f['event_direction'].resize((1,)); f['event_direction'][0] = 5", "events does not fit"},
       {"f['stable_mode'][0] = 9", "stable_mode names mode 9 of 1"},
       {"del f['coordinate']; f['coordinate'] = 3.0", "cannot be read as a loci file"}};
