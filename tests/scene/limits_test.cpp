@@ -49,14 +49,15 @@ TEST(SceneLimits, EachIsReportedWhereItIsExceeded) {
 }
 
 TEST(SceneLimits, TurnsThatRepeatLongExpressionsAreReportedAtTheirTable) {
-  const std::string angle = "\"p" + repeated(" + p", 1000) + "\"";
+  const std::string angle = "\"1 + p" + repeated(" + p", 1000) + "\"";
   const std::string scene =
       std::string(trace) +
       "[[body]]\nname = \"b\"\nmass = 1\nposition = [0, 0, 0]\neuler = { sequence = \"zyx\", "
       "angles = [" +
-      angle + ", " + angle + ", " + angle + "] }\n";
+      angle + ", " + angle + ", " + angle + "] }\n[[revolute]]\nfrom = [0, 0, 0]\nto = \"b\"\naxis = [" +
+      angle + ", " + angle + ", " + angle + "]\n";
   const std::string found = fault(scene);
-  EXPECT_TRUE(contains(found, "test.toml:7:1: [[body]] 1: ")) << found;
+  EXPECT_TRUE(contains(found, "test.toml:12:1: [[revolute]] 1: ")) << found;
   EXPECT_TRUE(contains(found, "give parts of it a name in [parameters]")) << found;
 }
 
