@@ -31,9 +31,9 @@ inline constexpr std::size_t list_length = 1000;
 inline constexpr std::size_t expression_length = text_length;
 inline constexpr int expression_nesting = 100;
 
-/// Operations of an expression that was put together from others, and of all that are made of a scene, 100 MB:
-/// turning a direction several times repeats the angles' expressions in every component. A joint between two
-/// bodies that are both turned by parameters takes some ten thousand.
+/// Operations of an expression that was put together from others, and of all that are made of a scene, 100
+/// MB: turning a direction several times repeats the angles' expressions in every component. A joint between
+/// two bodies that are both turned by parameters takes some ten thousand.
 inline constexpr std::size_t expression_operations = 100'000;
 inline constexpr std::size_t scene_operations = 4'000'000;
 

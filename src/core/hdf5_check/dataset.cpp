@@ -10,7 +10,7 @@ namespace {
 /// A dataset reads as fill values where nothing was written. So much may be missing: a few numbers of an
 /// empty dataset, or a multiple of what is there where modes joined late. Beyond it a size is taken for
 /// damage, or a few bytes would make a reader ask for all memory.
-constexpr std::uint64_t unwritten_bytes = std::uint64_t{1} << 20U;
+constexpr std::uint64_t unwritten_bytes = std::uint64_t{1} << 16U;
 constexpr std::uint64_t unwritten_multiple = 16;
 
 /// HDF5 holds one chunk as a whole.
