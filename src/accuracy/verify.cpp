@@ -13,6 +13,18 @@
 namespace eigentrail {
 namespace {
 
+/// Matrices in a file of their own are read again. Where they lie only the loci file says, and it may come
+/// from anywhere: it is believed where the scene lies beside them.
+void check_place_of_matrices(const Scene& scene, const std::string& path) {
+  const Value* family = scene.root.find("matrix_family");
+  const auto* table = family != nullptr ? std::get_if<Table>(&family->data) : nullptr;
+  if (table == nullptr || table->find("file") == nullptr) return;
+  if (read_scene(scene.path).text != scene.text) {
+    throw InputError(path + ": was made from another scene than " + scene.path +
+                     " is now; its matrices cannot be checked");
+  }
+}
+
 /// The scene and the options that the file was made from.
 TraceSetup rebuild(const LociFile& loci) {
   OptionTexts options;
@@ -20,7 +32,18 @@ TraceSetup rebuild(const LociFile& loci) {
     const std::string key = name.starts_with("option_") ? name.substr(7) : "";
     if (!key.empty() && text != "auto") options.emplace_back(key, text);
   }
-  return prepare_trace(parse_scene(loci.attribute("scene"), loci.attribute("scene_path")), options);
+  Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
+  check_place_of_matrices(scene, loci.path);
+  TraceSetup setup = prepare_trace(std::move(scene), options);
+  const bool same = setup.model->n_coordinates() == loci.equilibrium.cols() &&
+                    setup.model->n_constraints() == loci.multiplier.cols();
+  if (!same) {
+    throw InputError(loci.path + ": its scene has " + std::to_string(setup.model->n_coordinates()) +
+                     " coordinates and " + std::to_string(setup.model->n_constraints()) +
+                     " constraints, its points " + std::to_string(loci.equilibrium.cols()) + " and " +
+                     std::to_string(loci.multiplier.cols()));
+  }
+  return setup;
 }
 
 /// Where the path turns back, an equilibrium looked for at p alone may be that of another passage. Between

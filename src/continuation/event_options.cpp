@@ -58,7 +58,8 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
   if (table.has("excitation")) {
     if (options.harmonics.empty()) table.fail("excitation", "is of no use without `harmonics`");
     options.excitation = table.expression("excitation");
-  } else if (!options.harmonics.empty() && !traced.empty()) {
+  } else if (!options.harmonics.empty() && scene.parameters.index(traced)) {
+    // A parameter that does not exist is reported with the other options.
     options.excitation = traced_frequency(scene, traced, table);
   }
   if (table.has("extrema")) options.extrema = table.flag("extrema");

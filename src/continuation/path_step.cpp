@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "continuation/counted_roots.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -186,6 +187,37 @@ std::optional<double> root_between(const Miss& miss, double from, double to) {
   return t;
 }
 
+/// follow_roots; `work` counts roots.
+ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
+                       double to, bool& told_apart, std::size_t& work) {
+  told_apart = true;
+  if (functions.size() == 1) return functions(to);
+  Differences differences(roots);
+  ComplexVector current = roots;
+  double t = from;
+  double piece = to - from;
+  for (int pieces = 0; t != to; ++pieces) {
+    const double shortest = pieces < patience ? smallest_piece : piece_without_patience;
+    if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
+    // Seen from its two ends alone a piece in which roots change places looks like one in which nothing
+    // happens; its middle tells.
+    const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
+    const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
+    work += 2 * static_cast<std::size_t>(roots.size());
+    const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
+    if (!differences.are_resolved(sets) && std::abs(piece) > shortest) {
+      piece *= 0.5;
+      continue;
+    }
+    differences.accept(sets);
+    t = piece == to - t ? to : t + piece;
+    current = ahead;
+    piece *= 2.0;
+  }
+  told_apart = differences.were_told_apart(current);
+  return current;
+}
+
 }  // namespace
 
 Complex chart_value(Complex s, Chart chart) {
@@ -201,35 +233,21 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
 
 ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
                            double to, bool* told_apart) {
-  if (told_apart != nullptr) *told_apart = true;
-  if (functions.size() == 1) return functions(to);
-  Differences differences(roots);
-  ComplexVector current = roots;
-  double t = from;
-  double piece = to - from;
-  for (int pieces = 0; t != to; ++pieces) {
-    const double shortest = pieces < patience ? smallest_piece : piece_without_patience;
-    if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
-    // Seen from its two ends alone a piece in which roots change places looks like one in which nothing
-    // happens; its middle tells.
-    const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
-    const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
-    const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
-    if (!differences.are_resolved(sets) && std::abs(piece) > shortest) {
-      piece *= 0.5;
-      continue;
-    }
-    differences.accept(sets);
-    t = piece == to - t ? to : t + piece;
-    current = ahead;
-    piece *= 2.0;
-  }
-  if (told_apart != nullptr) *told_apart = differences.were_told_apart(current);
-  return current;
+  bool told = true;
+  std::size_t work = 0;
+  ComplexVector result = followed(functions, roots, from, to, told, work);
+  if (told_apart != nullptr) *told_apart = told;
+  return result;
 }
 
 ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_left,
                                const ComplexVector& at_right, double t) {
+  std::size_t work = 0;
+  return counted_eigenvalues(step, at_left, at_right, t, work);
+}
+
+ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_left,
+                                  const ComplexVector& at_right, double t, std::size_t& work) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   ComplexVector s = ComplexVector::Constant(at_left.size(), Complex(nan, nan));
   for (const DenseBlock& block : step.blocks) {
@@ -240,10 +258,13 @@ ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_lef
       // Followed from the end where the eigenvalues lie further apart: at a special point they do not tell.
       const ComplexVector left = block_roots(block.left.col(0));
       const ComplexVector right = block_roots(block.right.col(0));
+      work += 2 * static_cast<std::size_t>(block.size());
       const bool from_left = least_gap(left) >= least_gap(right);
       const ComplexVector start =
           ordered_by_modes(from_left ? left : right, block, from_left ? at_left : at_right);
-      roots = follow_roots(block, step.length, start, from_left ? 0.0 : 1.0, t);
+      bool told_apart = true;
+      roots =
+          followed({step.length, block.left, block.right}, start, from_left ? 0.0 : 1.0, t, told_apart, work);
     }
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       s[block.modes[i]] = upper_member(chart_value(roots[static_cast<Eigen::Index>(i)], block.chart));

@@ -6,6 +6,9 @@
 namespace eigentrail {
 namespace {
 
+constexpr std::size_t longest_misprint = 200;  ///< longer names are not compared letter by letter
+constexpr std::size_t most_listed = 100;       ///< names in a message
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -29,6 +32,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::size_t best = limit + 1;
   std::string nearest;
   for (const std::string& candidate : candidates) {
+    // Lengths alone tell these apart; comparing texts of thousands of characters would take seconds.
+    if (std::max(candidate.size(), name.size()) - std::min(candidate.size(), name.size()) > limit) continue;
+    if (name.size() > longest_misprint) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best) {
       best = distance;
@@ -44,8 +50,10 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   }
   if (candidates.empty()) return "none is known here";
   std::string list = "known: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) list += (i == 0 ? "" : ", ") + candidates[i];
-  return list;
+  const std::size_t shown = std::min(candidates.size(), most_listed);
+  for (std::size_t i = 0; i < shown; ++i) list += (i == 0 ? "" : ", ") + candidates[i];
+  return shown < candidates.size() ? list + " and " + std::to_string(candidates.size() - shown) + " more"
+                                   : list;
 }
 
 }  // namespace eigentrail

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/hdf5_check/check.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -246,6 +248,11 @@ Hdf5File Hdf5File::create(const std::string& path) {
 
 Hdf5File Hdf5File::open(const std::string& path) {
   silence_error_stack();
+  try {
+    check_hdf5_file(path);
+  } catch (const Hdf5Error& error) {
+    throw Hdf5Error(path + ": " + error.what());
+  }
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
   return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }

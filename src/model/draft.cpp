@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
 
@@ -11,7 +12,25 @@ std::string numbered(std::string_view name, std::size_t index) {
   return std::string(name) + " " + std::to_string(index + 1);
 }
 
+Draft::Draft(const Scene& of, const ModelRequest& asked)
+    : scene(of), request(asked), check_at(asked.check_at), used(asked.used_elsewhere) {
+  for (Vector& values : check_at)
+    scene.parameters.to_si(std::span<double>(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+TableReader Draft::reader(const Table& table, const std::string& label) {
+  begun = label;
+  begun_where = table.where;
+  return {scene, table, label, used};
+}
+
 Quantity Draft::quantity(const Expression& expression) {
+  operations += expression.size();
+  if (operations > limits::scene_operations) {
+    throw ExpressionError("the expressions made of this scene take too much memory; " +
+                              std::string("give parts of those in its orientations a name in [parameters]"),
+                          0);
+  }
   data.quantities.push_back(expression);
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }
@@ -189,11 +208,9 @@ ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, 
 
 std::vector<double> Draft::check_values(const Expression& expression) const {
   std::vector<double> values;
-  for (const Vector& declared : request.check_at) {
-    Vector si = declared;
-    const std::span<double> span(si.data(), static_cast<std::size_t>(si.size()));
-    scene.parameters.to_si(span);
-    values.push_back(expression.evaluate(std::span<const double>(span)));
+  for (const Vector& si : check_at) {
+    const std::span<const double> span(si.data(), static_cast<std::size_t>(si.size()));
+    values.push_back(expression.evaluate(span));
   }
   return values;
 }
@@ -219,7 +236,8 @@ void Draft::check_range(const TableReader& reader, const std::string& key, const
 }
 
 Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {
-  return {check_values(v[0])[i], check_values(v[1])[i], check_values(v[2])[i]};
+  const std::span<const double> si(check_at[i].data(), static_cast<std::size_t>(check_at[i].size()));
+  return {v[0].evaluate(si), v[1].evaluate(si), v[2].evaluate(si)};
 }
 
 std::string Draft::where_on_trace(std::size_t i) {

@@ -29,11 +29,15 @@ struct Carrier {
 };
 
 struct Draft {
-  Draft(const Scene& of, const ModelRequest& asked) : scene(of), request(asked), used(asked.used_elsewhere) {}
+  Draft(const Scene& of, const ModelRequest& asked);
 
   const Scene& scene;
   const ModelRequest& request;
+  std::vector<Vector> check_at;  ///< SI values of the parameters at the points that the request lists
   std::set<int> used;
+  std::string begun;           ///< the table that is being read, for messages about what is made of it
+  SourceLocation begun_where;  ///< its place
+  std::size_t operations = 0;  ///< in all quantities
   MultibodyData data;
   std::vector<std::string> points;  ///< by triple, before those of bodies
   std::vector<BodyDraft> bodies;
@@ -41,11 +45,12 @@ struct Draft {
   std::vector<std::string> mass_names;
   std::vector<Expression> guess;  ///< one per coordinate
   std::vector<std::string> constraint_names;
+  std::set<std::string> constraint_labels;
   std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by the joint's label
   std::map<std::string, Quantity> strengths;                    ///< by effect, where they are asked for
   std::vector<std::string> strength_names;                      ///< in the order of their parameters
 
-  TableReader reader(const Table& table, const std::string& label) { return {scene, table, label, used}; }
+  TableReader reader(const Table& table, const std::string& label);
 
   Quantity quantity(const Expression& expression);
   /// What multiplies the forces of an effect.

@@ -321,8 +321,7 @@ void read_constraints(Draft& draft) {
       Rows rows = kind.read(draft, table, angles);
       const std::string label = table.has("name") ? printable(table.text("name")) : numbered(name, i);
       table.finish();
-      const bool taken = std::any_of(draft.data.constraints.begin(), draft.data.constraints.end(),
-                                     [&](const Constraint& c) { return c.label == label; });
+      const bool taken = !draft.constraint_labels.insert(label).second;
       if (taken) table.fail("name", "another constraint is called '" + label + "' already");
       if (!angles.empty()) draft.joint_angles[label] = std::move(angles);
       draft.add_constraint(kind.name, label, std::move(rows));

@@ -4,17 +4,19 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "model/matrix_family.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr Eigen::Index max_size = 5000;
-constexpr int max_power = 16;
+constexpr Eigen::Index max_size = limits::matrix_rows;
+constexpr int max_power = limits::matrix_power;
 
 struct FamilyReader {
   const Scene& scene;
   TableReader table;
+  std::size_t n_numbers = 0;
 
   [[noreturn]] void fail(const std::string& key, const std::string& message) const {
     table.fail(key, message);
@@ -56,8 +58,17 @@ struct FamilyReader {
     }
   }
 
+  /// Counts the numbers of all matrices, zeros among them.
+  void count(std::size_t numbers) {
+    n_numbers += numbers;
+    if (n_numbers > limits::matrix_numbers) {
+      fail("file", "more than " + std::to_string(limits::matrix_numbers) +
+                       " numbers in all matrices together, those of absent powers among them");
+    }
+  }
+
   /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file; powers that are not there are zero.
-  MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) const {
+  MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) {
     MatrixPolynomial polynomial;
     if (!file.has("/" + key)) return polynomial;
     for (const std::string& name : file.members("/" + key)) {
@@ -66,8 +77,9 @@ struct FamilyReader {
       polynomial.coefficients[power] = matrix(file, "/" + key + "/" + name);
     }
     for (Matrix& c : polynomial.coefficients) {
-      if (c.size() == 0)
-        c = Matrix::Zero(polynomial.coefficients.back().rows(), polynomial.coefficients.back().cols());
+      if (c.size() != 0) continue;
+      count(static_cast<std::size_t>(polynomial.coefficients.back().size()));
+      c = Matrix::Zero(polynomial.coefficients.back().rows(), polynomial.coefficients.back().cols());
     }
     return polynomial;
   }
@@ -83,12 +95,13 @@ struct FamilyReader {
     return static_cast<std::size_t>(power);
   }
 
-  Matrix matrix(const Hdf5File& file, const std::string& name) const {
+  Matrix matrix(const Hdf5File& file, const std::string& name) {
     const Shape shape = file.shape(name);
     if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
       fail("file",
            "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
     }
+    count(shape[0] * shape[1]);
     const std::vector<double> data = file.read_real(name);
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(shape[0]),
@@ -119,14 +132,27 @@ struct FamilyReader {
   }
 };
 
-/// The file named in a scene, beside the scene; it may not lead out of the scene's folder.
+/// The file named in a scene, beside the scene; it may not lead out of the scene's folder, not by links
+/// either.
 std::string beside_scene(const FamilyReader& reader, const std::string& name) {
-  const std::filesystem::path path(name);
+  namespace fs = std::filesystem;
+  const fs::path path(name);
   const bool leaves = std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
   if (path.is_absolute() || leaves || name.empty()) {
     reader.fail("file", "expected a file in the scene's folder or below it, found \"" + name + "\"");
   }
-  return (std::filesystem::path(reader.scene.path).parent_path() / path).string();
+  const fs::path beside = fs::path(reader.scene.path).parent_path();
+  std::error_code error;
+  const fs::path folder = fs::canonical(beside.empty() ? "." : beside, error);
+  const fs::path file = error ? fs::path() : fs::canonical(folder / path, error);
+  // A file that is missing is reported where it is opened.
+  const bool within =
+      std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  if (!error && !within) {
+    reader.fail("file", "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
+                            "; expected a file in the folder or below it");
+  }
+  return (beside / path).string();
 }
 
 /// The parameter whose powers multiply the coefficients: the one that the scene itself traces.
@@ -197,7 +223,7 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
     throw scene_error(scene, found[1]->where, "[matrix_family]: a scene has one of these");
   }
   std::set<int> used = used_elsewhere;
-  FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}};
+  FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}, 0};
   Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
   reader.table.finish();
 

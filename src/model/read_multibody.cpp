@@ -284,8 +284,19 @@ ModelDescription describe(const Draft& draft) {
 
 }  // namespace
 
+static std::unique_ptr<Model> read_into(Draft& draft);
+
 std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request) {
   Draft draft(scene, request);
+  try {
+    return read_into(draft);
+  } catch (const ExpressionError& error) {
+    throw scene_error(scene, draft.begun_where, draft.begun + ": " + error.what());
+  }
+}
+
+static std::unique_ptr<Model> read_into(Draft& draft) {
+  const Scene& scene = draft.scene;
   read_points(draft);
   read_bodies(draft);
   if (draft.masses.empty()) {

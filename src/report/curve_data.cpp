@@ -5,7 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "continuation/counted_roots.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/core/errors.hpp"
 #include "report/file_data.hpp"
 #include "report/piecewise.hpp"
 
@@ -25,6 +27,35 @@ struct Closeness {
 };
 constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}};
 
+/// Every mode of a block on a step adds this share to the budget of roots. Where modes only come close some
+/// hundred roots are computed, where they meet a quarter of a million; where a damaged file makes them change
+/// places all along no number is enough.
+constexpr std::size_t share_of_step = 1000;
+
+/// What is left of them.
+class RootBudget {
+ public:
+  RootBudget(const LociFile& loci, std::size_t besides) : path_(loci.path), most_(besides) {
+    for (const PathStep& step : loci.steps) {
+      for (const DenseBlock& block : step.blocks)
+        most_ += block.size() > 1 ? besides / share_of_step * block.modes.size() : 0;
+    }
+  }
+  std::size_t& used() { return used_; }
+  void check() const {
+    if (used_ > most_) {
+      throw InputError(path_ +
+                       ": the eigenvalues of a block change places too often to be drawn; is the file "
+                       "damaged? Trace the scene again");
+    }
+  }
+
+ private:
+  std::string path_;
+  std::size_t most_;
+  std::size_t used_ = 0;
+};
+
 /// Distance along the path at every point of the trace.
 std::vector<double> distances(const LociFile& loci) {
   std::vector<double> list{0.0};
@@ -42,7 +73,8 @@ const DenseBlock* block_of(const PathStep& step, int mode) {
 /// One mode on the steps from `first` on, as long as it exists.
 class ModeStretch {
  public:
-  ModeStretch(const LociFile& loci, int mode, std::size_t first) : loci_(loci), mode_(mode), first_(first) {
+  ModeStretch(const LociFile& loci, int mode, std::size_t first, RootBudget& budget)
+      : loci_(loci), mode_(mode), first_(first), budget_(budget) {
     for (std::size_t i = first; i < loci.steps.size(); ++i) {
       const PathStep& step = loci.steps[i];
       const DenseBlock* block = block_of(step, mode);
@@ -68,14 +100,16 @@ class ModeStretch {
       return s.imag() < 0.0 ? std::conj(s) : s;
     }
     const PathStep step{loci_.steps[first_ + i].length, loci_.steps[first_ + i].parameter, {*blocks_[i]}};
-    return step_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
-                            loci_.eigenvalues.row(node + 1).transpose(), t)[mode_];
+    budget_.check();
+    return counted_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
+                               loci_.eigenvalues.row(node + 1).transpose(), t, budget_.used())[mode_];
   }
 
  private:
   const LociFile& loci_;
   int mode_;
   std::size_t first_;
+  RootBudget& budget_;
   std::vector<const DenseBlock*> blocks_;
   std::vector<std::optional<HermiteInterpolant>> alone_;
 };
@@ -157,13 +191,13 @@ struct ModeCurves {
 };
 
 ModeCurves approximate_modes(const LociFile& loci, const std::vector<double>& places, const Closeness& close,
-                             std::size_t budget) {
+                             std::size_t budget, RootBudget& roots) {
   const double largest = largest_shown(loci);
   ModeCurves result;
   for (std::size_t mode = 0; mode < loci.modes.size() && result.bytes <= budget; ++mode) {
     std::vector<PiecewiseCurve>& curves = result.modes.emplace_back();
     for (std::size_t step = 0; step < loci.steps.size(); ++step) {
-      const ModeStretch stretch(loci, static_cast<int>(mode), step);
+      const ModeStretch stretch(loci, static_cast<int>(mode), step, roots);
       if (stretch.n_steps() == 0) continue;
       const auto begin = places.begin() + static_cast<std::ptrdiff_t>(step);
       const std::vector<double> nodes(begin, begin + static_cast<std::ptrdiff_t>(stretch.n_steps()) + 1);
@@ -197,9 +231,10 @@ Json curves_data(const LociFile& loci, const ReportBudget& budget) {
   const std::vector<double> places = distances(loci);
   ModeCurves curves;
   Closeness used = closeness.back();
+  RootBudget roots(loci, budget.roots);
   for (const Closeness& close : closeness) {
     const bool last = close.degree == closeness.back().degree && close.share == closeness.back().share;
-    curves = approximate_modes(loci, places, close, last ? SIZE_MAX : budget.curves);
+    curves = approximate_modes(loci, places, close, last ? SIZE_MAX : budget.curves, roots);
     used = close;
     if (curves.bytes <= budget.curves) break;
   }

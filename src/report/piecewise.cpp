@@ -9,6 +9,10 @@ namespace {
 
 constexpr double shortest_piece = 1e-13;  ///< of the whole; shorter ones are taken as they are
 constexpr double shortest_at_gap = 1e-6;  ///< of the whole; beside a part that is left out
+/// Pieces of a curve, for every step and besides; near a place where modes meet some forty become ever
+/// shorter. What is so rough that more are needed is taken as it is: it is noise.
+constexpr std::size_t pieces_per_step = 100;
+constexpr std::size_t pieces_besides = 400;
 constexpr double shortest_in_gap = 1e-3;  ///< of the whole; where nothing seen of the piece may stay
 
 using PieceValues = std::vector<Complex>;
@@ -94,14 +98,16 @@ class Approximation {
   }
 
   void halve(const Range& range) {
+    const bool last = ++halved_ > pieces_besides + pieces_per_step * (nodes_.size() - 1);
     PieceValues values;
     for (const double u : places_) values.push_back(at(range, range.from + u * (range.to - range.from)));
     const auto fitting = std::count_if(values.begin(), values.end(), [this](Complex s) { return fits(s); });
     const bool finite = fitting == static_cast<std::ptrdiff_t>(values.size());
     const double shortest = (fitting == 0 ? shortest_in_gap : shortest_at_gap) * length_;
-    if (finite && (range.to - range.from <= shortest_piece * length_ || meets_everywhere(range, values))) {
+    if (finite &&
+        (last || range.to - range.from <= shortest_piece * length_ || meets_everywhere(range, values))) {
       add(range, values);
-    } else if (finite || range.to - range.from > shortest) {
+    } else if (!last && (finite || range.to - range.from > shortest)) {
       const auto [left, right] = halves(range);
       if (left.to <= left.from || right.to <= right.from) return;
       halve(left);
@@ -132,6 +138,7 @@ class Approximation {
   const PiecewiseOptions& options_;
   std::vector<double> places_;
   double length_;
+  std::size_t halved_ = 0;
   std::vector<PiecewiseCurve> curves_;
 };
 

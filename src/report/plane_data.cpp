@@ -1,4 +1,6 @@
 // Boundaries and maps: data over two parameters.
+#include <map>
+
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "report/file_data.hpp"
@@ -25,15 +27,16 @@ class BoundaryCurves {
     const bool fits = shape_.size() == 4 && shape_[0] == length_.size() && shape_[1] == 4 && shape_[2] == 2 &&
                       shape_[3] >= 2 && step_curve_.size() == shape_[0] && step_point_.size() == shape_[0];
     if (!fits) throw Hdf5Error("dense_output does not fit the other datasets");
+    for (std::size_t i = 0; i < length_.size(); ++i) steps_[step_curve_[i]].push_back(i);
   }
 
   /// Steps of one curve: `first`, `second`, `real`, `imag` at places along it, and whether it bounds the
   /// stable region there.
   Json steps(std::size_t curve) const {
     Json list = Json::array();
-    for (std::size_t i = 0; i < length_.size(); ++i) {
-      if (step_curve_[i] == static_cast<std::int64_t>(curve)) list.push_back(step(i));
-    }
+    const auto found = steps_.find(static_cast<std::int64_t>(curve));
+    if (found == steps_.end()) return list;
+    for (const std::size_t i : found->second) list.push_back(step(i));
     return list;
   }
 
@@ -70,6 +73,7 @@ class BoundaryCurves {
   Shape shape_;
   std::vector<double> dense_, length_;
   std::vector<std::int64_t> step_curve_, step_point_, others_;
+  std::map<std::int64_t, std::vector<std::size_t>> steps_;  ///< by curve
 };
 
 Json corners(const Hdf5File& file) {

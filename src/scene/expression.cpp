@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
 namespace {
@@ -43,8 +44,8 @@ int stack_depth(const std::vector<Expression::Instruction>& code) {
   return most;
 }
 
-constexpr int max_depth = 100;
-constexpr std::size_t max_length = 4096;
+constexpr int max_depth = limits::expression_nesting;
+constexpr std::size_t max_length = limits::expression_length;
 
 }  // namespace
 
@@ -264,9 +265,9 @@ Expression Expression::compose(Op op, const Expression& a, const Expression& b) 
   std::set_union(a.parameters_.begin(), a.parameters_.end(), b.parameters_.begin(), b.parameters_.end(),
                  std::back_inserter(both));
   result.parameters_ = std::move(both);
-  if (stack_depth(result.code_) > max_stack) {
+  if (result.code_.size() > limits::expression_operations || stack_depth(result.code_) > max_stack) {
     throw ExpressionError(
-        "a quantity made of this expression is too deep to evaluate; give parts of it a name "
+        "a quantity made of this expression is too long or too deep to evaluate; give parts of it a name "
         "in [parameters]",
         0);
   }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
@@ -29,6 +30,10 @@ class ParameterReader {
 
   /// `implied` is a parameter that need not be declared.
   Parameters read(const std::optional<Parameter>& implied) {
+    if (table_.entries.size() > limits::parameters) {
+      const auto& [name, value] = table_.entries[limits::parameters];
+      fail(value, name, "is one too many; a scene has at most " + std::to_string(limits::parameters));
+    }
     for (const auto& [name, value] : table_.entries) names_.push_back(name);
     std::vector<Parameter> list;
     const bool add = implied && table_.find(implied->name) == nullptr;
@@ -166,9 +171,9 @@ Scene read_scene(const std::string& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw InputError(path + ": cannot be read (" + error.message() + ")");
-  if (size > max_scene_size) {
+  if (size > limits::scene_bytes) {
     throw InputError(path + ": is " + std::to_string(size) + " bytes; a scene has at most " +
-                     std::to_string(max_scene_size) + "; put large matrices into HDF5");
+                     std::to_string(limits::scene_bytes) + "; put large matrices into HDF5");
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -267,6 +272,9 @@ std::vector<Expression> TableReader::list(const std::string& key) {
   const Value& value = require(key, "a number or a list of numbers");
   const auto* array = std::get_if<Array>(&value.data);
   if (array == nullptr) return {to_expression(value, key)};
+  if (array->size() > limits::list_length)
+    fail(key, "expected at most " + std::to_string(limits::list_length) + " numbers, found " +
+                  std::to_string(array->size()));
   std::vector<Expression> result;
   for (const Value& item : *array) result.push_back(to_expression(item, key));
   return result;
@@ -337,6 +345,11 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
   const auto* array = std::get_if<Array>(&value->data);
   if (array == nullptr)
     throw scene_error(scene, value->where, key + ": expected a table [" + key + "], found " + value->kind());
+  if (array->size() > limits::tables_of_a_kind) {
+    throw scene_error(
+        scene, (*array)[limits::tables_of_a_kind].where,
+        key + ": a scene has at most " + std::to_string(limits::tables_of_a_kind) + " of these");
+  }
   std::vector<const Table*> result;
   for (const Value& item : *array) {
     const auto* table = std::get_if<Table>(&item.data);
@@ -350,11 +363,10 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
 }
 
 void reject_unused_parameters(const Scene& scene, const std::set<int>& used) {
+  const std::set<int> reached = scene.parameters.with_definitions(used);
   const int n = static_cast<int>(scene.parameters.size());
   for (int i = 0; i < n; ++i) {
-    const bool is_used =
-        std::any_of(used.begin(), used.end(), [&](int u) { return scene.parameters.depends_on(u, i); });
-    if (!is_used) {
+    if (!reached.contains(i)) {
       const Parameter& parameter = scene.parameters[static_cast<std::size_t>(i)];
       throw scene_error(scene, parameter.where,
                         "[parameters] " + parameter.name +

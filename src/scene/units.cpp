@@ -117,7 +117,8 @@ std::optional<double> unit_factor(std::string_view unit) {
     expect_term = false;
     unit.remove_prefix(length);
   }
-  return expect_term ? std::nullopt : std::optional(factor);
+  const bool usable = !expect_term && std::isfinite(factor) && factor > 0.0;
+  return usable ? std::optional(factor) : std::nullopt;
 }
 
 }  // namespace eigentrail

@@ -6,6 +6,8 @@
 #include <array>
 #include <sstream>
 
+#include "eigentrail/scene/limits.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -17,28 +19,42 @@ std::string prefix(const std::string& path, SourceLocation where) {
   return path + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
-Table convert_table(const toml::table& source, const std::string& path);
+Table convert_table(const toml::table& source, const std::string& path, int depth);
 
-Value convert(const toml::node& node, const std::string& path) {
+[[noreturn]] void refuse_length(const std::string& path, SourceLocation where, const std::string& what,
+                                std::size_t most) {
+  throw InputError(prefix(path, where) + what + " of more than " + std::to_string(most) + " characters");
+}
+
+Value convert(const toml::node& node, const std::string& path, int depth) {
   const SourceLocation where = location(node);
-  if (const auto* table = node.as_table()) return {convert_table(*table, path), where};
+  if (depth > limits::toml_nesting) {
+    throw InputError(prefix(path, where) + "lists and tables nested deeper than " +
+                     std::to_string(limits::toml_nesting) + " levels");
+  }
+  if (const auto* table = node.as_table()) return {convert_table(*table, path, depth), where};
   if (const auto* array = node.as_array()) {
     Array items;
-    for (const toml::node& item : *array) items.push_back(convert(item, path));
+    for (const toml::node& item : *array) items.push_back(convert(item, path, depth + 1));
     return {std::move(items), where};
   }
-  if (const auto* text = node.as_string()) return {text->get(), where};
+  if (const auto* text = node.as_string()) {
+    if (text->get().size() > limits::text_length) refuse_length(path, where, "a text", limits::text_length);
+    return {text->get(), where};
+  }
   if (const auto* flag = node.as_boolean()) return {flag->get(), where};
   if (const auto* number = node.as_floating_point()) return {number->get(), where};
   if (const auto* number = node.as_integer()) return {static_cast<double>(number->get()), where};
   throw InputError(prefix(path, where) + "dates and times have no meaning in a scene");
 }
 
-Table convert_table(const toml::table& source, const std::string& path) {
+Table convert_table(const toml::table& source, const std::string& path, int depth) {
   Table table;
   table.where = location(source);
   for (const auto& [key, node] : source) {
-    Value value = convert(node, path);
+    if (key.str().size() > limits::key_length)
+      refuse_length(path, location(node), "a key", limits::key_length);
+    Value value = convert(node, path, depth + 1);
     // A wrong key is reported where the key stands, not where its value begins.
     value.where = {static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
     table.entries.emplace_back(std::string(key.str()), std::move(value));
@@ -72,7 +88,7 @@ std::size_t end_of_text(std::string_view text, std::size_t i) {
 /// dots outside of texts since the last character that ends a key or a number; two dots in a row belong to
 /// neither.
 void reject_deep_keys(std::string_view text, const std::string& path) {
-  constexpr int most_parts = 32;
+  constexpr int most_parts = limits::key_parts;
   int line = 1;
   int parts = 0;
   char last = ' ';
@@ -125,7 +141,7 @@ std::string Value::kind() const {
 Table parse_toml(std::string_view text, const std::string& path) {
   reject_deep_keys(text, path);
   try {
-    return convert_table(toml::parse(text, path), path);
+    return convert_table(toml::parse(text, path), path, 0);
   } catch (const toml::parse_error& error) {
     const SourceLocation where{static_cast<int>(error.source().begin.line),
                                static_cast<int>(error.source().begin.column)};

@@ -15,6 +15,10 @@
 namespace eigentrail {
 namespace {
 
+/// Functions of a block: its eigenvalues are the roots of a polynomial of that degree, found anew wherever
+/// they are asked for. Traces join six at most on their way, and begin with as many as coincide at the start.
+constexpr std::size_t largest_block = 128;
+
 /// Root attributes as text; those that somebody added in a type of their own are left out.
 void read_attributes(const Hdf5File& file, LociFile& loci) {
   for (const std::string& name : file.attribute_names()) {
@@ -52,8 +56,17 @@ void require(bool holds, const LociFile& loci, const std::string& dataset) {
   if (!holds) throw InputError(loci.path + ": " + dataset + " does not fit the other datasets");
 }
 
+void require_finite(const std::vector<double>& values, const LociFile& loci, const std::string& dataset) {
+  const auto bad = std::find_if_not(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  if (bad == values.end()) return;
+  throw InputError(loci.path + ": " + dataset + " holds " + exact_text(*bad) + " as its number " +
+                   std::to_string(bad - values.begin() + 1) + " where a finite number is needed");
+}
+
 void read_points(const Hdf5File& file, LociFile& loci) {
   loci.p = file.read_real(loci.parameter);
+  require(file.shape(loci.parameter).size() == 1, loci, loci.parameter);
+  require_finite(loci.p, loci, loci.parameter);
   require(file.shape("eigenvalue") == Shape{loci.p.size(), loci.modes.size()}, loci, "eigenvalue");
   const std::vector<Complex> data = file.read_complex("eigenvalue");
   loci.eigenvalues = Eigen::Map<const RowMajorComplex>(data.data(), static_cast<Eigen::Index>(loci.p.size()),
@@ -85,6 +98,8 @@ DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
   }
   arrays.length = file.read_real("step_length");
   arrays.parameter = file.read_real("step_parameter");
+  require_finite(arrays.length, loci, "step_length");
+  require_finite(arrays.parameter, loci, "step_parameter");
   arrays.output = file.read_complex("dense_output");
   arrays.block = file.read_integers("dense_block");
   arrays.chart = file.read_integers("dense_chart");
@@ -93,13 +108,28 @@ DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
   return arrays;
 }
 
+/// Modes of every block of a step, by the function that it begins with.
+std::vector<std::vector<int>> modes_of_blocks(const DenseArrays& arrays, const LociFile& loci,
+                                              std::size_t step) {
+  const std::size_t n_modes = loci.modes.size();
+  std::vector<std::vector<int>> modes(arrays.shape[1]);
+  for (std::size_t mode = 0; mode < n_modes; ++mode) {
+    const std::int64_t block = arrays.mode_block[step * n_modes + mode];
+    require(block >= -1 && block < static_cast<std::int64_t>(modes.size()), loci, "mode_block");
+    if (block >= 0) modes[static_cast<std::size_t>(block)].push_back(static_cast<int>(mode));
+  }
+  return modes;
+}
+
 /// The block of a step that begins at function `first`.
-DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size_t step, std::size_t first) {
+DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size_t step, std::size_t first,
+                      std::vector<int> modes) {
   const std::size_t functions = arrays.shape[1];
   const std::size_t orders = arrays.shape[3];
   const auto number = static_cast<std::int64_t>(first);
   std::size_t size = 0;
   while (first + size < functions && arrays.block[step * functions + first + size] == number) ++size;
+  require(modes.size() <= size && size <= largest_block, loci, "dense_block");
   DenseBlock block;
   block.chart = arrays.chart[step * functions + first] == 1 ? Chart::reciprocal : Chart::finite;
   block.left.resize(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(orders));
@@ -112,14 +142,11 @@ DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size
       block.right(at, static_cast<Eigen::Index>(k)) = row[orders + k];
     }
   }
-  block.certified = true;
-  for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
-    if (arrays.mode_block[step * loci.modes.size() + mode] != number) continue;
-    block.modes.push_back(static_cast<int>(mode));
-    block.certified = block.certified && arrays.certified[step * loci.modes.size() + mode] == 1;
-  }
-  require(block.modes.size() <= size && block.left.allFinite() && block.right.allFinite(), loci,
-          "dense_output");
+  block.certified = std::all_of(modes.begin(), modes.end(), [&](int mode) {
+    return arrays.certified[step * loci.modes.size() + static_cast<std::size_t>(mode)] == 1;
+  });
+  block.modes = std::move(modes);
+  require(block.left.allFinite() && block.right.allFinite(), loci, "dense_output");
   return block;
 }
 
@@ -132,9 +159,11 @@ void read_steps(const Hdf5File& file, LociFile& loci) {
     path_step.length = arrays.length[step];
     path_step.parameter = Eigen::Map<const RowMajorReal>(arrays.parameter.data() + step * 2 * orders, 2,
                                                          static_cast<Eigen::Index>(orders));
+    std::vector<std::vector<int>> modes = modes_of_blocks(arrays, loci, step);
     for (std::size_t i = 0; i < functions; ++i) {
-      if (arrays.block[step * functions + i] == static_cast<std::int64_t>(i))
-        path_step.blocks.push_back(read_block(arrays, loci, step, i));
+      const bool begins = arrays.block[step * functions + i] == static_cast<std::int64_t>(i);
+      require(begins || modes[i].empty(), loci, "mode_block");
+      if (begins) path_step.blocks.push_back(read_block(arrays, loci, step, i, std::move(modes[i])));
     }
     loci.steps.push_back(std::move(path_step));
   }
@@ -165,12 +194,14 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   loci.scene_parameters = file.read_texts("scene_parameter");
   const std::vector<std::int64_t> directions = file.read_integers("event_direction");
   const std::vector<double> values = file.read_real("event_value");
-  const std::size_t coordinates = file.shape("coordinate")[0];
+  const std::size_t coordinates = loci.coordinates.size();
   const std::vector<Complex> shapes = read_event_rows<Complex>(file, "event_shape", loci, count, coordinates);
   const std::size_t n = loci.scene_parameters.size();
   const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
   const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
   require(directions.size() == count && values.size() == count, loci, "events");
+  for (const std::int64_t direction : directions)
+    require(direction >= -1 && direction <= 1, loci, "event_direction");
   const auto row = [](const auto& all, std::size_t i, std::size_t size) {
     using Item = typename std::decay_t<decltype(all)>::value_type;
     return Eigen::Matrix<Item, Eigen::Dynamic, 1>::Map(all.data() + i * size,
@@ -263,7 +294,7 @@ LociFile read_loci(const std::string& path) {
     read_points(file, loci);
     read_steps(file, loci);
     read_events(file, loci);
-    loci.ranges = read_stable_ranges(file);
+    loci.ranges = read_stable_ranges(file, loci.modes.size());
     loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
     loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
     loci.residual = file.read_real("residual");

@@ -95,9 +95,10 @@ void write_stable_ranges(Hdf5File& file, const std::string& parameter,
   file.write_rows("stable_largest_at", 0, largest_at);
 }
 
-std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file) {
+std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes) {
   if (!file.has("stable_from")) return std::nullopt;
-  const std::uint64_t count = file.shape("range")[0];
+  const Shape shape = file.shape("range");
+  const std::uint64_t count = shape.empty() ? 0 : shape[0];
   for (const RangeDataset& dataset : datasets) {
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
     if (file.shape(dataset.name) != expected)
@@ -109,6 +110,10 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file)
   const auto causes = file.read_texts("stable_cause");
   const auto margins = file.read_real("stable_margin");
   const auto modes = file.read_integers("stable_mode");
+  for (const std::int64_t mode : modes) {
+    if (mode > static_cast<std::int64_t>(n_modes))
+      throw InputError("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
+  }
   const auto least = file.read_real("stable_least_margin");
   const auto largest = file.read_real("stable_largest_margin");
   const auto largest_at = file.read_real("stable_largest_at");

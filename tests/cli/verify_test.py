@@ -83,6 +83,26 @@ class Verify(ProgramTest):
         self.change(edit)
         self.assert_fails()
 
+    def assert_refused(self, message):
+        run = self.verify()
+        self.assertEqual(run.returncode, 2, run.stdout)
+        self.assertIn(message, run.stderr)
+
+    def test_a_scene_of_other_coordinates_is_refused(self):
+        def edit(file):
+            file.attrs["scene"] += "\n[[point]]\nname = \"more\"\nmass = 1\nposition = [0, 0, 0]\n"
+        self.change(edit)
+        self.assert_refused("its scene has 6 coordinates")
+
+    def test_matrices_are_looked_for_beside_their_scene_only(self):
+        with h5py.File(self.folder / "matrices.h5", "w") as file:
+            file["M/0"] = file["K/1"] = [[1.0]]
+            file["K/0"] = [[4.0]]
+        scene = "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nfile = \"matrices.h5\"\n"
+        self.assert_passes(scene)
+        self.write("scene.toml", scene + "# another one\n")
+        self.assert_refused("was made from another scene than scene.toml is now")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/hdf5_file.hpp"
+#include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
@@ -119,6 +120,42 @@ TEST_F(FamilyFile, UnknownGroupsAndPowersAreRefused) {
     }
     EXPECT_THROW((void)setting(), InputError) << wrong;
   }
+}
+
+TEST_F(FamilyFile, LinksOutOfTheFolderAreNotFollowed) {
+  const std::filesystem::path elsewhere = std::filesystem::path(folder) / "eigentrail_elsewhere";
+  const std::filesystem::path beside = std::filesystem::path(folder) / "eigentrail_scene_folder";
+  std::filesystem::remove_all(elsewhere);
+  std::filesystem::remove_all(beside);
+  std::filesystem::create_directories(elsewhere);
+  std::filesystem::create_directories(beside);
+  {
+    Hdf5File target = Hdf5File::create((elsewhere / file).string());
+    add(target, "M/0", 1.0);
+    add(target, "K/0", 4.0);
+    add(target, "K/1", 3.0);
+  }
+  std::filesystem::create_symlink(elsewhere / file, beside / file);
+  folder = beside.string() + "/";
+  EXPECT_TRUE(contains(input_error([&] { (void)setting(); }), "leads out of the scene's folder, to "));
+  std::filesystem::remove(beside / file);
+  std::filesystem::copy_file(elsewhere / file, beside / "real.h5");
+  std::filesystem::create_symlink("real.h5", beside / file);
+  EXPECT_NO_THROW((void)setting()) << "a link within the folder";
+  std::filesystem::remove_all(elsewhere);
+  std::filesystem::remove_all(beside);
+}
+
+TEST_F(FamilyFile, HoldsNoMoreNumbersThanItsLimit) {
+  {
+    Hdf5File target = Hdf5File::create(folder + file);
+    DatasetSpec spec;
+    spec.name = "M/0";
+    spec.shape = {5001, 1};
+    target.create_dataset(spec);
+    add(target, "K/0", 4.0);
+  }
+  EXPECT_TRUE(contains(input_error([&] { (void)setting(); }), "expected a matrix of at most 5000 rows"));
 }
 
 TEST(MatrixFamily, VariableMayBeDerivedAndHasItsSiValueEverywhere) {

@@ -102,5 +102,18 @@ TEST(PiecewiseCurves, NothingRemainsOfAFunctionThatIsNoNumber) {
   EXPECT_TRUE(approximate({0.0, 1.0}, value, {6, tolerance, tolerance, 1e3}).empty());
 }
 
+TEST(PiecewiseCurves, EndAfterAFewHundredPiecesPerStepOfNoise) {
+  const std::vector<double> nodes = {0.0, 1.0, 2.0};
+  const auto noise = [](std::size_t i, double t) {
+    return Complex(std::sin(1e12 * (static_cast<double>(i) + t)), std::cos(1e13 * t));
+  };
+  PiecewiseOptions options;
+  options.real_tolerance = options.imag_tolerance = tolerance;
+  options.largest = 10.0;
+  const std::vector<PiecewiseCurve> curves = approximate(nodes, noise, options);
+  ASSERT_FALSE(curves.empty());
+  EXPECT_LT(curves.front().knots.size(), 1000U);
+}
+
 }  // namespace
 }  // namespace eigentrail

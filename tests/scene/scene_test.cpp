@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "eigentrail/scene/limits.hpp"
 #include "scene/input_error.hpp"
 
 namespace eigentrail {
@@ -203,7 +204,7 @@ TEST_F(ReadScene, NamesTheFileInErrors) {
 
 TEST_F(ReadScene, RefusesFilesThatAreTooLarge) {
   std::ofstream(path) << "k = 1\n";
-  std::filesystem::resize_file(path, max_scene_size + 1);
+  std::filesystem::resize_file(path, limits::scene_bytes + 1);
   EXPECT_TRUE(contains(input_error([&] { read_scene(path); }), "put large matrices into HDF5"));
 }
 

@@ -159,7 +159,7 @@ TEST(ParseToml, RowsOfManyNumbersAreNotTakenForKeys) {
 TEST(ParseToml, DotsInTextsAndCommentsAreNotTakenForKeys) {
   std::string sum = "0.5";
   for (int i = 0; i < 100; ++i) sum += " + 0.5 * p";
-  for (const std::string& quote : {"\"", "'", "\"\"\"", "'''"}) {
+  for (const std::string quote : {"\"", "'", "\"\"\"", "'''"}) {
     const Table root = parsed("# " + sum + "\nx = " + quote + sum + quote + "  # it's " + sum + "\ny = 1\n");
     EXPECT_EQ(get<std::string>(root, "x"), sum);
     EXPECT_EQ(get<double>(root, "y"), 1.0);

@@ -115,7 +115,7 @@ TEST_F(BoundaryFileTest, AnExistingFileIsReplacedAtOnceOrNotAtAll) {
 }
 
 TEST_F(BoundaryFileTest, ParametersNamedLikeADatasetAreRefused) {
-  for (const std::string& name : {"eigenvalue", "curve", "step_point"}) {
+  for (const std::string name : {"eigenvalue", "curve", "step_point"}) {
     const std::string scene = "[parameters]\nQ = 0\n" + name +
                               " = 1\n[trace]\nparameter = \"Q\"\nfrom = 0\nto = 1\n[matrix_family]\n"
                               "M = [[[1]]]\nC = [[[\"" +

@@ -11,6 +11,7 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -310,6 +311,26 @@ TEST_F(LociFileTest, AttributesThatSomebodyAddedDoNotDisturb) {
       "/usr/bin/python3 -c \"import h5py; h5py.File('" + path + "','r+').attrs['note'] = [1,2]\"";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_FALSE(read_loci(path).attributes.contains("note"));
+}
+
+TEST_F(LociFileTest, ContentsThatContradictEachOtherAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"f['length'][1] = float('nan')", "length holds nan as its number 2 where a finite number is needed"},
+      {"f['step_length'][0] = float('inf')", "step_length holds inf"},
+      {"f['mode_block'][0] = 7", "mode_block does not fit"},
+      {"f['dense_block'][0] = -1", "mode_block does not fit"},
+      {"f['event_direction'].resize((1,)); f['event_direction'][0] = 5", "events does not fit"},
+      {"f['stable_mode'][0] = 9", "stable_mode names mode 9 of 1"},
+      {"del f['coordinate']; f['coordinate'] = 3.0", "cannot be read as a loci file"}};
+  for (const auto& [change, expected] : table) {
+    std::filesystem::remove(path);
+    ASSERT_EQ(write(scene_setting("pendulum")).status, TraceStatus::completed);
+    const std::string command =
+        "/usr/bin/python3 -c \"import h5py; f = h5py.File('" + path + "','r+'); " + change + "\"";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const std::string found = input_error([&] { (void)read_loci(path); });
+    EXPECT_TRUE(contains(found, expected)) << change << ": " << found;
+  }
 }
 
 TEST_F(LociFileTest, OnlyLociFilesMayBeReplaced) {

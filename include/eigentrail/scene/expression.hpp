@@ -76,6 +76,9 @@ class Expression {
 
   bool is_constant() const { return parameters_.empty(); }
 
+  /// Numbers, parameters and operations that it consists of.
+  std::size_t size() const { return code_.size(); }
+
   /// Indices of the parameters that occur, each once, ascending.
   const std::vector<int>& parameters() const { return parameters_; }
 

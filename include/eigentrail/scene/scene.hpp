@@ -104,7 +104,4 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key);
 /// fills it.
 void reject_unused_parameters(const Scene& scene, const std::set<int>& used);
 
-/// The largest scene file that is read, in bytes.
-inline constexpr std::size_t max_scene_size = 16u << 20u;
-
 }  // namespace eigentrail

@@ -1,0 +1,28 @@
+// Datasets and attributes: what they declare against what the file holds.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "core/hdf5_check/heaps.hpp"
+#include "core/hdf5_check/object_header.hpp"
+#include "core/hdf5_check/trees.hpp"
+
+namespace eigentrail::hdf5_check {
+
+/// Checks of one object; what they share with those of all other objects.
+struct FileParts {
+  std::string_view file;
+  TreeSizes sizes;
+  std::set<std::uint64_t> blocks;
+  GlobalHeaps heaps;
+};
+
+/// The message of a type, which an object has once; null where there is none.
+const Message* single(const std::vector<Message>& messages, MessageType type);
+
+void check_dataset(FileParts& parts, const std::vector<Message>& messages, std::uint64_t at);
+
+void check_attribute(FileParts& parts, Cursor data);
+
+}  // namespace eigentrail::hdf5_check

@@ -1,0 +1,24 @@
+// A file as bytes in memory, of which only those that are looked at are read.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace eigentrail::hdf5_check {
+
+class MappedFile {
+ public:
+  /// Throws Hdf5Error when the file cannot be read, or is no plain file.
+  explicit MappedFile(const std::string& path);
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  ~MappedFile();
+
+  std::string_view bytes() const { return {static_cast<const char*>(data_), size_}; }
+
+ private:
+  void* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace eigentrail::hdf5_check
