@@ -21,6 +21,7 @@ constexpr std::string_view signature = "<!DOCTYPE html>\n<!-- eigentrail report 
 
 std::string_view page() {
   return {eigentrail_report_page,
+          // cppcheck-suppress comparePointers ; both belong to one piece of the program
           static_cast<std::size_t>(eigentrail_report_page_end - eigentrail_report_page)};
 }
 

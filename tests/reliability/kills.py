@@ -36,8 +36,8 @@ def scenes():
     yield "short", BLADE, []
     yield "fold", PUSHED_PENDULUM, ["--tolerance", "1e-8", "--max-step", "0.001"]
     for name in ("rotating_mass", "ground_resonance", "princeton_blade", "watt_governor"):
-        options = {"ground_resonance": ["--max-step", "0.5"], "rotating_mass": ["--max-step", "0.05"],
-                   "watt_governor": ["--max-step", "0.05"]}.get(name, [])
+        options = {"ground_resonance": [], "rotating_mass": ["--max-step", "0.05"],
+                   "watt_governor": ["--max-step", "0.5"]}.get(name, [])
         yield name, (SCENES / f"{name}.toml").read_text(encoding="utf-8"), options
 
 
