@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "eigentrail/core/errors.hpp"
-
 namespace eigentrail {
 namespace {
 
@@ -97,11 +95,12 @@ void write_stable_ranges(Hdf5File& file, const std::string& parameter,
 
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file) {
   if (!file.has("stable_from")) return std::nullopt;
-  const std::uint64_t count = file.shape("range")[0];
+  const Shape shape = file.shape("range");
+  const std::uint64_t count = shape.empty() ? 0 : shape[0];
   for (const RangeDataset& dataset : datasets) {
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
     if (file.shape(dataset.name) != expected)
-      throw InputError(std::string(dataset.name) + " does not fit the other datasets");
+      throw Hdf5Error(std::string(dataset.name) + " does not fit the other datasets");
   }
   const auto from = file.read_real("stable_from");
   const auto to = file.read_real("stable_to");

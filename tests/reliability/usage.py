@@ -1,0 +1,46 @@
+"""Command lines that are wrong: arguments, and what the message must contain."""
+
+USAGE = [
+    ("no command", [], ["command"]),
+    ("unknown command", ["trac"], ["trac"]),
+    ("unknown option", ["trace", "scene.toml", "-o", "new.h5", "--tolerence", "1e-6"], ["--tolerence"]),
+    ("no scene", ["trace", "-o", "new.h5"], ["SCENE"]),
+    ("no output", ["trace", "scene.toml"], ["--output"]),
+    ("scene that does not exist", ["trace", "none.toml", "-o", "new.h5"], ["none.toml: "]),
+    ("scene that is a folder", ["trace", "folder", "-o", "new.h5"], ["folder: "]),
+    ("scene that is a loci file", ["trace", "blade.h5", "-o", "new.h5"], ["blade.h5:1:1: "]),
+    ("output that exists", ["trace", "scene.toml", "-o", "blade.h5"], ["blade.h5: exists already", "--force"]),
+    ("output that is the scene", ["trace", "scene.toml", "-o", "scene.toml", "--force"], ["scene.toml: "]),
+    ("output in a missing folder", ["trace", "scene.toml", "-o", "none/new.h5"],
+     ["none/new.h5: the folder none does not exist"]),
+    ("output that is a folder", ["trace", "scene.toml", "-o", "folder"], ["folder: is a folder"]),
+    ("output with a name too long", ["trace", "scene.toml", "-o", "x" * 300], ["x" * 300]),
+    ("output without a name", ["trace", "scene.toml", "-o", ""], ["--output"]),
+    ("failed trace over an old output", ["trace", "short.toml", "-o", "blade.h5", "--force"], ["no equilibrium"]),
+    ("order out of range", ["trace", "scene.toml", "-o", "new.h5", "--order", "9"], ["scene.toml: [trace] order:"]),
+    ("equal ends", ["trace", "scene.toml", "-o", "new.h5", "--to", "100"], ["[trace] to: equals from (100)"]),
+    ("text as tolerance", ["trace", "scene.toml", "-o", "new.h5", "--tolerance", "tight"],
+     ["[trace] tolerance", "tight"]),
+    ("unknown parameter", ["trace", "scene.toml", "-o", "new.h5", "--parameter", "omga"],
+     ["[trace] parameter", "did you mean 'omega'?"]),
+    ("explain of a bad scene", ["explain", "bad.toml"], ["bad.toml:24:1: [[rod]] 1 to: no point"]),
+    ("eval above the range", ["eval", "blade.h5", "--at", "101"], ["omega = 101 lies outside", "5 ... 100"]),
+    ("eval below the range", ["eval", "blade.h5", "--at", "50", "4.9", "--csv"], ["omega = 4.9 lies outside"]),
+    ("eval at no number", ["eval", "blade.h5", "--at", "fast"], ["--at", "fast"]),
+    ("eval at nan", ["eval", "blade.h5", "--at", "nan"], ["nan"]),
+    ("eval without a place", ["eval", "blade.h5"], ["--at"]),
+    ("eval --at without a value", ["eval", "blade.h5", "--at"], ["--at"]),
+    ("eval as csv and json", ["eval", "blade.h5", "--at", "50", "--csv", "--json"], ["--csv", "--json"]),
+    ("events as csv and json", ["events", "blade.h5", "--csv", "--json"], ["--csv", "--json"]),
+    ("events of no file", ["events"], ["FILE"]),
+    ("events at a place", ["events", "blade.h5", "--at", "50"], ["--at"]),
+    ("info as json and scene", ["info", "blade.h5", "--json", "--scene"], ["--json", "--scene"]),
+] + [(f"{command[0]} of {name}", [command[0], file, *command[1:]], [f"{file}: ", *fragments])
+     for command in (["eval", "--at", "50"], ["events"], ["info"])
+     for name, file, fragments in [
+         ("a missing file", "none.h5", ["no such file"]),
+         ("a folder", "folder", ["folder"]),
+         ("a text", "scene.toml", ["cannot be read as a loci file"]),
+         ("half a loci file", "half.h5", ["cannot be read as a loci file"]),
+         ("an HDF5 file without loci", "other.h5", ["no loci file of eigentrail"])]]
+
