@@ -77,7 +77,8 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   return spectrum;
 }
 
-/// What is wrong with the scene and the options is a fault of the file, whatever the scene's own file says now.
+/// What is wrong with the scene and the options is a fault of the file, whatever the scene's own file says
+/// now.
 TraceSetup setup_of(const LociFile& loci) {
   try {
     return rebuild(loci);

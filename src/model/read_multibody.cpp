@@ -226,10 +226,9 @@ void check_without(const Draft& draft) {
   });
   for (const std::string& name : draft.request.without) {
     if (std::find(can.begin(), can.end(), name) != can.end()) continue;
-    throw without_error(
-        draft.scene, name,
-        "is no effect of this scene that can be left out (inertia and constraints cannot); " +
-            suggestion(name, can));
+    throw without_error(draft.scene, name,
+                        "is no effect of this scene that can be left out (inertia and constraints cannot); " +
+                            suggestion(name, can));
   }
 }
 

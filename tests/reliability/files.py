@@ -20,7 +20,8 @@ MAKERS = {
     "loci.h5": ("trace", "scene.toml", "--tolerance", "1e-4", "--quiet"),
     "boundary.h5": ("boundary", "column.toml", "--second", "damping", "--from", 0.01, "--to", 1, "--lines", 1, "--quiet"),
     "map.h5": ("map", "column.toml", "--second", "damping", "--from", 0.01, "--to", 1, "--grid", "3x4", "--quiet"),
-    "study.h5": ("accuracy", "column.toml", "--tolerances", "1e-4", "--orders", 2, "--grids", 5, "--samples", 5, "--repeat", 1,
+    "study.h5": ("accuracy", "column.toml", "--tolerances", "1e-4", "--orders", 2, "--grids", 5, "--samples", 5, "--repeat",
+                 1,
                  "--quiet"),
     "page.html": ("report", "map.h5", "--quiet"),
 }
@@ -162,6 +163,11 @@ def loci(name, damage, *fragments, commands=tuple(ALL)):
     return name, "loci.h5", damage, commands, fragments
 
 
+def inside_loci(name, damage, *fragments):
+    """What all commands read alike: two of them stand for all."""
+    return loci(name, damage, *fragments, commands=[evaluate, report])
+
+
 def reported(name, file, damage, *fragments):
     """A fault that only the report can meet."""
     return name, file, damage, [report], fragments
@@ -220,7 +226,8 @@ ATTRIBUTES = [
     loci("scene of another parameter", attribute("scene", ZIEGLER.read_text()), "omega", commands=[verify]),
     loci("reference as a text", attribute("reference", "small"), "reference", commands=[verify]),
     loci("option that no trace takes", attribute("option_order", "9"), "order: must lie between 1 and 4", commands=[verify]),
-    loci("option of another program", inside(lambda file: file.attrs.create("option_colour", "red")), "colour", commands=[verify]),
+    loci("option of another program", inside(lambda file: file.attrs.create("option_colour", "red")), "colour",
+         commands=[verify]),
     loci("branch in words", attribute("option_branch", "left"), "branch", commands=[verify]),
     reported("boundary of the future", "boundary.h5", attribute("schema_version", np.int64(9)), "has schema 9"),
     reported("map of the future", "map.h5", attribute("schema_version", np.int64(9)), "has schema 9"),
@@ -232,36 +239,38 @@ ATTRIBUTES = [
 ]
 
 SHAPES = [
-    loci("one point less", dataset("omega", lambda p: p[:-1])),
-    loci("one eigenvalue less", dataset("eigenvalue", lambda s: s[:-1]), "eigenvalue"),
-    loci("one mode less", dataset("eigenvalue", lambda s: s[:, :1]), "eigenvalue"),
-    loci("eigenvalues in a row", dataset("eigenvalue", lambda s: s.ravel()), "eigenvalue"),
-    loci("parameters in a table", dataset("omega", lambda p: p.reshape(-1, 1)), "omega"),
-    loci("one step less", dataset("dense_output", lambda d: d[:-1]), "dense_output"),
-    loci("dense output of one end", dataset("dense_output", lambda d: d[:, :, :1]), "dense_output"),
-    loci("dense output of order zero", dataset("dense_output", lambda d: d[..., :1]), "dense_output"),
-    loci("dense output of three dimensions", dataset("dense_output", lambda d: d[..., 0]), "dense_output"),
-    loci("dense output of order twenty", dataset("dense_output", lambda d: np.resize(d, (*d.shape[:3], 21))), "dense_output"),
-    loci("one length less", dataset("step_length", lambda h: h[:-1]), "step_length"),
-    loci("one length more", dataset("step_length", lambda h: np.append(h, 1.0)), "step_length"),
-    loci("parameter of a step in one number", dataset("step_parameter", lambda p: p[:, 0, 0]), "step_parameter"),
-    loci("one block less", dataset("dense_block", lambda b: b[:-1]), "dense_block"),
-    loci("charts of one function", dataset("dense_chart", lambda c: c[:, :1]), "dense_chart"),
-    loci("blocks of one mode", dataset("mode_block", lambda b: b[:, :1]), "mode_block"),
-    loci("certificate of one step", dataset("certified", lambda c: c[:1]), "certified"),
-    loci("one event less", dataset("event_parameter", lambda p: p[:-1]), "events"),
-    loci("one direction less", dataset("event_direction", lambda d: d[:-1]), "events"),
-    loci("shapes of events of one coordinate", dataset("event_shape", lambda x: x[:, :1]), "event_shape"),
-    loci("shifts of events by one parameter", dataset("event_shift", lambda x: x[:, :1]), "event_shift"),
-    loci("sensitivities of events to one parameter", dataset("event_sensitivity", lambda x: x[:, :1]), "event_sensitivity"),
-    loci("equilibria of one coordinate", dataset("equilibrium", lambda x: x[:, :1]), "equilibrium"),
-    loci("multipliers of one point", dataset("multiplier", lambda x: x[:1]), "multiplier"),
-    loci("residuals of one point", dataset("residual", lambda r: r[:1]), "residual"),
-    loci("conditions of one mode", dataset("condition", lambda c: c[:, :1]), "condition"),
-    loci("one name of a mode less", dataset("mode_name", lambda n: n[:-1]), "mode_name"),
-    loci("ends of ranges in a row", dataset("stable_margin", lambda m: m.ravel()), "stable_margin"),
-    loci("one range more", dataset("stable_from", lambda p: np.append(p, 1.0)), "stable_from"),
-    loci("ranges without dimensions", dataset("range", lambda _: 1), "stable_"),
+    inside_loci("one point less", dataset("omega", lambda p: p[:-1])),
+    inside_loci("one eigenvalue less", dataset("eigenvalue", lambda s: s[:-1]), "eigenvalue"),
+    inside_loci("one mode less", dataset("eigenvalue", lambda s: s[:, :1]), "eigenvalue"),
+    inside_loci("eigenvalues in a row", dataset("eigenvalue", lambda s: s.ravel()), "eigenvalue"),
+    inside_loci("parameters in a table", dataset("omega", lambda p: p.reshape(-1, 1)), "omega"),
+    inside_loci("one step less", dataset("dense_output", lambda d: d[:-1]), "dense_output"),
+    inside_loci("dense output of one end", dataset("dense_output", lambda d: d[:, :, :1]), "dense_output"),
+    inside_loci("dense output of order zero", dataset("dense_output", lambda d: d[..., :1]), "dense_output"),
+    inside_loci("dense output of three dimensions", dataset("dense_output", lambda d: d[..., 0]), "dense_output"),
+    inside_loci("dense output of order twenty", dataset("dense_output", lambda d: np.resize(d, (*d.shape[:3], 21))),
+                "dense_output"),
+    inside_loci("one length less", dataset("step_length", lambda h: h[:-1]), "step_length"),
+    inside_loci("one length more", dataset("step_length", lambda h: np.append(h, 1.0)), "step_length"),
+    inside_loci("parameter of a step in one number", dataset("step_parameter", lambda p: p[:, 0, 0]), "step_parameter"),
+    inside_loci("one block less", dataset("dense_block", lambda b: b[:-1]), "dense_block"),
+    inside_loci("charts of one function", dataset("dense_chart", lambda c: c[:, :1]), "dense_chart"),
+    inside_loci("blocks of one mode", dataset("mode_block", lambda b: b[:, :1]), "mode_block"),
+    inside_loci("certificate of one step", dataset("certified", lambda c: c[:1]), "certified"),
+    inside_loci("one event less", dataset("event_parameter", lambda p: p[:-1]), "events"),
+    inside_loci("one direction less", dataset("event_direction", lambda d: d[:-1]), "events"),
+    inside_loci("shapes of events of one coordinate", dataset("event_shape", lambda x: x[:, :1]), "event_shape"),
+    inside_loci("shifts of events by one parameter", dataset("event_shift", lambda x: x[:, :1]), "event_shift"),
+    inside_loci("sensitivities of events to one parameter", dataset("event_sensitivity", lambda x: x[:, :1]),
+                "event_sensitivity"),
+    inside_loci("equilibria of one coordinate", dataset("equilibrium", lambda x: x[:, :1]), "equilibrium"),
+    inside_loci("multipliers of one point", dataset("multiplier", lambda x: x[:1]), "multiplier"),
+    inside_loci("residuals of one point", dataset("residual", lambda r: r[:1]), "residual"),
+    inside_loci("conditions of one mode", dataset("condition", lambda c: c[:, :1]), "condition"),
+    inside_loci("one name of a mode less", dataset("mode_name", lambda n: n[:-1]), "mode_name"),
+    inside_loci("ends of ranges in a row", dataset("stable_margin", lambda m: m.ravel()), "stable_margin"),
+    inside_loci("one range more", dataset("stable_from", lambda p: np.append(p, 1.0)), "stable_from"),
+    inside_loci("ranges without dimensions", dataset("range", lambda _: 1), "stable_"),
     reported("shapes of one mode", "loci.h5", dataset("mode_shape", lambda x: x[:, :1]), "mode_shape"),
     reported("shapes of one point", "loci.h5", dataset("mode_shape", lambda x: x[:1]), "mode_shape"),
     reported("margins of a map in another shape", "map.h5", dataset("margin", lambda m: m[:, :1]), "margin"),
@@ -271,34 +280,37 @@ SHAPES = [
     reported("dense output of a boundary for one function", "boundary.h5", dataset("dense_output", lambda d: d[:, :1]),
              "dense_output"),
     reported("lengths of a boundary for one step", "boundary.h5", dataset("step_length", lambda h: h[:1]), "dense_output"),
-    reported("extents of a boundary in a row too short", "boundary.h5", dataset("curve_extent", lambda e: e.ravel()[:3]), "curve"),
+    reported("extents of a boundary in a row too short", "boundary.h5", dataset("curve_extent", lambda e: e.ravel()[:3]),
+             "curve"),
     reported("names of curves missing", "boundary.h5", dataset("curve_kind", lambda k: k[:0]), "curve"),
     reported("errors of a study for one run", "study.h5", dataset("error", lambda e: e[:1]), "error"),
-    reported("methods of a study for one run", "study.h5", dataset("method", lambda m: m[:1]), "does not fit the other datasets"),
+    reported("methods of a study for one run", "study.h5", dataset("method", lambda m: m[:1]),
+             "does not fit the other datasets"),
 ]
 
 NUMBERS = [
-    loci("parameters as texts", dataset("omega", lambda p: p.astype("S")), "omega"),
-    loci("eigenvalues as real numbers", dataset("eigenvalue", np.real), "eigenvalue"),
-    loci("eigenvalues as texts", dataset("eigenvalue", lambda s: s.astype("S")), "eigenvalue"),
-    loci("lengths as complex numbers", dataset("step_length", lambda h: h.astype(complex)), "step_length"),
-    loci("names of modes as numbers", dataset("mode", lambda m: np.arange(len(m))), "mode"),
-    loci("coordinates as numbers", dataset("coordinate", lambda c: np.arange(len(c))), "coordinate"),
-    loci("events as numbers", dataset("events", lambda e: np.arange(len(e))), "events"),
-    loci("blocks as texts", dataset("dense_block", lambda b: b.astype("S")), "dense_block"),
-    loci("group in place of eigenvalues", as_group("eigenvalue"), "eigenvalue"),
-    loci("group in place of the parameter", as_group("omega"), "omega"),
-    loci("nan in the dense output", entry("dense_output", (0, 0, 0, 0), np.nan), "dense_output"),
-    loci("infinity in the dense output", entry("dense_output", (1, 1, 1, 1), np.inf), "dense_output"),
-    loci("nan among the parameters", entry("omega", 3, np.nan), "omega"),
-    loci("nan among the lengths", entry("step_length", 3, np.nan), "step_length"),
-    loci("nan in the parameter of a step", entry("step_parameter", (3, 0, 0), np.nan), "step_parameter"),
-    loci("mode in a block that does not exist", entry("mode_block", (0, 0), 99), "mode_block"),
-    loci("mode in a negative block", entry("mode_block", (0, 0), -7), "mode_block"),
-    loci("mode in a block without functions", entry("mode_block", (0, slice(None)), 0), "dense_"),
-    loci("direction of an event that is none", entry("event_direction", 0, 5), "event_direction"),
-    loci("event without its commas", dataset("events", lambda e: np.array([b"flutter"] * len(e), dtype=object)), "events"),
-    loci("range of a mode that does not exist", entry("stable_mode", (0, 0), 99), "stable_mode"),
+    inside_loci("parameters as texts", dataset("omega", lambda p: p.astype("S")), "omega"),
+    inside_loci("eigenvalues as real numbers", dataset("eigenvalue", np.real), "eigenvalue"),
+    inside_loci("eigenvalues as texts", dataset("eigenvalue", lambda s: s.astype("S")), "eigenvalue"),
+    inside_loci("lengths as complex numbers", dataset("step_length", lambda h: h.astype(complex)), "step_length"),
+    inside_loci("names of modes as numbers", dataset("mode", lambda m: np.arange(len(m))), "mode"),
+    inside_loci("coordinates as numbers", dataset("coordinate", lambda c: np.arange(len(c))), "coordinate"),
+    inside_loci("events as numbers", dataset("events", lambda e: np.arange(len(e))), "events"),
+    inside_loci("blocks as texts", dataset("dense_block", lambda b: b.astype("S")), "dense_block"),
+    inside_loci("group in place of eigenvalues", as_group("eigenvalue"), "eigenvalue"),
+    inside_loci("group in place of the parameter", as_group("omega"), "omega"),
+    inside_loci("nan in the dense output", entry("dense_output", (0, 0, 0, 0), np.nan), "dense_output"),
+    inside_loci("infinity in the dense output", entry("dense_output", (1, 1, 1, 1), np.inf), "dense_output"),
+    inside_loci("nan among the parameters", entry("omega", 3, np.nan), "omega"),
+    inside_loci("nan among the lengths", entry("step_length", 3, np.nan), "step_length"),
+    inside_loci("nan in the parameter of a step", entry("step_parameter", (3, 0, 0), np.nan), "step_parameter"),
+    inside_loci("mode in a block that does not exist", entry("mode_block", (0, 0), 99), "mode_block"),
+    inside_loci("mode in a negative block", entry("mode_block", (0, 0), -7), "mode_block"),
+    inside_loci("mode in a block without functions", entry("mode_block", (0, slice(None)), 0), "dense_"),
+    inside_loci("direction of an event that is none", entry("event_direction", 0, 5), "event_direction"),
+    inside_loci("event without its commas", dataset("events", lambda e: np.array([b"flutter"] * len(e), dtype=object)),
+                "events"),
+    inside_loci("range of a mode that does not exist", entry("stable_mode", (0, 0), 99), "stable_mode"),
 ]
 
 STATES = [
@@ -340,5 +352,5 @@ def names_of_datasets():
     return names
 
 
-EACH_DATASET = [loci(f"file without {name}", without(name), name, commands=[report] if name in FOR_PAGES else ALL)
+EACH_DATASET = [loci(f"file without {name}", without(name), name, commands=[report] if name in FOR_PAGES else [info, report])
                 for name in names_of_datasets() if name not in NOT_READ]

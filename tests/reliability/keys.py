@@ -27,11 +27,16 @@ KINDS = [
     (r"name of a body", '"blade"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a joint", '"hinge"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"axis", '"x"', ("1", "[1, 0, 0]"), "a text"),
-    (r"\[x, y, z\].*", "[1, 0, 0]", ("1", '"x"', "[1, 2]", "[1, 2, 3, 4]", "{}"), "three numbers or expressions [x, y, z]"),
+    (r"\[x, y, z\].*", "[1, 0, 0]", ('"x"', "[1, 2]", "{}"), "three numbers or expressions [x, y, z]"),
     (r"2 x 2.*", "[[1, 0], [0, 1]]", ("1", "true", "[1, 2]", "[[1, 2]]"), "expected"),
     (r"{.*", None, ("1", "true", "[]"), "a table"),
-    (r"", "0.5", ("true", "[1]", "{}", '"1 +"', '"unheard_of"'), ""),  # a number, its unit being what the reference says
+    (r"", "0.5", ("true", "[1]", '"1 +"'), ""),  # a number, its unit being what the reference says
 ]
+
+# What the wrong values are called in the names of rows.
+WORDS = {"1": "one", "true": "true", "false": "false", "[]": "an empty list", "{}": "an empty table", '"x"': "a text",
+         '"1 +"': "half an expression", "[1]": "a list of one", "[1, 2]": "a list of two", "[0, 0, 0]": "a fixed place",
+         "[0, 0, 1]": "a direction", "[1, 0, 0]": "a vector", "[[1, 2]]": "one row"}
 
 # Keys that cannot be given at will: they depend on others.
 DEPENDENT = {"torsional_spring about", "torsional_damper about", "body inertia", "body x_axis", "body y_axis", "body z_axis"}
@@ -83,7 +88,7 @@ def rows_of(heading):
         _, _, wrong, expected = kind_of(unit)
         for value in wrong:
             bad = {**good, key: f"{PLACE}{key} = {value}"}
-            yield f"{name} with {key} being {value}", scene(heading, bad), (f"{where} {key}: ", expected)
+            yield f"{name} with {key} being {WORDS[value]}", scene(heading, bad), (f"{where} {key}: ", expected)
     unknown = {**good, "": f"{PLACE}nonsense_of_mine = 1"}
     yield f"{name} with a key of its own", scene(heading, unknown), (f"{where} nonsense_of_mine: unknown key; known: ",)
 

@@ -132,7 +132,8 @@ NUMBERS = [
     not_finite("division by a difference that vanishes", "1 / (drag - 2)", "inf"),
     not_finite("division by zero at the start", "1 / (omega - 100)", "inf"),
     not_finite("division by zero at the end", "1 / (omega - 5)", "inf", " where the trace ends"),
-    not_finite("root that is not real within the range", "sqrt((omega - 30)*(omega - 60))", "nan", " within the range of the trace"),
+    not_finite("root that is not real within the range", "sqrt((omega - 30)*(omega - 60))", "nan",
+               " within the range of the trace"),
     not_finite("logarithm of zero", "log(0)", "-inf"),
     not_finite("logarithm of a negative number", "log(-drag)", "nan"),
     not_finite("root of a negative number", "sqrt(-1)", "nan"),
@@ -141,7 +142,8 @@ NUMBERS = [
     not_finite("overflow of an exponential", "exp(1000)", "inf"),
     not_finite("overflow of a product", "1e200 * 1e200", "inf"),
     not_finite("overflow of a power", "omega^200", "inf"),
-    blade("nan as a coefficient", 'coefficient = "drag"', "§coefficient = nan", "[[drag]] 1 coefficient: expected a finite number"),
+    blade("nan as a coefficient", 'coefficient = "drag"', "§coefficient = nan",
+          "[[drag]] 1 coefficient: expected a finite number"),
     blade("infinite mass", 'mass = "mass"', "§mass = inf", "[[point]] 1 mass: expected a finite number"),
     blade("infinite coordinate", '["1 + length", 0, 0]', '["1 + length", 0, -inf]',
           "[[point]] 1 position: expected a finite number") + (("position =", "§position ="),),
@@ -151,7 +153,8 @@ NUMBERS = [
             "[[body]] 2 position:", "finite"),
     blade("nan as a parameter", "drag   = 2.0", "§drag   = nan", "[parameters] drag: expected a finite number"),
     blade("infinite parameter in a table", "value = 40.0", "§value = -inf", "[parameters] omega: expected a finite number"),
-    blade("division by zero in a parameter", "drag   = 2.0", 'drag   = "1 / 0"', "[[drag]] 1 coefficient: is not a finite number; found inf")
+    blade("division by zero in a parameter", "drag   = 2.0", 'drag   = "1 / 0"',
+          "[[drag]] 1 coefficient: is not a finite number; found inf")
     + (("coefficient =", "§coefficient ="),),
     blade("parameter that overflows", "drag   = 2.0", 'drag   = "exp(mass * mass)"',
           "[[drag]] 1 coefficient: is not a finite number; found inf") + (("coefficient =", "§coefficient ="),),
@@ -243,7 +246,8 @@ TRACE = [
     option("branches with a gap", 'branch = "1,,2"', "[trace] branch: expected whole numbers separated by commas"),
     option("empty list of branches", 'branch = ""', "[trace] branch:", "expression ends"),
     option("branch out of range in a list", 'branch = "1, 2, 7"', "[trace] branch: must be 1, 2 or 3; found 7"),
-    option("two faults at a time", "order = 7\nmax_nodes = 0", "[trace] order: must lie between 1 and 4", "max_nodes: must be"),
+    option("two faults at a time", "order = 7\nmax_nodes = 0", "[trace] order: must lie between 1 and 4",
+           "max_nodes: must be"),
     option("effects to leave out with a gap", 'without = "drag,,rod"', "[trace] without: expected names separated by commas"),
     option("effect to leave out that is none", 'without = "drg"', "[trace] without: 'drg' is no effect",
            "did you mean 'drag'?"),
@@ -253,7 +257,8 @@ TRACE = [
     blade("beginning equal to the end by an expression", "to = 5.0", '§to = "2 * mass"', "[trace] to: equals from (100)"),
     blade("traced parameter that is a point", 'parameter = "omega"', '§parameter = "blade"',
           "[trace] parameter: no parameter is called 'blade'", "known: omega, mass, length, drag"),
-    blade("scene without a trace", '[trace]\nparameter = "omega"\nfrom = 100.0\nto = 5.0', "", "[trace] from: is missing", "--from"),
+    blade("scene without a trace", '[trace]\nparameter = "omega"\nfrom = 100.0\nto = 5.0', "", "[trace] from: is missing",
+          "--from"),
 ]
 
 EVENTS = [
@@ -269,7 +274,8 @@ EVENTS = [
     events("excitation of an unknown parameter", 'harmonics = 1\n§excitation = "2 * omga"',
            "[events] excitation:", "unknown parameter 'omga'", "did you mean 'omega'?"),
     events("excitation that divides by zero", 'harmonics = 1\n§excitation = "omega / 0"', "[events] excitation:", "finite"),
-    blade("harmonics of a length", 'unit = "rad/s"', 'unit = "mm"', "[events] harmonics: of what frequency?", "'omega' is in mm",
+    blade("harmonics of a length", 'unit = "rad/s"', 'unit = "mm"', "[events] harmonics: of what frequency?",
+          "'omega' is in mm",
           "`excitation`") + (('[frame]', '[events]\n§harmonics = 1\n[frame]'),),
 ]
 
