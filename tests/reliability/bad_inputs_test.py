@@ -33,7 +33,7 @@ class BadScene(ProgramTest):
         matrices.write_files(self.folder, scene)
         before = self.contents()
         run = self.run_program("trace", "scene.toml", "-o", "loci.h5")
-        self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where}")
+        self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where} ")
         if where and self.explained:
             again = self.run_program("explain", "scene.toml")
             self.assertEqual((again.returncode, again.stdout, again.stderr), (run.returncode, "", run.stderr))

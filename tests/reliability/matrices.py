@@ -126,6 +126,11 @@ def in_file(name, file, *fragments):
     return family(name, MATRICES, f'§file = "{file}"', "[matrix_family] file:", *fragments)
 
 
+def unfit(name, file, *fragments):
+    """Matrices in a file that are none of a family: the place is that of the family."""
+    return family(name, "[matrix_family]\n" + MATRICES, f'§[matrix_family]\nfile = "{file}"', "[matrix_family]", *fragments)
+
+
 def unreadable(name, file, *fragments):
     """The same, the message having the name of the file."""
     return in_file(name, file, file, *fragments)
@@ -205,7 +210,7 @@ INLINE = [
            '[[§point]]\nname = "x"\nmass = 1\nposition = [0, 0, 0]\n\n[matrix_family]',
            "point: unknown key in a scene with [matrix_family]"),
     family("family that does not depend on the parameter", K, "K = [[[1, 0], [0, 2]]]",
-           "nothing in the scene uses this parameter"),
+           "[parameters] p: nothing in the scene uses this parameter") + (("parameter =", "§parameter ="),),
     family("parameter of a family that is no name", '"p"', '"2p"', "2p") + (("parameter =", "§parameter ="),),
     family("unused parameter beside a family", "[trace]", "[parameters]\n§b = 1\n\n[trace]",
            "[parameters] b: nothing in the scene uses this parameter"),
@@ -227,19 +232,17 @@ HDF5 = [
     unreadable("file without M", "no_mass.h5", "/M/0"),
     in_file("matrix of three dimensions", "cube.h5", "dataset /M/0: expected a matrix"),
     in_file("matrix of no dimensions", "number.h5", "dataset /M/0: expected a matrix"),
-    family("matrix in a file that is not square", MATRICES, 'file = "wide.h5"', "[matrix_family] M: is 2 x 3"),
-    family("matrices in a file of different size", MATRICES, 'file = "large.h5"', "[matrix_family] K: is 3 x 3, M is 2 x 2"),
-    family("damping in a file of another size", MATRICES, 'file = "damping.h5"', "[matrix_family] C: is 3 x 3, M is 2 x 2"),
-    family("constraints in a file of another size", MATRICES, 'file = "constraints.h5"',
-           "[matrix_family] A: is 1 x 3, M is 2 x 2"),
-    family("constraints in a file of other rows", MATRICES, 'file = "constraints_of_powers.h5"',
-           "[matrix_family] A: is 2 x 2"),
-    family("matrix in a file without rows", MATRICES, 'file = "no_rows.h5"', "[matrix_family] M: has 0 rows"),
+    unfit("matrix in a file that is not square", "wide.h5", "M: is 2 x 3"),
+    unfit("matrices in a file of different size", "large.h5", "K: is 3 x 3, M is 2 x 2"),
+    unfit("damping in a file of another size", "damping.h5", "C: is 3 x 3, M is 2 x 2"),
+    unfit("constraints in a file of another size", "constraints.h5", "A: is 1 x 3, M is 2 x 2"),
+    unfit("constraints in a file of other rows", "constraints_of_powers.h5", "A: is 2 x 2"),
+    unfit("matrix in a file without rows", "no_rows.h5", "M: has 0 rows"),
     unreadable("texts in place of numbers", "texts.h5", "/K/0"),
     unreadable("complex matrix", "complex.h5", "/K/0"),
     unreadable("records in place of numbers", "records.h5", "/K/0"),
-    family("nan in a file", MATRICES, 'file = "nan.h5"', "[matrix_family] K: has an entry that is not finite"),
-    family("infinity in a file", MATRICES, 'file = "infinite.h5"', "[matrix_family] M: has an entry that is not finite"),
+    unfit("nan in a file", "nan.h5", "K: has an entry that is not finite"),
+    unfit("infinity in a file", "infinite.h5", "M: has an entry that is not finite"),
     in_file("power in letters", "power.h5", "dataset /K/two: expected a power from 0 to"),
     in_file("negative power", "negative.h5", "dataset /K/-1: expected a power from 0 to"),
     in_file("power beyond all use", "high.h5", "dataset /K/10000: expected a power from 0 to"),

@@ -1,6 +1,7 @@
 """Scenes whose tables and keys are wrong: TOML, names, kinds of values, what is missing."""
 
 from good import BLADE, blade, blade_with, family
+from program import PLACE
 
 UNKNOWN_NAMES = [
     blade_with("unknown key of an element", '[[fixed]]\npoint = "blade"\ncoordinate = "y"\n§valu = 1',
@@ -89,8 +90,6 @@ MISSING_KEYS = [
     ("no point", BLADE[:BLADE.index("[frame]")], ("at least one [[point]]",)),
 ]
 
-DEEP = "[" * 300 + "]" * 300
-
 TOML = [
     blade("key without a value", "mass   = 50.0", "mass   =§", "not valid TOML", "value"),
     blade("value without a key", "mass   = 50.0", "§= 50.0", "not valid TOML", "key"),
@@ -129,11 +128,12 @@ TOML = [
     blade("null character", 'title = "Blade"', 'title = "Bl§\0ade"', "not valid TOML", "control character"),
     blade("control character in a text", 'title = "Blade"', 'title = "Bl§\x01ade"', "not valid TOML"),
     blade("bytes that are no UTF-8", 'title = "Blade"', 'title = "B§l\udcffade"', "not valid TOML", "utf-8"),
-    ("scene in UTF-16", BLADE.encode("utf-16").decode("utf-8", "surrogateescape"), ("scene.toml:1:1: not valid TOML",)),
+    ("scene in UTF-16", PLACE + BLADE.encode("utf-16").decode("utf-8", "surrogateescape"),
+     ("not valid TOML", "utf-8")),
     blade("list of tables after a table", "[[rod]]", "[rod]\nfrom = [0, 0, 0]\n\n§[[rod]]", "not valid TOML", "rod"),
     blade("table below a number", "mass   = 50.0", "mass   = 50.0\n§mass.unit = 'kg'", "not valid TOML", "dotted key"),
-    blade("arrays in arrays without end", 'title = "Blade"', f"title = {DEEP}", "not valid TOML", "nested"),
-    blade("key of very many parts", 'title = "Blade"', f"x{'.x' * 40} = 1", "a key of more than 32 parts"),
+    blade("arrays in arrays without end", 'title = "Blade"', f"title = {'[' * 256}§{'[' * 44}", "not valid TOML", "nested"),
+    blade("key of very many parts", 'title = "Blade"', f"§x{'.x' * 40} = 1", "a key of more than 32 parts"),
     blade("comment that is no comment", "[frame]", "§// the frame\n[frame]", "not valid TOML"),
     blade("keys parted by semicolons", "mass   = 50.0", "mass   = 50.0§; spare = 1", "not valid TOML"),
     blade("colon in place of an equals sign", "mass   = 50.0", "mass§: 50.0", "not valid TOML", "'='"),
