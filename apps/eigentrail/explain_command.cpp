@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
 #include "scene_in_words.hpp"
 
@@ -92,8 +93,6 @@ void print_influences(const Influences& influences, const std::string& at) {
 
 void explain_sensitivity(const Scene& scene, const ExplainArguments& arguments) {
   const TraceSetup setup = prepare_trace(scene, {arguments.options.begin(), arguments.options.end()}, true);
-  if (is_matrix_family(scene))
-    throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
   const Influences influences = effect_influences(setup);
   if (!influences.fault.empty()) throw InputError(arguments.scene + ": " + influences.fault);
   print_influences(influences, setup.options.parameter + " = " + exact_text(setup.options.from));
@@ -170,6 +169,9 @@ int run_explain(const ExplainArguments& arguments) {
   const TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   const auto& [scene, options, model] = setup;
+  check_parameter_name(scene, options.parameter);
+  if (arguments.sensitivity && is_matrix_family(scene))
+    throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
 

@@ -32,6 +32,20 @@ void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
   }
 }
 
+/// CLI11 takes an empty text for zero.
+void reject_empty_numbers(CLI::App& program) {
+  const auto check = [](const std::string& text) {
+    return text.empty() ? std::string("expected a number, found an empty text") : std::string();
+  };
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    for (CLI::Option* option : command->get_options()) {
+      const std::string type = option->get_type_name();
+      const bool number = type.starts_with("FLOAT") || type.starts_with("INT") || type.starts_with("UINT");
+      if (number) option->check(check);
+    }
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
                    "eigentrail");
@@ -52,6 +66,7 @@ int run(int argc, char** argv) {
   add_accuracy(program, exit_code);
   add_report(program, exit_code);
   add_reference(program, exit_code);
+  reject_empty_numbers(program);
   reject_unknown_command(program, argc, argv);
   try {
     program.parse(argc, argv);
@@ -59,7 +74,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "eigentrail: %s (see eigentrail --help)\n", error.what());
+    std::fprintf(stderr, "eigentrail: %s (see eigentrail --help)\n", printable(error.what()).c_str());
     return bad_input;
   }
 }
@@ -74,6 +89,6 @@ int main(int argc, char** argv) try {
   std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());
   return eigentrail::app::bad_input;
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "eigentrail: %s\n", error.what());
+  std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());
   return eigentrail::app::numbers_failed;
 }

@@ -256,6 +256,8 @@ class TraceRun {
 };
 
 int run_trace(const TraceArguments& arguments) {
+  if (std::isnan(arguments.save_every))
+    throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   setup.options.threads = arguments.threads > 0

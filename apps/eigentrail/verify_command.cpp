@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cstdio>
 #include <memory>
 
@@ -13,6 +14,14 @@ struct VerifyArguments {
   std::string file;
   VerifyOptions options;
 };
+
+/// CLI11 would take what is below zero or beyond the largest number for others.
+std::string seed_fault(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool whole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+  return whole ? "" : "expected a whole number from 0 to 18446744073709551615, found " + text;
+}
 
 int run_verify(const VerifyArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
@@ -43,7 +52,9 @@ void add_verify(CLI::App& program, int& exit_code) {
   command->add_option("--samples", arguments->options.samples, "number of random parameters")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "seed of their choice")->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "seed of their choice")
+      ->check(seed_fault)
+      ->capture_default_str();
   command->footer(
       "Exits with 1 when an eigenvalue is off by more than the file's tolerance.\n\n"
       "Example:\n  eigentrail verify blade.h5 --samples 1000");

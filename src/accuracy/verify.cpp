@@ -100,11 +100,21 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   return spectrum;
 }
 
+/// What is wrong with the scene and the options is a fault of the file, whatever the scene's own file says
+/// now.
+TraceSetup setup_of(const LociFile& loci) {
+  try {
+    return rebuild(loci);
+  } catch (const InputError& error) {
+    throw InputError(loci.path + ": cannot be solved afresh: " + error.what());
+  }
+}
+
 }  // namespace
 
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   if (loci.n_nodes() == 0) throw InputError(loci.path + ": holds no points");
-  const TraceSetup setup = rebuild(loci);
+  const TraceSetup setup = setup_of(loci);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.steady.relax = false;  // another equilibrium than the stored one proves nothing
   const double reference = std::stod(loci.attribute("reference"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -75,6 +76,7 @@ class OptionReader {
     if (is_text(key) && table_.text(key) == word_for_absent(key)) {
       value.reset();
     } else {
+      reject_other_word(key);
       value = whole_number(key);
     }
   }
@@ -86,6 +88,15 @@ class OptionReader {
     } catch (const InputError&) {
       return false;
     }
+  }
+
+  /// A word that is no parameter was meant to be the one that may stand for the number.
+  void reject_other_word(const char* key) {
+    if (!is_text(key)) return;
+    const std::string text = table_.text(key);
+    const bool word = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c); });
+    if (word && !scene_.parameters.index(text))
+      table_.fail(key, "expected a whole number or \"" + word_for_absent(key) + "\", found \"" + text + "\"");
   }
 
   /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
@@ -187,6 +198,28 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   return faults;
 }
 
+namespace {
+
+/// A frequency of excitation is a number at both ends of the range.
+void check_excitation(const Scene& scene, const TraceOptions& options) {
+  const auto traced = scene.parameters.index(options.parameter);
+  if (!options.events.excitation || !traced) return;
+  for (const double p : {options.from, options.to}) {
+    Vector values = scene.parameters.declared_values();
+    values[*traced] = p;
+    const std::span<double> si(values.data(), static_cast<std::size_t>(values.size()));
+    scene.parameters.to_si(si);
+    const double frequency = options.events.excitation->evaluate(std::span<const double>(si));
+    if (std::isfinite(frequency)) continue;
+    const Value* given = tables(scene, "events").front()->find("excitation");
+    throw scene_error(scene, given == nullptr ? SourceLocation{} : given->where,
+                      "[events] excitation: is not a finite number; found " + exact_text(frequency) +
+                          " where " + options.parameter + " = " + exact_text(p));
+  }
+}
+
+}  // namespace
+
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used) {
   const Table merged = merged_table(scene, overrides);
   TableReader table(scene, merged, "[trace]", used);
@@ -199,7 +232,10 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   }
   table.finish();
   const std::vector<OptionFault> faults = find_faults(options, scene.parameters);
-  if (faults.empty()) return options;
+  if (faults.empty()) {
+    check_excitation(scene, options);
+    return options;
+  }
   std::string message = faults.front().message;
   for (std::size_t i = 1; i < faults.size(); ++i) message += "; " + faults[i].key + ": " + faults[i].message;
   table.fail(faults.front().key, message);

@@ -1,6 +1,7 @@
 #include "eigentrail/core/errors.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 namespace eigentrail {
@@ -25,6 +26,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// A name of which no letter is left is another name, not a misprint.
+bool resembles(std::string_view name, std::string_view candidate, std::size_t distance) {
+  if (distance < std::max(name.size(), candidate.size())) return true;
+  const auto same_letter = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::equal(name.begin(), name.end(), candidate.begin(), candidate.end(), same_letter);
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
@@ -36,7 +46,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     if (std::max(candidate.size(), name.size()) - std::min(candidate.size(), name.size()) > limit) continue;
     if (name.size() > longest_misprint) continue;
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best) {
+    if (distance < best && resembles(name, candidate, distance)) {
       best = distance;
       nearest = candidate;
     }

@@ -3,10 +3,30 @@
 #include <algorithm>
 
 #include "eigentrail/core/text.hpp"
+#include "model/draft.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
 
 namespace eigentrail {
+namespace {
+
+/// Entries of the matrices that depend on parameters are numbers all along the range.
+void check_entries(const Scene& scene, const ModelRequest& request) {
+  Draft draft(scene, request);
+  TableReader table = draft.reader(*tables(scene, "matrix_family").front(), "[matrix_family]");
+  for (const char* key : {"M", "C", "K", "A"}) {
+    if (!table.has(key)) continue;
+    for (const auto& matrix : table.matrices(key)) {
+      for (const auto& row : matrix) {
+        for (const Expression& entry : row) {
+          if (!entry.is_constant()) draft.check_range(table, key, entry, Range::any);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
 
 void check_top_level(const Scene& scene) {
   std::vector<std::string> known = {"title", "parameters", "trace", "events", "matrix_family"};
@@ -32,10 +52,22 @@ std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& reque
   check_top_level(scene);
   if (!is_matrix_family(scene)) return read_multibody(scene, request);
   if (!request.without.empty()) {
-    throw InputError(scene.path + ": '" + printable(request.without.front()) +
-                     "' cannot be left out: a family of matrices has no effects");
+    throw without_error(scene, request.without.front(),
+                        "cannot be left out: a family of matrices has no effects");
   }
-  return read_matrix_family(scene, request.used_elsewhere);
+  std::unique_ptr<Model> model = read_matrix_family(scene, request.used_elsewhere);
+  check_entries(scene, request);
+  return model;
+}
+
+InputError without_error(const Scene& scene, const std::string& effect, const std::string& message) {
+  SourceLocation where;
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* without = trace->find("without");
+    const auto* names = without == nullptr ? nullptr : std::get_if<std::string>(&without->data);
+    if (names != nullptr && names->find(effect) != std::string::npos) where = without->where;
+  }
+  return scene_error(scene, where, "[trace] without: '" + effect + "' " + message);
 }
 
 }  // namespace eigentrail

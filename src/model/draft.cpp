@@ -121,7 +121,9 @@ Place Draft::read_place(TableReader& table, const std::string& key, Carrier* car
   const NameOrPosition value = table.name_or_position(key);
   if (const auto* name = std::get_if<std::string>(&value)) return named_place(table, key, *name, carrier);
   if (carrier != nullptr) *carrier = {};
-  return fixed_place(std::get<ExpressionVector>(value));
+  const ExpressionVector& at = std::get<ExpressionVector>(value);
+  check_range(table, key, at, Range::any);
+  return fixed_place(at);
 }
 
 Place Draft::read_moving_place(TableReader& table, const std::string& key, Carrier* carrier) {
@@ -204,6 +206,16 @@ ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, 
   const ExpressionVector vector = otherwise && !table.has(key) ? *otherwise : table.vector(key);
   check_range(table, key, vector, range);
   return vector;
+}
+
+ExpressionVector Draft::read_guess(TableReader& table, const std::string& key) const {
+  const ExpressionVector guess = table.vector(key);
+  for (const Expression& e : guess) {
+    const std::vector<double> values = check_values(e);
+    if (!values.empty() && !std::isfinite(values[0]))
+      table.fail(key, "is not a finite number; found " + exact_text(values[0]) + where_on_trace(0));
+  }
+  return guess;
 }
 
 std::vector<double> Draft::check_values(const Expression& expression) const {

@@ -93,6 +93,8 @@ struct Draft {
                          std::optional<double> otherwise = std::nullopt) const;
   ExpressionVector read_vector(TableReader& table, const std::string& key, Range range,
                                std::optional<ExpressionVector> otherwise = std::nullopt) const;
+  /// A position to start from: finite where the trace begins, which is all that is asked of it.
+  ExpressionVector read_guess(TableReader& table, const std::string& key) const;
 
   // Checks at the points of the trace that the request lists.
 

@@ -195,7 +195,7 @@ void read_bodies(Draft& draft) {
     const ExpressionVector centre = draft.read_vector(table, "centre", Range::any, ExpressionVector{});
     const ExpressionMatrix J = read_inertia(draft, table);
     check_inertia(draft, table, J);
-    body.position = table.vector("position");
+    body.position = draft.read_guess(table, "position");
     body.rotation = read_orientation(draft, table);
     read_markers(draft, table, body, centre);
     table.finish();

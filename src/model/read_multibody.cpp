@@ -164,7 +164,7 @@ void read_points(Draft& draft) {
       table.fail("name", "another point is called '" + name + "' already");
     }
     const Expression mass = draft.read_number(table, "mass", Range::non_negative);
-    for (const Expression& e : table.vector("position")) draft.guess.push_back(e);
+    for (const Expression& e : draft.read_guess(table, "position")) draft.guess.push_back(e);
     table.finish();
     draft.points.push_back(name);
     draft.mass_names.push_back(name);
@@ -226,9 +226,9 @@ void check_without(const Draft& draft) {
   });
   for (const std::string& name : draft.request.without) {
     if (std::find(can.begin(), can.end(), name) != can.end()) continue;
-    throw InputError(draft.scene.path + ": '" + printable(name) +
-                     "' is no effect of this scene that can be left out (inertia and constraints cannot); " +
-                     suggestion(name, can));
+    throw without_error(draft.scene, name,
+                        "is no effect of this scene that can be left out (inertia and constraints cannot); " +
+                            suggestion(name, can));
   }
 }
 

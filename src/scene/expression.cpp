@@ -61,7 +61,7 @@ class ExpressionParser {
     if (text_.size() > max_length)
       fail("expression longer than " + std::to_string(max_length) + " characters");
     sum();
-    if (!at_end()) fail(std::string("unexpected '") + text_[at_] + "'");
+    if (!at_end()) fail("unexpected '" + character() + "'");
     auto& used = result_.parameters_;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -152,14 +152,23 @@ class ExpressionParser {
     } else if (starts_name(c)) {
       name();
     } else {
-      fail(std::string("unexpected '") + c + "' where a number, a parameter or '(' was expected");
+      fail("unexpected '" + character() + "' where a number, a parameter or '(' was expected");
     }
   }
 
   void parenthesis() {
     const std::size_t opened = at_++;
     sum();
-    if (!accept(')')) throw ExpressionError("this '(' is never closed", opened);
+    if (accept(')')) return;
+    if (!at_end()) fail("unexpected '" + character() + "' where ')' was expected");
+    throw ExpressionError("this '(' is never closed", opened);
+  }
+
+  /// The character at hand, all bytes of it where it is not ASCII.
+  std::string character() const {
+    std::size_t end = at_ + 1;
+    while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0U) == 0x80U) ++end;
+    return std::string(text_.substr(at_, end - at_));
   }
 
   void number() {

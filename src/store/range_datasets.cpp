@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "eigentrail/core/errors.hpp"
-
 namespace eigentrail {
 namespace {
 
@@ -102,7 +100,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   for (const RangeDataset& dataset : datasets) {
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
     if (file.shape(dataset.name) != expected)
-      throw InputError(std::string(dataset.name) + " does not fit the other datasets");
+      throw Hdf5Error(std::string(dataset.name) + " does not fit the other datasets");
   }
   const auto from = file.read_real("stable_from");
   const auto to = file.read_real("stable_to");
@@ -112,7 +110,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   const auto modes = file.read_integers("stable_mode");
   for (const std::int64_t mode : modes) {
     if (mode > static_cast<std::int64_t>(n_modes))
-      throw InputError("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
+      throw Hdf5Error("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
   }
   const auto least = file.read_real("stable_least_margin");
   const auto largest = file.read_real("stable_largest_margin");

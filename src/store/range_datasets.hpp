@@ -12,7 +12,7 @@ namespace eigentrail {
 void write_stable_ranges(Hdf5File& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges);
 
-/// Reads them back; empty when the file has none. Throws InputError when they do not fit each other.
+/// Reads them back; empty when the file has none. Throws Hdf5Error when they do not fit each other.
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes);
 
 /// Whether a dataset of this name is one of them.

@@ -166,7 +166,7 @@ class ProgramTest(unittest.TestCase):
 
     def write(self, name, text):
         path = self.folder / name
-        path.write_text(text, encoding="utf-8")
+        path.write_text(text, encoding="utf-8", errors="surrogateescape")
         return path
 
     def write_marked(self, scene, edits):

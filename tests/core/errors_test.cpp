@@ -29,6 +29,7 @@ TEST(NearestName, IsEmptyWhenNothingIsClose) {
 
 TEST(NearestName, AllowsMoreEditsInLongerNames) {
   EXPECT_EQ(nearest_name("xy", {"ab"}), "");
+  EXPECT_EQ(nearest_name("K", {"M"}), "") << "no letter is left";
   EXPECT_EQ(nearest_name("stixxess", {"stiffness"}), "stiffness") << "three edits of eight letters";
   EXPECT_EQ(nearest_name("stixxxss", {"stiffness"}), "") << "four edits are too many";
 }

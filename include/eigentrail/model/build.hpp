@@ -34,6 +34,9 @@ std::string strength_parameter(const std::string& effect);
 /// so that a misspelt table is not reported as a missing one.
 void check_top_level(const Scene& scene);
 
+/// An effect that cannot be left out, with the place where the scene names it; the command line may, too.
+InputError without_error(const Scene& scene, const std::string& effect, const std::string& message);
+
 /// Whether the scene gives matrices instead of elements.
 bool is_matrix_family(const Scene& scene);
 

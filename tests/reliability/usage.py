@@ -1,0 +1,382 @@
+"""Command lines that are wrong. They run in a folder with a good scene and its results, of every kind (files.MAKERS)."""
+
+import os
+import unittest
+
+from good import BLADE, TWO_SHORT_RODS
+from program import edited
+
+TRACE = ["trace", "scene.toml", "-o", "new.h5"]
+EXPLAIN = ["explain", "scene.toml"]
+EVAL = ["eval", "loci.h5"]
+VERIFY = ["verify", "loci.h5"]
+BOUNDARY = ["boundary", "column.toml", "-o", "new.h5"]
+MAP = ["map", "column.toml", "-o", "new.h5"]
+ACCURACY = ["accuracy", "scene.toml", "-o", "new.h5"]
+REPORT = ["report", "loci.h5"]
+SECOND = ["--second", "damping", "--from", "0.01", "--to", "1"]
+
+
+def write(name, text):
+    """Prepares the folder: one more file in it."""
+    return lambda folder: (folder / name).write_text(text)
+
+
+def link(name, to):
+    return lambda folder: (folder / name).symlink_to(to)
+
+
+def rewrite(path, text):
+    """The files are links, which others share."""
+    path.unlink()
+    path.write_text(text)
+
+
+def edit(name, old, new):
+    return lambda folder: rewrite(folder / name, edited((folder / name).read_text(), old, new))
+
+
+def as_anybody(prepare):
+    """Permissions bind everybody but root."""
+    def unless_root(folder):
+        if os.geteuid() == 0:
+            raise unittest.SkipTest("permissions do not bind root")
+        prepare(folder)
+    return unless_root
+
+
+def unreadable(name):
+    def prepare(folder):
+        rewrite(folder / name, "")
+        (folder / name).chmod(0)
+    return as_anybody(prepare)
+
+
+read_only_folder = as_anybody(lambda folder: (folder / "folder").chmod(0o555))
+
+
+def row(name, arguments, *fragments, prepare=None):
+    return (name, arguments, fragments) if prepare is None else (name, arguments, fragments, prepare)
+
+
+def option(command, name, flag, value, *fragments):
+    """A command with one option more, by which the message names it."""
+    key = flag.removeprefix("--").replace("-", "_")
+    place = f"scene.toml: [trace] {key}: " if command in (TRACE, EXPLAIN, ACCURACY) else flag
+    return row(f"{command[0]} with {name}", [*command, flag, value], place, *fragments)
+
+
+def by_parser(command, name, flag, value, *fragments):
+    """An option that the parser of the command line refuses."""
+    return row(f"{command[0]} with {name}", [*command, flag, value], flag, *fragments)
+
+
+def outputs(command, kind):
+    """What can be wrong with an output, for a command without its output."""
+    others = {"loci.h5", "map.h5", "boundary.h5", "study.h5", "page.html", "scene.toml"}
+    own = {"trace": "loci.h5", "map": "map.h5", "boundary": "boundary.h5", "accuracy": "study.h5",
+           "report": "page.html"}[command[0]]
+    given = f"{command[0]} to "
+    yield row(given + "an absent folder", [*command, "-o", "none/new"], "none/new: the folder none does not exist")
+    yield row(given + "a folder", [*command, "-o", "folder"], "folder: is a folder; give the name of a file")
+    yield row(given + "a folder by force", [*command, "-o", "folder", "--force"], "folder: is a folder")
+    yield row(given + "the folder itself", [*command, "-o", "."], ".: is a folder")
+    yield row(given + "a name below a file", [*command, "-o", "scene.toml/new"],
+              "scene.toml/new: the folder scene.toml does not exist")
+    yield row(given + "a name too long", [*command, "-o", "x" * 300], "x" * 300, "cannot be created")
+    yield row(given + "no name", [*command, "-o", ""], "--output")
+    yield row(given + "nothing", [*command, "-o"], "--output")
+    yield row(given + "a device by force", [*command, "-o", "/dev/null", "--force"], "/dev/null: is no readable " + kind)
+    yield row(given + "a result that exists", [*command, "-o", own], f"{own}: exists already", "--force")
+    yield row(given + "a link to a result that exists", [*command, "-o", "link"], "link: exists already",
+              prepare=link("link", own))
+    for other in sorted(others - {own}):
+        yield row(given + f"{other} by force", [*command, "-o", other, "--force"],
+                  f"{other}: is no readable {kind}; --force replaces nothing else")
+    yield row(given + "a folder that may not be written", [*command, "-o", "folder/new"], "folder/new: cannot be created",
+              prepare=read_only_folder)
+
+
+GENERAL = [
+    row("no command", [], "command"),
+    row("unknown command", ["trac"], "unknown command 'trac'", "did you mean 'trace'?"),
+    row("command in capitals", ["TRACE", "scene.toml"], "unknown command 'TRACE'"),
+    row("empty command", [""], "unknown command ''"),
+    row("command of two lines", ["tr\nace"], "unknown command 'tr ace'"),
+    row("option in place of a command", ["--tolerance", "1e-6"], "command"),
+    row("scene in place of a command", ["scene.toml"], "unknown command 'scene.toml'"),
+    row("option of two lines", [*TRACE, "--tole\nrance"], "--tole"),
+    row("two commands", ["info", "events", "loci.h5"], "loci.h5"),
+]
+
+TRACES = [
+    row("unknown option", [*TRACE, "--tolerence", "1e-6"], "--tolerence"),
+    row("option with one dash", [*TRACE, "-tolerance", "1e-6"], "-t"),
+    row("no scene", ["trace", "-o", "new.h5"], "SCENE"),
+    row("two scenes", ["trace", "scene.toml", "column.toml", "-o", "new.h5"], "column.toml"),
+    row("no output", ["trace", "scene.toml"], "--output"),
+    row("two outputs", [*TRACE, "-o", "newer.h5"], "--output"),
+    row("scene that does not exist", ["trace", "none.toml", "-o", "new.h5"], "none.toml: ", "No such file"),
+    row("scene without a name", ["trace", "", "-o", "new.h5"], "cannot be read"),
+    row("scene that is a folder", ["trace", "folder", "-o", "new.h5"], "folder: "),
+    row("scene that is a loci file", ["trace", "loci.h5", "-o", "new.h5"], "loci.h5:1:1: "),
+    row("scene that is a page", ["trace", "page.html", "-o", "new.h5"], "page.html:1:1: not valid TOML"),
+    row("scene that is a device", ["trace", "/dev/null", "-o", "new.h5"], "/dev/null: "),
+    row("scene that is a link to itself", ["trace", "circle.toml", "-o", "new.h5"], "circle.toml: ",
+        prepare=link("circle.toml", "circle.toml")),
+    row("scene that may not be read", TRACE, "scene.toml: cannot be read", prepare=unreadable("scene.toml")),
+    row("output that is the scene", ["trace", "scene.toml", "-o", "scene.toml"], "scene.toml: exists already"),
+    row("output that is the scene by a way round", ["trace", "scene.toml", "-o", "./folder/../scene.toml", "--force"],
+        "scene.toml: is no readable loci file"),
+    row("failed trace over an old output", ["trace", "short.toml", "-o", "loci.h5", "--force"], "no equilibrium",
+        prepare=write("short.toml", TWO_SHORT_RODS)),
+    row("force and resume", [*TRACE, "--force", "--resume"], "--force", "--resume"),
+    row("resumption to a page", ["trace", "scene.toml", "-o", "page.html", "--resume"],
+        "page.html: is no readable loci file"),
+    row("resumption to an absent folder", ["trace", "scene.toml", "-o", "none/new.h5", "--resume"],
+        "the folder none does not exist"),
+    option(TRACE, "an order out of range", "--order", "9", "must lie between 1 and 4"),
+    option(TRACE, "an order in words", "--order", "cubic", 'expected a whole number or "auto", found "cubic"'),
+    option(TRACE, "half an order", "--order", "2.5", "expected a whole number, found 2.5"),
+    option(TRACE, "equal ends", "--to", "100", "equals from (100)"),
+    option(TRACE, "an end that is no number", "--to", "nan", "finite"),
+    option(TRACE, "an infinite beginning", "--from", "inf", "finite"),
+    option(TRACE, "an empty beginning", "--from", "", "expression ends"),
+    option(TRACE, "an end with a unit", "--to", "5 rad/s", "unexpected 'r'"),
+    option(TRACE, "an end with a decimal comma", "--to", "5,5", "unexpected ','"),
+    option(TRACE, "an end that is true", "--to", "true", "expected a number or an expression"),
+    option(TRACE, "a tolerance in words", "--tolerance", "tight", "unknown parameter 'tight'"),
+    option(TRACE, "a tolerance of one", "--tolerance", "1", "must lie between 1e-13 and 0.1; found 1"),
+    option(TRACE, "a negative tolerance", "--tolerance", "-1e-6", "must lie between 1e-13 and 0.1"),
+    option(TRACE, "no modes", "--modes", "0", "must be at least 1"),
+    option(TRACE, "modes in words", "--modes", "few", 'expected a whole number or "all", found "few"'),
+    option(TRACE, "a reference of zero", "--reference", "0", "must be positive"),
+    option(TRACE, "a first step backwards", "--first-step", "-1", "must be positive"),
+    option(TRACE, "a longest step of zero", "--max-step", "0", "must be positive"),
+    option(TRACE, "one point", "--max-nodes", "1", "must be at least 2"),
+    option(TRACE, "a branch out of range", "--branch", "9", "must be 1, 2 or 3; found 9"),
+    option(TRACE, "branches in words", "--branch", "left", "expected whole numbers separated by commas"),
+    option(TRACE, "an effect to leave out that is none", "--without", "magic", "'magic' is no effect", "known: "),
+    option(TRACE, "nothing to leave out", "--without", ",", "expected names separated by commas"),
+    option(TRACE, "an unknown parameter", "--parameter", "omga", "did you mean 'omega'?"),
+    option(TRACE, "a parameter without a name", "--parameter", "", "is missing"),
+    by_parser(TRACE, "negative threads", "--threads", "-1", "1024"),
+    by_parser(TRACE, "very many threads", "--threads", "5000", "1024"),
+    by_parser(TRACE, "threads in words", "--threads", "all", "all"),
+    by_parser(TRACE, "a negative time to lose", "--save-every", "-1", "-1"),
+    by_parser(TRACE, "a time to lose in words", "--save-every", "soon", "soon"),
+    by_parser(TRACE, "a time to lose that is no number", "--save-every", "nan", "nan"),
+    row("trace with an option without its value", [*TRACE, "--order"], "--order"),
+    row("trace with a value for a flag", [*TRACE, "--no-certify=perhaps"], "--no-certify"),
+    *outputs(["trace", "scene.toml"], "loci file"),
+]
+
+EXPLANATIONS = [
+    row("explain without a scene", ["explain"], "SCENE"),
+    row("explain of a missing scene", ["explain", "none.toml"], "none.toml: ", "No such file"),
+    row("explain of a folder", ["explain", "folder"], "folder: "),
+    row("explain of loci", ["explain", "loci.h5"], "loci.h5:1:1: "),
+    row("explain of a parameter named like a dataset", ["explain", "mode.toml"], "mode.toml:", "cannot be called 'mode'",
+        prepare=write("mode.toml", BLADE.replace("omega", "mode"))),
+    row("explain with a tolerance", [*EXPLAIN, "--tolerance", "1e-6"], "--tolerance"),
+    row("explain with an output", [*EXPLAIN, "-o", "new.h5"], "-o"),
+    option(EXPLAIN, "an order out of range", "--order", "0", "must lie between 1 and 4"),
+    option(EXPLAIN, "an unknown parameter", "--parameter", "speed", "known: "),
+    option(EXPLAIN, "a beginning in words", "--from", "slow", "unknown parameter 'slow'"),
+    option(EXPLAIN, "an effect to leave out that is none", "--without", "point", "'point' is no effect"),
+    row("sensitivity of a family", ["explain", "column.toml", "--sensitivity"], "column.toml: --sensitivity ranks effects"),
+]
+
+EVALUATIONS = [
+    row("eval without a file", ["eval", "--at", "50"], "FILE"),
+    row("eval of two files", ["eval", "loci.h5", "map.h5", "--at", "50"], "map.h5"),
+    row("eval above the range", [*EVAL, "--at", "101"], "loci.h5: omega = 101 lies outside", "5 ... 100"),
+    row("eval below the range", [*EVAL, "--at", "50", "4.9", "--csv"], "omega = 4.9 lies outside"),
+    row("eval at infinity", [*EVAL, "--at", "inf"], "inf"),
+    row("eval at nan", [*EVAL, "--at", "nan"], "nan"),
+    row("eval at no number", [*EVAL, "--at", "fast"], "--at", "fast"),
+    row("eval at a number beyond all", [*EVAL, "--at", "1e999"], "omega = inf lies outside"),
+    row("eval at a list with commas", [*EVAL, "--at", "50,60"], "--at", "50,60"),
+    row("eval at a number with its unit", [*EVAL, "--at", "50rpm"], "--at", "50rpm"),
+    row("eval at an empty text", [*EVAL, "--at", ""], "--at", "empty"),
+    row("eval without a place", EVAL, "--at"),
+    row("eval with a place without a value", [*EVAL, "--at"], "--at"),
+    row("eval as csv and json", [*EVAL, "--at", "50", "--csv", "--json"], "--csv", "--json"),
+    row("eval to a file", [*EVAL, "--at", "50", "-o", "new.csv"], "-o"),
+    row("events of no file", ["events"], "FILE"),
+    row("events at a place", ["events", "loci.h5", "--at", "50"], "--at"),
+    row("events as csv and json", ["events", "loci.h5", "--csv", "--json"], "--csv", "--json"),
+    row("events as sensitivities in json", ["events", "loci.h5", "--sensitivity", "--json"], "--sensitivity", "--json"),
+    row("events of a scene", ["events", "scene.toml"], "scene.toml: cannot be read"),
+    row("info of no file", ["info"], "FILE"),
+    row("info as json and scene", ["info", "loci.h5", "--json", "--scene"], "--json", "--scene"),
+    row("info as csv", ["info", "loci.h5", "--csv"], "--csv"),
+    row("info of a file that may not be read", ["info", "loci.h5"], "loci.h5: cannot be read", prepare=unreadable("loci.h5")),
+    row("verify of no file", ["verify"], "FILE"),
+    by_parser(VERIFY, "no samples", "--samples", "0", "1 to 1000000"),
+    by_parser(VERIFY, "a negative number of samples", "--samples", "-5", "1 to 1000000"),
+    by_parser(VERIFY, "half a sample", "--samples", "2.5", "2.5"),
+    by_parser(VERIFY, "samples without end", "--samples", "1000001", "1 to 1000000"),
+    by_parser(VERIFY, "samples in words", "--samples", "many", "many"),
+    by_parser(VERIFY, "a seed in words", "--seed", "luck", "luck"),
+    by_parser(VERIFY, "half a seed", "--seed", "1.5", "1.5"),
+    by_parser(VERIFY, "a negative seed", "--seed", "-1", "-1"),
+    by_parser(VERIFY, "a seed beyond whole numbers", "--seed", "99999999999999999999999", "99999999999999999999999"),
+]
+
+BOUNDARIES = [
+    row("boundary without a scene", ["boundary", "-o", "new.h5", *SECOND], "SCENE"),
+    row("boundary of a missing scene", ["boundary", "none.toml", "-o", "new.h5", *SECOND], "none.toml: "),
+    row("boundary of a map", ["boundary", "map.h5", "-o", "new.h5", *SECOND], "map.h5:1:1: not valid TOML"),
+    row("boundary without a second parameter", [*BOUNDARY, "--from", "0", "--to", "1"], "--second"),
+    row("boundary without a beginning", [*BOUNDARY, "--second", "damping", "--to", "1"], "--from"),
+    row("boundary without an end", [*BOUNDARY, "--second", "damping", "--from", "0"], "--to"),
+    row("boundary without an output", ["boundary", "column.toml", *SECOND], "--output"),
+    row("boundary with an unknown second parameter", [*BOUNDARY, "--second", "dampin", "--from", "0", "--to", "1"],
+        "--second: no parameter is called 'dampin'", "did you mean 'damping'?"),
+    row("boundary with one parameter twice", [*BOUNDARY, "--second", "load", "--from", "0", "--to", "1"],
+        "--second: 'load' is the first parameter already"),
+    row("boundary with a derived parameter", [*BOUNDARY, "--second", "damping", "--from", "0", "--to", "1"],
+        "--second: 'damping' is defined by an expression",
+        prepare=edit("column.toml", "damping = 0.1", 'damping = "load + 0.1"')),
+    row("boundary of an empty window", [*BOUNDARY, "--second", "damping", "--from", "1", "--to", "1"],
+        "--to: expected more than --from (1), found 1"),
+    row("boundary of a window the wrong way round", [*BOUNDARY, "--second", "damping", "--from", "1", "--to", "0"],
+        "--to: expected more than --from (1), found 0"),
+    row("boundary from nan", [*BOUNDARY, "--second", "damping", "--from", "nan", "--to", "1"],
+        "--from: is not a finite number"),
+    row("boundary to infinity", [*BOUNDARY, "--second", "damping", "--from", "0", "--to", "inf"],
+        "--to: is not a finite number"),
+    row("boundary from a word", [*BOUNDARY, "--second", "damping", "--from", "none", "--to", "1"], "--from", "none"),
+    row("boundary of an unknown first parameter",
+        [*BOUNDARY, *SECOND, "--parameter", "lod", "--first-from", "0", "--first-to", "1"],
+        "[trace] parameter: no parameter is called 'lod'", "did you mean 'load'?"),
+    row("boundary of another parameter without its range", [*BOUNDARY, "--second", "load", "--from", "0", "--to", "1",
+                                                            "--parameter", "damping"],
+        "--first-from: is missing; the range in the scene is not that of 'damping'"),
+    row("boundary of another parameter without its end",
+        [*BOUNDARY, "--second", "load", "--from", "0", "--to", "1", "--parameter",
+                                                          "damping", "--first-from", "0"], "--first-to: is missing"),
+    row("boundary of an empty first range", [*BOUNDARY, *SECOND, "--first-to", "0"],
+        "column.toml: [trace] to: equals from (0)"),
+    row("boundary of a first range in words", [*BOUNDARY, *SECOND, "--first-to", "high"], "--first-to", "high"),
+    row("boundary with a tolerance of zero", [*BOUNDARY, *SECOND, "--tolerance", "0"],
+        "tolerance: must lie between 1e-13 and 0.1"),
+    row("boundary with a tolerance that is no number", [*BOUNDARY, *SECOND, "--tolerance", "nan"], "tolerance"),
+    row("boundary with negative lines", [*BOUNDARY, *SECOND, "--lines", "-1"],
+        "--lines: must lie between 0 and 1000; found -1"),
+    row("boundary with lines without end", [*BOUNDARY, *SECOND, "--lines", "1001"],
+        "--lines: must lie between 0 and 1000; found 1001"),
+    row("boundary with half a line", [*BOUNDARY, *SECOND, "--lines", "2.5"], "--lines", "2.5"),
+    row("boundary of a damping ratio of one", [*BOUNDARY, *SECOND, "--damping-ratio", "1"],
+        "--damping-ratio: must lie between -1 and 1; found 1"),
+    row("boundary of a damping ratio that is no number", [*BOUNDARY, *SECOND, "--damping-ratio", "nan"],
+        "--damping-ratio: must lie between -1 and 1; found nan"),
+    row("boundary of a damping ratio in words", [*BOUNDARY, *SECOND, "--damping-ratio", "low"], "--damping-ratio", "low"),
+    row("boundary of two damping ratios", [*BOUNDARY, *SECOND], "--damping-ratio: the scene's [events] has 2 damping ratios",
+        prepare=edit("column.toml", "[matrix_family]", "[events]\ndamping_ratio = [0.01, 0.02]\n\n[matrix_family]")),
+    row("boundary to an empty text", [*BOUNDARY, "--second", "damping", "--from", "-1", "--to", ""], "--to", "empty"),
+    row("boundary with an empty number of lines", [*BOUNDARY, *SECOND, "--lines", ""], "--lines", "empty"),
+    row("boundary with lines beyond whole numbers", [*BOUNDARY, *SECOND, "--lines", "99999999999999"], "--lines",
+        "99999999999999"),
+    row("boundary with a grid", [*BOUNDARY, *SECOND, "--grid", "5"], "--grid"),
+    *outputs(["boundary", "column.toml", *SECOND], "boundary file"),
+]
+
+MAPS = [
+    row("map without a scene", ["map", "-o", "new.h5", *SECOND], "SCENE"),
+    row("map of a missing scene", ["map", "none.toml", "-o", "new.h5", *SECOND], "none.toml: "),
+    row("map without a second parameter", [*MAP, "--from", "0", "--to", "1"], "--second"),
+    row("map without a range", [*MAP, "--second", "damping"], "--from"),
+    row("map without an output", ["map", "column.toml", *SECOND], "--output"),
+    row("map with an unknown second parameter", [*MAP, "--second", "drag", "--from", "0", "--to", "1"],
+        "--second: no parameter is called 'drag'", "known: load, damping"),
+    row("map with one parameter twice", [*MAP, "--second", "load", "--from", "0", "--to", "1"],
+        "--second: 'load' is the first parameter already"),
+    row("map of an empty window", [*MAP, "--second", "damping", "--from", "1", "--to", "1"], "--to: equals --from (1)"),
+    row("map to infinity", [*MAP, "--second", "damping", "--from", "0", "--to", "inf"], "--to", "finite"),
+    row("map from a word", [*MAP, "--second", "damping", "--from", "zero", "--to", "1"], "--from", "zero"),
+    row("map of one cell", [*MAP, *SECOND, "--grid", "1"], "--grid: expected at least 2 values of each parameter, found 1x1"),
+    row("map of one line", [*MAP, *SECOND, "--grid", "1x5"],
+        "--grid: expected at least 2 values of each parameter, found 1x5"),
+    row("map of no cells", [*MAP, *SECOND, "--grid", "0x0"], "--grid: expected at least 2"),
+    row("map of negative size", [*MAP, *SECOND, "--grid", "-3x4"], "--grid"),
+    row("map of half a line", [*MAP, *SECOND, "--grid", "2.5x4"], "--grid: expected N, or NxM", "found '2.5x4'"),
+    row("map without its second size", [*MAP, *SECOND, "--grid", "5x"], "--grid: expected N, or NxM", "found '5x'"),
+    row("map of three sizes", [*MAP, *SECOND, "--grid", "3x4x5"], "--grid: expected N, or NxM", "found '3x4x5'"),
+    row("map of sizes with a comma", [*MAP, *SECOND, "--grid", "3,4"], "--grid: expected N, or NxM", "found '3,4'"),
+    row("map of no size", [*MAP, *SECOND, "--grid", ""], "--grid"),
+    row("map of sizes in words", [*MAP, *SECOND, "--grid", "fine"], "--grid: expected N, or NxM", "found 'fine'"),
+    row("map of very many cells", [*MAP, *SECOND, "--grid", "1000000x1000000"], "--grid: expected at most"),
+    row("map of sizes beyond whole numbers", [*MAP, *SECOND, "--grid", "99999999999x2"], "--grid: expected N, or NxM"),
+    row("map with negative jobs", [*MAP, *SECOND, "--jobs", "-1"], "--jobs: expected 0 to", "found -1"),
+    row("map with very many jobs", [*MAP, *SECOND, "--jobs", "100000"], "--jobs: expected 0 to", "found 100000"),
+    row("map with jobs in words", [*MAP, *SECOND, "--jobs", "all"], "--jobs", "all"),
+    row("map of an empty first range", [*MAP, *SECOND, "--first-to", "0"], "column.toml: [trace] to: equals from (0)"),
+    row("map of a first range in words", [*MAP, *SECOND, "--first-from", "low"], "column.toml: [trace] from:",
+        "unknown parameter 'low'"),
+    row("map with a tolerance of one", [*MAP, *SECOND, "--tolerance", "1"],
+        "column.toml: [trace] tolerance: must lie between"),
+    row("map of an unknown first parameter", [*MAP, *SECOND, "--parameter", "lod"], "no parameter is called 'lod'"),
+    row("map from an empty text", [*MAP, "--second", "damping", "--from", "", "--to", "1"], "--from", "empty"),
+    row("map with an empty number of jobs", [*MAP, *SECOND, "--jobs", ""], "--jobs", "empty"),
+    row("map with lines", [*MAP, *SECOND, "--lines", "5"], "--lines"),
+    *outputs(["map", "column.toml", *SECOND], "stability map"),
+]
+
+STUDIES = [
+    row("accuracy without a scene", ["accuracy"], "SCENE"),
+    row("accuracy of a missing scene", ["accuracy", "none.toml"], "none.toml: "),
+    row("accuracy of loci", ["accuracy", "loci.h5"], "loci.h5:1:1: not valid TOML"),
+    by_parser(ACCURACY, "tolerances in words", "--tolerances", "tight",
+              "expected numbers separated by commas; found 'tight'"),
+    by_parser(ACCURACY, "no tolerances", "--tolerances", ""),
+    by_parser(ACCURACY, "a gap in the tolerances", "--tolerances", "1e-4,,1e-6", "found '1e-4,,1e-6'"),
+    by_parser(ACCURACY, "a comma behind the tolerances", "--tolerances", "1e-4,", "found '1e-4,'"),
+    by_parser(ACCURACY, "a tolerance of one", "--tolerances", "1e-4,1", "expected numbers from 1e-13 to 0.1"),
+    by_parser(ACCURACY, "a tolerance that is no number", "--tolerances", "nan", "expected numbers from 1e-13 to 0.1"),
+    by_parser(ACCURACY, "an order of zero", "--orders", "0,1", "expected numbers from 1 to 4"),
+    by_parser(ACCURACY, "half an order", "--orders", "1.5", "found '1.5'"),
+    by_parser(ACCURACY, "orders with semicolons", "--orders", "1;2", "found '1;2'"),
+    by_parser(ACCURACY, "a grid of four points", "--grids", "4", "expected numbers from 5 to 1000000"),
+    by_parser(ACCURACY, "a grid and none", "--grids", "none,50", "found 'none,50'"),
+    by_parser(ACCURACY, "no samples", "--samples", "0", "expected a number from 1 to 1000000"),
+    by_parser(ACCURACY, "samples in words", "--samples", "many", "many"),
+    by_parser(ACCURACY, "no repetitions", "--repeat", "0", "expected a number from 1 to 1000"),
+    by_parser(ACCURACY, "repetitions without end", "--repeat", "1001", "expected a number from 1 to 1000"),
+    row("accuracy with two faults", [*ACCURACY, "--orders", "7", "--repeat", "0"], "--orders: ", "--repeat: "),
+    option(ACCURACY, "equal ends", "--to", "100", "equals from (100)"),
+    option(ACCURACY, "an unknown parameter", "--parameter", "omga", "did you mean 'omega'?"),
+    *outputs(["accuracy", "scene.toml", "--tolerances", "1e-4", "--orders", "2", "--grids", "none", "--samples", "1",
+              "--repeat", "1"], "work-precision study"),
+]
+
+REPORTS = [
+    row("report of nothing", ["report", "-o", "new.html"], "FILE"),
+    row("report without an output", REPORT, "--output"),
+    row("report of a file that is missing among good ones", [*REPORT, "none.h5", "-o", "new.html"], "none.h5: no such file"),
+    row("report of a scene among good files", [*REPORT, "scene.toml", "-o", "new.html"], "scene.toml: cannot be read"),
+    row("report to its own input", [*REPORT, "-o", "loci.h5"], "loci.h5: exists already"),
+    row("report as csv", [*REPORT, "-o", "new.html", "--csv"], "--csv"),
+    *outputs(REPORT, "report of eigentrail"),
+]
+
+OTHERS = [
+    row("new scene without a name", ["new"], "SCENE"),
+    row("new scene of an empty name", ["new", ""], "--output"),
+    row("new scene over an old one", ["new", "scene.toml"], "scene.toml: exists already, and a scene is never replaced"),
+    row("new scene in an absent folder", ["new", "none/new.toml"], "none/new.toml: the folder none does not exist"),
+    row("new scene over a folder", ["new", "folder"], "folder: exists already"),
+    row("new scene from an unknown starter", ["new", "new.toml", "--starter", "blades"],
+        "--starter: there is none called 'blades'",
+        "did you mean 'blade'?"),
+    row("new scene by force", ["new", "scene.toml", "--force"], "--force"),
+    row("new scene of a name too long", ["new", "x" * 300], "x" * 300, "cannot be created"),
+    row("reference of an unknown table", ["reference", "sprin"], "no table of a scene is called 'sprin'",
+        "did you mean 'spring'?"),
+    row("reference of an unknown table among known ones", ["reference", "spring", "glue"],
+        "no table of a scene is called 'glue'"),
+    row("reference in another format", ["reference", "--html"], "--html"),
+]
+
+ROWS = GENERAL + TRACES + EXPLANATIONS + EVALUATIONS + BOUNDARIES + MAPS + STUDIES + REPORTS + OTHERS
