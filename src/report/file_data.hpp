@@ -14,7 +14,7 @@ namespace eigentrail {
 struct ReportBudget {
   std::size_t curves = 5'000'000;
   std::size_t shapes = 2'500'000;
-  std::size_t roots = 10'000'000;  ///< of blocks, in seconds rather than bytes: about three
+  std::size_t roots = 10'000'000;  ///< of blocks: not bytes but time, about a second
 };
 
 /// Reads a file of any kind. Throws InputError when it cannot be read, or holds nothing to show.
