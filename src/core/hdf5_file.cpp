@@ -284,6 +284,7 @@ Hdf5File Hdf5File::in_memory(const std::string& name) {
 
 Hdf5File Hdf5File::from_image(const std::string& name, std::string_view image) {
   silence_error_stack();
+  check_hdf5_bytes(image);
   const Handle access = memory_access();
   check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
   Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);

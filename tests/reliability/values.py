@@ -116,7 +116,8 @@ SYNTAX = [
     coefficient("powers a hundred and fifty deep", "2^" * 150 + "drag", "too many intermediate results"),
     coefficient("calls a hundred and fifty deep", "sin(" * 150 + "drag" + ")" * 150, "nested deeper than 100"),
     coefficient("parenthesis of very many that is never closed", "(" * 90 + "drag", "this '(' is never closed"),
-    coefficient("expression of five thousand characters", "drag" + " + 1" * 1250, "4096 characters"),
+    blade("expression of five thousand characters", 'coefficient = "drag"', 'coefficient = §"drag' + " + 1" * 1250 + '"',
+          "4096 characters"),
     coefficient("intermediate results without end", "1 + (" * 80 + "drag" + ")" * 80, "too many intermediate results"),
     blade("unknown parameter in a position", '"1 + length", 0, 0', '"1 + lenght", 0, 0',
           '[[point]] 1 position: in "1 + lenght" at character 5: unknown parameter', "did you mean 'length'?")
