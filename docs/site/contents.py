@@ -4,10 +4,10 @@ import re
 
 CONTENTS = {
     "Start": ["first-trace", "commands", "scenes/README"],
-    "Describe a system": ["scene"],
+    "Describe a system": ["scene", "scene-tables"],
     "Ask it": ["events", "boundaries", "stability-map", "report"],
     "Use the results": ["loci-file", "python", "notebooks/*", "cpp"],
-    "Trust it": ["how-it-works", "accuracy", "hard_cases", "performance"],
+    "Trust it": ["how-it-works", "accuracy", "hard_cases", "performance", "reliability"],
     "Extend it": ["adding-an-effect"],
 }
 ROOT = "index"

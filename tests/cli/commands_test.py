@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
-from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, edited
+from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, SCENES, edited
 
 COMMANDS = ["trace", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
 
@@ -262,6 +262,20 @@ class Explain(CommandTest):
         self.assertEqual(run.returncode, EXIT_BAD_INPUT)
         self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no equilibrium found: [^\n]*\n\Z")
         self.assertIn("effects", run.stdout)
+
+
+class Help(CommandTest):
+    def commands(self):
+        listed = self.run_well("--help").split("Subcommands:\n")[1]
+        return re.findall(r"^  (\w+) ", listed, re.MULTILINE)
+
+    def test_every_command_has_an_example_and_a_section_of_the_documentation(self):
+        sections = (SCENES.parent.parent / "docs" / "commands.md").read_text(encoding="utf-8")
+        self.assertGreaterEqual(len(self.commands()), 12)
+        for command in self.commands():
+            with self.subTest(command):
+                self.assertRegex(self.run_well(command, "--help"), rf"Examples?:\n  eigentrail {command}\b")
+                self.assertIn(f"\n## {command}\n", sections)
 
 
 if __name__ == "__main__":
