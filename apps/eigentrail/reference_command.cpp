@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -23,27 +24,21 @@ std::string heading(const std::string& name) {
 
 constexpr const char* page_heading =
     "# Tables of a scene\n\n"
-    "Every table that a scene may have, with its keys. Written by `eigentrail reference --markdown` from "
-    "what the "
-    "program reads; [the scene reference](scene.md) explains parameters, places and directions, and families "
-    "of "
-    "matrices. Every table but `[trace]`, `[events]`, `[frame]` and `[gravity]` may stand several times and "
-    "have "
-    "a `name`.\n";
+    "Every table that a scene may have, with its keys. "
+    "Written by `eigentrail reference --markdown` from what the program reads; "
+    "[the scene reference](scene.md) explains parameters, places and directions, and families of matrices. "
+    "Every table but `[trace]`, `[events]`, `[frame]` and `[gravity]` "
+    "may stand several times and have a `name`.\n";
 
 EffectHelp trace_help() {
   EffectHelp help{"trace", "what is followed, and how accurately; each key is an option of `trace`, too", {}};
   const TraceOptions defaults;
-  TraceOptions::fields(defaults, [&](const char* key, const char* text, const auto&) {
-    const std::string name = key;
-    const bool required = name == "parameter" || name == "from" || name == "to";
-    help.fields.push_back({name, "", text, required ? "" : "automatic"});
+  const OptionTexts texts = describe_options(defaults);
+  const std::map<std::string, std::string> otherwise(texts.begin(), texts.end());
+  TraceOptions::fields(defaults, [&](const std::string& key, const char* text, const auto&) {
+    const bool required = key == "parameter" || key == "from" || key == "to";
+    help.fields.push_back({key, "", text, required ? "" : otherwise.at(key)});
   });
-  for (const auto& [key, text] : describe_options(defaults)) {
-    for (FieldHelp& field : help.fields) {
-      if (field.key == key && !field.otherwise.empty()) field.otherwise = text;
-    }
-  }
   return help;
 }
 

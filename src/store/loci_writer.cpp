@@ -235,7 +235,7 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   update(checkpoint.so_far(), status);
   ArchiveWriter archive;
   archive(last_shapes, motions, events);
-  save(saved_state({checkpoint.save(), archive.bytes(), {}, {}}));
+  save(saved_state(checkpoint.save(), archive.bytes()));
   is_saved = true;
   last_saved = Clock::now();
   cost = seconds_since(begin);

@@ -4,11 +4,10 @@
 
 #include <string>
 
-#include "eigentrail/store/saved_trace.hpp"
-
 namespace eigentrail {
 
-/// The bytes that go behind the HDF5 data: both states, and what tells them from anything else there.
-std::string saved_state(const SavedTrace& saved);
+/// The bytes that go behind the HDF5 data: the states of the trace and of its writer, and what tells them
+/// from anything else there.
+std::string saved_state(const std::string& trace, const std::string& writer);
 
 }  // namespace eigentrail

@@ -80,9 +80,9 @@ void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& op
 
 }  // namespace
 
-std::string saved_state(const SavedTrace& saved) {
+std::string saved_state(const std::string& trace, const std::string& writer) {
   ArchiveWriter archive;
-  archive(saved.trace, saved.writer);
+  archive(trace, writer);
   std::string bytes = archive.bytes();
   Mark mark{{}, bytes.size(), checksum(bytes)};
   std::copy(Mark::text.begin(), Mark::text.end(), mark.name.begin());
