@@ -64,7 +64,7 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
   const ComplexMatrix apart = rounded(Lambda - mean * ExtendedComplexMatrix::Identity(k, k));
   // A real block has exactly real or conjugate eigenvalues.
   const ComplexVector distances =
-      real ? ComplexVector(Eigen::EigenSolver<Matrix>(apart.real(), false).eigenvalues())
+      real ? ComplexVector(Eigen::EigenSolver<Matrix>(Matrix(apart.real()), false).eigenvalues())
            : ComplexVector(Eigen::ComplexEigenSolver<ComplexMatrix>(apart, false).eigenvalues());
   std::vector<ExtendedComplex> result;
   for (const Complex distance : distances)

@@ -30,7 +30,7 @@ void read_mode(const Situation& situation, CurvePoint& point) {
   ComplexVector z = pair.Z.col(0);
   point.s = 0.0;
   if (pair.size() == 2) {
-    const Eigen::EigenSolver<Matrix> solver(pair.Lambda.real());
+    const Eigen::EigenSolver<Matrix> solver(Matrix(pair.Lambda.real()));
     const Eigen::Index upper = solver.eigenvalues()[0].imag() >= 0.0 ? 0 : 1;
     point.s = solver.eigenvalues()[upper];
     z = pair.Z * solver.eigenvectors().col(upper);

@@ -38,7 +38,8 @@ ComplexVector block_roots(const ComplexVector& functions) {
     return (ComplexVector(2) << functions[0] + root, functions[0] - root).finished();
   }
   const ComplexMatrix Lambda = functions.reshaped(k, k);
-  if (functions.imag().isZero(0.0)) return Eigen::EigenSolver<Matrix>(Lambda.real(), false).eigenvalues();
+  if (functions.imag().isZero(0.0))
+    return Eigen::EigenSolver<Matrix>(Matrix(Lambda.real()), false).eigenvalues();
   return Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues();
 }
 

@@ -80,7 +80,7 @@ InvariantPair join_pairs(const std::vector<const InvariantPair*>& parts, bool ma
 ComplexVector pair_eigenvalues(const InvariantPair& pair) {
   if (pair.size() == 1) return pair.Lambda.col(0);
   if (!pair.is_real) return Eigen::ComplexEigenSolver<ComplexMatrix>(pair.Lambda, false).eigenvalues();
-  return Eigen::EigenSolver<Matrix>(pair.Lambda.real(), false).eigenvalues();
+  return Eigen::EigenSolver<Matrix>(Matrix(pair.Lambda.real()), false).eigenvalues();
 }
 
 InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalues,

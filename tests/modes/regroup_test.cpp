@@ -29,7 +29,7 @@ double relative_residual(const ReducedPencil& pencil, const InvariantPair& pair)
   const PencilAtPoint point(pencil, pair.chart);
   ComplexMatrix both(2 * pair.Z.rows(), pair.size());
   both << pair.Z, pair.Z * pair.Lambda / std::max(pair.Lambda.norm(), 1e-300);
-  const double weakest = both.bdcSvd().singularValues().tail(1)[0];
+  const double weakest = both.jacobiSvd().singularValues().tail(1)[0];
   return point.residual(pair.Z, pair.Lambda).norm() / (point.magnitude(pair.Lambda.norm()) * weakest);
 }
 
@@ -181,7 +181,7 @@ TEST(WithConjugate, KeepsItsColumnsApartWhereThePairReachesTheRealAxis) {
     const InvariantPair pair = with_conjugate(upper);
     ComplexMatrix both(2, 2);
     both << pair.Z, pair.Z * pair.Lambda;
-    const Vector singular = both.bdcSvd().singularValues();
+    const Vector singular = both.jacobiSvd().singularValues();
     EXPECT_GT(singular[1], 0.1 * singular[0]) << "gap " << gap;
     ModeCounts counts;
     const InvariantPair after = correct_pair(PencilAtPoint(pencil), pair, s_ref, {}, counts);

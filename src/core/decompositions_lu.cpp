@@ -1,0 +1,5 @@
+#include "core/precompiled.hpp"
+
+template class Eigen::PartialPivLU<Eigen::MatrixXd>;
+template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
+template class Eigen::FullPivLU<Eigen::MatrixXd>;

@@ -1,0 +1,46 @@
+// What most files include, parsed once per target, and the decompositions that most of them use, compiled
+// once (decompositions_*.cpp). No file depends on it: the build without it (preset dev) is the same program,
+// later.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
+extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
+extern template class Eigen::FullPivLU<Eigen::MatrixXd>;
+extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
+extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
+extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
+extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
+extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+extern template class Eigen::RealSchur<Eigen::MatrixXd>;
+extern template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
+extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
+extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+// Members that are templates themselves
+extern template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
+extern template Eigen::ComplexSchur<Eigen::MatrixXcd>& Eigen::ComplexSchur<Eigen::MatrixXcd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
+extern template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
+extern template Eigen::ComplexEigenSolver<Eigen::MatrixXcd>&
+Eigen::ComplexEigenSolver<Eigen::MatrixXcd>::compute(const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, int);
