@@ -192,6 +192,10 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
                        double to, bool& told_apart, std::size_t& work) {
   told_apart = true;
   if (functions.size() == 1) return functions(to);
+  if (!std::isfinite(to)) {
+    told_apart = false;
+    return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
+  }
   Differences differences(roots);
   ComplexVector current = roots;
   double t = from;
@@ -286,11 +290,19 @@ std::vector<double> step_positions(const PathStep& step, double p) {
     return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
   }
   const Miss miss(step, p);
+  // Rounding splits the one point at the parameter of a fold into two, sqrt(epsilon) apart; ends stay exact.
+  const double apart = 4.0 * std::sqrt(std::numeric_limits<double>::epsilon());
   std::vector<double> positions;
+  const auto add = [&](double t) {
+    if (positions.empty() || t > positions.back() + apart) {
+      positions.push_back(t);
+    } else if (t == 1.0) {
+      positions.back() = t;
+    }
+  };
   double from = 0.0;
   for (const double to : miss.turning_points()) {
-    const std::optional<double> t = root_between(miss, from, to);
-    if (t && (positions.empty() || *t > positions.back())) positions.push_back(*t);
+    if (const std::optional<double> t = root_between(miss, from, to)) add(*t);
     from = to;
   }
   return positions;

@@ -69,7 +69,8 @@ class Approximation {
     const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(range.last);
     const auto behind = std::upper_bound(begin + 1, end, place);
     const auto i = static_cast<std::size_t>(behind - nodes_.begin()) - 1;
-    return value_(i, std::clamp((place - nodes_[i]) / (nodes_[i + 1] - nodes_[i]), 0.0, 1.0));
+    const double width = nodes_[i + 1] - nodes_[i];  // zero where a step is lost in the length of the path
+    return value_(i, width > 0.0 ? std::clamp((place - nodes_[i]) / width, 0.0, 1.0) : 1.0);
   }
 
   bool fits(Complex value) const { return std::abs(value) <= options_.largest; }  // not where it is no number

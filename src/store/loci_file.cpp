@@ -99,6 +99,9 @@ DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
   arrays.length = file.read_real("step_length");
   arrays.parameter = file.read_real("step_parameter");
   require_finite(arrays.length, loci, "step_length");
+  double whole = 0.0;
+  for (const double length : arrays.length) whole += std::abs(length);
+  require(std::isfinite(whole), loci, "step_length");
   require_finite(arrays.parameter, loci, "step_parameter");
   arrays.output = file.read_complex("dense_output");
   arrays.block = file.read_integers("dense_block");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "support/spectra.hpp"
@@ -53,6 +54,14 @@ TEST(FollowRoots, OfOneEvaluatesTheFunction) {
     const ComplexVector found = follow_roots(block, 1.0, ComplexVector(), 0.0, t);
     EXPECT_LT(std::abs(found[0] - Complex(0.3 * t, 2.0 + t * t)), tolerance);
   }
+}
+
+TEST(FollowRoots, ToNowhereAreNoNumbers) {
+  const DenseBlock block = block_of({zero, ComplexVector{{1.0, 0.5}}}, {0, 1});
+  bool told_apart = true;
+  const ComplexVector found = follow_roots(block, 1.0, ComplexVector{{1.0, -1.0}}, 0.0, nan, &told_apart);
+  EXPECT_TRUE(std::isnan(found[0].real()) && std::isnan(found[1].real()));
+  EXPECT_FALSE(told_apart);
 }
 
 class FollowThroughVeering : public testing::TestWithParam<double> {};
@@ -272,6 +281,24 @@ TEST(StepPositions, BesideAFoldAtAnEndAreRelativelyAccurate) {
     // Positions near 1 are rounded to its units.
     EXPECT_NEAR((1.0 - found[0]) * length, sigma, 1e-11 * sigma + 1e-16) << depth;
   }
+}
+
+/// p = 2 - (t - fold)^2 at the fold, and where rounding may put it: one place, or none.
+TEST(StepPositions, AtAFoldAreOneForEveryRoundingOfItsParameter) {
+  std::size_t found_places = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double fold = i == 2000 ? 1.0 : 0.3 + 0.7 * i / 2000.0;
+    const PathStep step = curved_step(ComplexVector{{2.0 - fold * fold, 2.0 * fold, -1.0}}, 0.3, 4);
+    for (const double units : {-2.0, -1.0, 0.0, 1.0}) {
+      const double p = 2.0 + units * std::numeric_limits<double>::epsilon();
+      const std::vector<double> found = step_positions(step, p);
+      ASSERT_LE(found.size(), 1U) << "fold at " << fold << ", p = 2 + " << units << " units";
+      if (found.empty()) continue;
+      ++found_places;
+      EXPECT_NEAR(found[0], fold, 1e-7);
+    }
+  }
+  EXPECT_GT(found_places, 1000U);
 }
 
 TEST(StepPositions, OfAWavyPathAreAll) {

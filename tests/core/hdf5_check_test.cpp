@@ -57,6 +57,12 @@ TEST(Hdf5Check, RefusesCompoundsWhoseMembersLieInEachOther) {
   EXPECT_NE(fault(bytes_of("loci/members_in_each_other.h5")).find("in each other"), std::string::npos);
 }
 
+// HDF5 1.10.8 leaks the first block of such an object.
+TEST(Hdf5Check, RefusesObjectsThatGoOnNowhere) {
+  EXPECT_NE(fault(bytes_of("loci/continuation_of_nothing.h5")).find("a block too small for a message"),
+            std::string::npos);
+}
+
 TEST(Hdf5Check, RefusesEveryBeginningOfAFile) {
   for (const char* name :
        {"matrix_family/contiguous.h5", "matrix_family/latest.h5", "matrix_family/deflate.h5"}) {

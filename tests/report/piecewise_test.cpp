@@ -115,5 +115,15 @@ TEST(PiecewiseCurves, EndAfterAFewHundredPiecesPerStepOfNoise) {
   EXPECT_LT(curves.front().knots.size(), 1000U);
 }
 
+// A step of length 1e-20 behind one of length 1 ends where it begins, by rounding.
+TEST(PiecewiseSteps, LostInTheLengthOfThePathGiveNumbers) {
+  const auto value = [](std::size_t, double t) {
+    EXPECT_TRUE(t >= 0.0 && t <= 1.0);
+    return Complex(t);
+  };
+  for (const std::vector<double>& nodes : {std::vector<double>{0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}})
+    EXPECT_FALSE(approximate(nodes, value, {4, tolerance, tolerance, 1e3}).empty());
+}
+
 }  // namespace
 }  // namespace eigentrail

@@ -54,6 +54,9 @@ class HeaderReader {
   void follow(Cursor where) {
     const std::uint64_t address = where.u64();
     const std::uint64_t size = where.u64();
+    // HDF5 loses what it had of an object whose continuation has no place for a message.
+    if (size < message_head())
+      damaged(where.offset(), "an object that goes on in a block too small for a message");
     use(blocks_, address);
     Cursor block = piece(file_, address, size);
     if (version_ == 2) {
@@ -65,9 +68,11 @@ class HeaderReader {
     read_block(block);
   }
 
+  /// Bytes before the data of a message
+  std::uint64_t message_head() const { return version_ == 1 ? 8 : order_ ? 6 : 4; }
+
   void read_block(Cursor block) {
-    const std::uint64_t head = version_ == 1 ? 8 : order_ ? 6 : 4;
-    while (block.left() >= head) read_message(block);
+    while (block.left() >= message_head()) read_message(block);
     if (version_ == 1 && block.left() != 0) damaged(block.offset(), "a message ends too early");
   }
 
