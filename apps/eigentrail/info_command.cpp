@@ -72,6 +72,13 @@ std::string order_of_series(const LociFile& loci) {
   return order == "?" ? "" : ", " + order_text(std::stoi(order), attribute(loci, "option_order") == "auto");
 }
 
+/// Of a file whose trace has not come to its end; empty for others.
+std::string how_to_go_on(const std::string& status) {
+  if (status == "running")
+    return "  the trace is still running, or was killed: its command with --resume goes on\n";
+  return status == "interrupted" ? "  its command with --resume goes on\n" : "";
+}
+
 void print_for_people(const LociFile& loci) {
   if (const std::string title = attribute(loci, "title"); !title.empty())
     std::printf("%s\n", printable(title).c_str());
@@ -80,7 +87,8 @@ void print_for_people(const LociFile& loci) {
   if (const std::string message = attribute(loci, "message"); message != "?" && !message.empty()) {
     std::printf(": %s", message.c_str());
   }
-  std::printf("\n  %zu coordinates, %zu constraints, %zu modes, %zu points\n", loci.coordinates.size(),
+  std::printf("\n%s  %zu coordinates, %zu constraints, %zu modes, %zu points\n",
+              how_to_go_on(attribute(loci, "status")).c_str(), loci.coordinates.size(),
               loci.constraints.size(), loci.modes.size(), loci.n_nodes());
   if (loci.n_nodes() == 0) return;
   std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),

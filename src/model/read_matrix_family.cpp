@@ -122,8 +122,9 @@ struct FamilyReader {
     for (const Matrix& c : polynomial.coefficients) {
       const bool square = key == "A" || c.rows() == n;
       if (c.cols() != n || !square || c.rows() != polynomial.coefficients[0].rows()) {
-        fail(key, "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols()) + ", M is " +
-                      std::to_string(n) + " x " + std::to_string(n) + "; " +
+        const std::string size = "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols());
+        if (key == "M" && &c == &polynomial.coefficients[0]) fail(key, size + "; expected a square matrix");
+        fail(key, size + ", M is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
                       (key == "A" ? "A needs as many columns, and the same rows for every power"
                                   : "all have the same size"));
       }

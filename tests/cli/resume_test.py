@@ -57,7 +57,7 @@ class Interrupted(ProgramTest):
                     self.assertEqual(file.attrs["status"], "interrupted")
                     self.assertGreater(len(file["omega"]), 1)
                 self.assertFalse((self.folder / "out.h5.lock").exists())
-                self.run_well("info", "out.h5")
+                self.assertIn("--resume goes on", self.run_well("info", "out.h5"))
                 self.run_well("eval", "out.h5", "--at", "99.9")
                 self.assert_resumes_to_whole()
                 for name in ("out.h5", "whole.h5"):
