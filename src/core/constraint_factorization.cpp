@@ -26,7 +26,8 @@ void ConstraintFactorization::factor_dense(const Matrix& A) {
   rank_ = decomposition_.rank();
   const Vector pivots = decomposition_.matrixQTZ().diagonal().cwiseAbs();
   if (rank_ > 0) independence_ = pivots[rank_ - 1] / decomposition_.maxPivot();
-  null_basis_ = decomposition_.householderQ() * Matrix::Identity(n, n).rightCols(n - rank_);
+  null_basis_.resize(n, n - rank_);
+  if (rank_ < n) null_basis_ = decomposition_.householderQ() * Matrix::Identity(n, n).rightCols(n - rank_);
 }
 
 const Matrix& ConstraintFactorization::null_basis() const {

@@ -73,6 +73,7 @@ TEST_P(Kinds, MayBeEmpty) {
   const SystemMatrix B = of(Matrix(0, 4));
   EXPECT_EQ(B.size(), 0);
   EXPECT_EQ(B.norm(), 0.0);
+  EXPECT_EQ(B.one_norm(), 0.0);
   EXPECT_EQ(B.largest_entry(), 0.0);
   EXPECT_EQ(B.row_norms().size(), 0);
   EXPECT_EQ(B.transposed_times(Vector(0)), Vector::Zero(4));

@@ -117,7 +117,7 @@ TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
   const double a_n = flutter_of_trace({{"parameter", "a_n"}, {"from", "1000"}, {"to", "20000"}});
   for (const auto& [omega, force] : {std::pair(12.4393882230095183, 1000.0), std::pair(40.0, a_n)}) {
     double nearest = INFINITY;
-    largest_miss(flutter[0], 20000, [&](const auto& at) {
+    largest_miss(flutter[0], 20000, [&, omega = omega, force = force](const auto& at) {
       nearest = std::min(nearest, std::hypot(at[0] / omega - 1.0, at[1] / force - 1.0));
       return 0.0;
     });

@@ -40,7 +40,7 @@ class Piecewise : public testing::TestWithParam<Case> {};
 
 TEST_P(Piecewise, MeetsTheFunctionEverywhere) {
   const auto& [name, function, nodes, degree] = GetParam();
-  const auto value = [&](std::size_t i, double t) {
+  const auto value = [&function = function, &nodes = nodes](std::size_t i, double t) {
     return function(nodes[i] + t * (nodes[i + 1] - nodes[i]));
   };
   const auto curves = approximate(nodes, value, {degree, tolerance, tolerance, 1e3});

@@ -50,9 +50,9 @@ class BasicSystemMatrix {
     if (const auto* values = std::get_if<Dense>(&values_)) return values->isZero(Real(0.0));
     return (sparse().coeffs() == Real(0.0)).all();
   }
-  /// Frobenius.
+  /// Frobenius; 0 of an empty matrix.
   Real norm() const {
-    return visit([](const auto& values) { return Real(values.norm()); });
+    return visit([](const auto& values) { return values.size() == 0 ? Real(0.0) : Real(values.norm()); });
   }
   /// Largest magnitude of an entry; 0 of an empty matrix.
   Real largest_entry() const {
@@ -62,6 +62,7 @@ class BasicSystemMatrix {
   Real one_norm() const {
     return visit([](const auto& values) {
       Real largest(0.0);
+      if (values.rows() == 0) return largest;
       for (Eigen::Index j = 0; j < values.cols(); ++j)
         largest = std::max(largest, Real(values.col(j).cwiseAbs().sum()));
       return largest;
