@@ -87,6 +87,7 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   const auto node = static_cast<Eigen::Index>(position.step);
   const double t = position.t;
   const auto between = [&](const Matrix& rows) {
+    if (rows.cols() == 0) return Vector(0);  // no coordinates, or no constraints
     return Vector(((1.0 - t) * rows.row(node) + t * rows.row(node + 1)).transpose());
   };
   const EquilibriumGuess guess =

@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from loci_comparison import differences
-from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, ProgramTest, edited
+from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, TIME_LIMIT, ProgramTest, edited
 
 # Long enough to be met in the middle: a thousand points and more.
 LONG = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02")
@@ -49,7 +49,7 @@ class Interrupted(ProgramTest):
                 self.wait_for("out.h5")
                 time.sleep(0.1)
                 run.send_signal(number)
-                said = run.communicate(timeout=20)[1]
+                said = run.communicate(timeout=TIME_LIMIT)[1]
                 self.assertEqual(run.returncode, 128 + number)
                 self.assertRegex(said, r"^eigentrail: interrupted at omega = [\d.]+; \d+ points are in out\.h5; "
                                        r"the same command with --resume goes on\n$")
@@ -101,7 +101,7 @@ class Interrupted(ProgramTest):
         self.wait_for("out.h5.lock")
         second = self.run_program("trace", "scene.toml", "-o", "out.h5", "--force")
         self.assert_refused(second, ["out.h5: another process writes it", "out.h5.lock is locked"])
-        self.assertEqual(first.communicate(timeout=60)[1], "")
+        self.assertEqual(first.communicate(timeout=2 * TIME_LIMIT)[1], "")
         self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
 
     def test_disk_that_fills_up_keeps_what_was_saved(self):
@@ -113,7 +113,7 @@ class Interrupted(ProgramTest):
             resource.setrlimit(resource.RLIMIT_FSIZE, (size // 2, size // 2))
 
         run = self.start("--save-every", "0", preexec_fn=limit)
-        said = run.communicate(timeout=60)[1]
+        said = run.communicate(timeout=2 * TIME_LIMIT)[1]
         self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED, said)
         self.assertRegex(said, r"^eigentrail: out\.h5: cannot be written on: .*; \d+ points are in out\.h5; make room, "
                                r"then the same command with --resume goes on\n$")

@@ -11,7 +11,8 @@ import pathlib
 import sys
 import tempfile
 
-TIME_LIMIT = 60  # of a cell, in s: ends a run that hangs
+# Of a cell, in s: ends a run that hangs; builds with sanitizers are slower.
+TIME_LIMIT = 60 * int(os.environ.get("EIGENTRAIL_SLOWDOWN", "1"))
 
 # The kernel is this interpreter, whatever kernels its user has installed, and leaves nothing in the user's folders.
 _home = tempfile.TemporaryDirectory(prefix="eigentrail-")
