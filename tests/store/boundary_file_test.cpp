@@ -103,7 +103,7 @@ TEST_F(BoundaryFileTest, AnExistingFileIsReplacedAtOnceOrNotAtAll) {
   std::ofstream(path) << "kept";
   Found broken = two_lines();
   broken.result.curves[0].points.pop_back();  // its datasets no longer fit
-  broken.result.curves[0].steps[0].left.resize(0, 0);
+  broken.result.curves[0].steps[0].left.setZero(4, 1);
   EXPECT_THROW(write_boundaries(path, broken.setup, broken.result), std::runtime_error);
   EXPECT_EQ(contents(), std::vector<std::string>{"flutter.h5"});
   EXPECT_EQ(fs::file_size(path), 4U);
