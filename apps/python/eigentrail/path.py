@@ -6,6 +6,7 @@ from numpy.polynomial import Chebyshev
 from .interpolation import TwoPointTaylor
 
 HALVINGS = 64  # of a step: below the spacing of numbers in it
+APART = 4 * np.sqrt(np.finfo(float).eps)  # of places on a step that are one at a fold
 
 
 class Path:
@@ -89,9 +90,13 @@ class _CurvedStep:
             found.append(at)
             places.append(self._bisected(values[at], start, end))
         at, t = np.concatenate(found), np.concatenate(places)
-        # A turning point belongs to two pieces.
+        # A turning point belongs to two pieces, and rounding splits it into two places; ends stay exact.
         _, first = np.unique(np.column_stack([at, t]), axis=0, return_index=True)
-        return at[first], t[first]
+        at, t = at[first], t[first]
+        again = (np.diff(at) == 0) & (np.diff(t) <= APART)
+        t[:-1][again & (t[1:] == 1.0)] = 1.0
+        once = np.append(True, ~again)[:len(at)]
+        return at[once], t[once]
 
     def _crossed(self, values, start, end):
         before, behind = self._miss(np.array(start), values), self._miss(np.array(end), values)
