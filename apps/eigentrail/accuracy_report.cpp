@@ -56,7 +56,7 @@ void print_rivals(const std::vector<MeasuredRun>& runs) {
       {"instead, on a grid", "points", "error", "LU", "QZ", "evaluations", "time"}};
   for (const MeasuredRun& run : runs) {
     if (by_trace(run)) continue;
-    rows.push_back({method_name(run.method), std::to_string(run.points), error_text(run),
+    rows.push_back({method_name(run), std::to_string(run.points), error_text(run),
                     std::to_string(run.factorizations), std::to_string(run.spectra),
                     std::to_string(run.evaluations), milliseconds(run.seconds)});
   }
@@ -82,7 +82,7 @@ std::string cost_text(const MeasuredRun* run) {
   if (run == nullptr) return "none of those tried";
   const std::string setting = run->method == Method::trace ? "order " + std::to_string(run->order) + " at " +
                                                                  exact_text(run->tolerance)
-                                                           : method_name(run->method);
+                                                           : method_name(*run);
   return setting + ": " + std::to_string(run->points) + " points, " + milliseconds(run->seconds);
 }
 

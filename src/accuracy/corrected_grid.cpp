@@ -57,7 +57,8 @@ std::vector<InvariantPair> as_pairs(const Modes& modes, const std::vector<Invari
 }
 
 /// The first point, from the full spectrum; empty when there is none.
-std::optional<PathPoint> first_point(const PathProblem& problem, double p, RunCounts& counts) {
+std::optional<PathPoint> first_point(const PathProblem& problem, double p, std::optional<int> modes,
+                                     RunCounts& counts) {
   const EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p)), {}, false};
   const PathPoint reduced = reduce_at(problem, p, guess, Matrix(), counts);
   if (reduced.status != PointStatus::computed) return std::nullopt;
@@ -66,6 +67,7 @@ std::optional<PathPoint> first_point(const PathProblem& problem, double p, RunCo
   if (spectrum.status != SpectrumStatus::complete) return std::nullopt;
   Prediction prediction{p, {reduced.equilibrium.x, reduced.equilibrium.lambda, true}, {}};
   for (const StartingMode& mode : spectrum.modes) {
+    if (modes && static_cast<int>(prediction.pairs.size()) == *modes) break;
     InvariantPair& pair = prediction.pairs.emplace_back();
     pair.Z = reduced.basis.T[0].cast<Complex>() * mode.z;
     pair.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
@@ -75,9 +77,10 @@ std::optional<PathPoint> first_point(const PathProblem& problem, double p, RunCo
 
 }  // namespace
 
-GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, Method method) {
+GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes,
+                        Method method) {
   GridLoci loci;
-  std::optional<PathPoint> point = first_point(problem, p.front(), loci.counts);
+  std::optional<PathPoint> point = first_point(problem, p.front(), modes, loci.counts);
   loci.message = "no modes at the start";
   if (!point) return loci;
   std::optional<Modes> before;

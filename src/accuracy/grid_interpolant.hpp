@@ -4,11 +4,9 @@
 
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/accuracy/study.hpp"
 
 namespace eigentrail {
-
-enum class Interpolation { linear, cubic_spline };
 
 class GridInterpolant {
  public:

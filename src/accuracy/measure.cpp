@@ -60,9 +60,11 @@ void measure_path(const RecordedPath& path, const ReferenceSet& reference, Measu
   }
 }
 
-/// Grids see the first passage only.
-void measure_interpolant(const GridLoci& loci, Interpolation kind, const ReferenceSet& reference,
-                         MeasuredRun& run) {
+/// The run with its errors. Grids see the first passage only.
+MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const ReferenceSet& reference,
+                                MeasuredRun run) {
+  run.interpolation = kind;
+  if (!loci.completed) return run;
   const GridInterpolant interpolant(loci.p[0], loci.p[1] - loci.p[0], loci.s, kind);
   for (const ReferenceSample& sample : reference.samples) {
     if (sample.passages.size() != 1) continue;
@@ -74,6 +76,7 @@ void measure_interpolant(const GridLoci& loci, Interpolation kind, const Referen
                sample.p, run);
     ++run.measured;
   }
+  return run;
 }
 
 /// A name in the folder for temporary files, removed at the end.
@@ -144,8 +147,8 @@ MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference
   return run;
 }
 
-MeasuredRun measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
-                         int repeat) {
+GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
+                      int repeat) {
   MeasuredRun run;
   run.method = method;
   run.tolerance = std::numeric_limits<double>::quiet_NaN();
@@ -155,25 +158,21 @@ MeasuredRun measure_grid(const TraceSetup& setup, const ReferenceSet& reference,
     result.s_ref = reference.s_ref;
     return result;
   }();
-  const bool by_qz = method == Method::qz_linear || method == Method::qz_spline;
+  const std::optional<int> modes = setup.options.modes;
   const std::vector<double> p = equidistant(setup.options, points);
   GridLoci loci;
   std::vector<double> seconds;
   for (int i = 0; i < repeat; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    loci = by_qz ? qz_grid(problem, p) : corrected_grid(problem, p, method);
+    loci = method == Method::qz ? qz_grid(problem, p, modes) : corrected_grid(problem, p, modes, method);
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   run.seconds = median(seconds);
   run.completed = loci.completed;
   run.message = loci.message;
   take_counts(loci.counts, run);
-  if (loci.completed) {
-    const Interpolation kind =
-        method == Method::qz_linear ? Interpolation::linear : Interpolation::cubic_spline;
-    measure_interpolant(loci, kind, reference, run);
-  }
-  return run;
+  return {measure_interpolant(loci, Interpolation::linear, reference, run),
+          measure_interpolant(loci, Interpolation::cubic_spline, reference, run)};
 }
 
 }  // namespace eigentrail

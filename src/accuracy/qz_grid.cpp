@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "accuracy/grid_loci.hpp"
 #include "eigentrail/modes/matching.hpp"
@@ -35,6 +37,15 @@ GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
   return result;
 }
 
+/// Both members of complex pairs counted, those of the first modes come first.
+Eigen::Index count_members(const Spectrum& spectrum, std::optional<int> modes) {
+  const auto all = static_cast<int>(spectrum.modes.size());
+  const auto end = spectrum.modes.begin() + std::min(modes.value_or(all), all);
+  return std::accumulate(
+      spectrum.modes.begin(), end, Eigen::Index{0},
+      [](Eigen::Index count, const StartingMode& mode) { return count + (mode.s.imag() == 0.0 ? 1 : 2); });
+}
+
 /// 1 - MAC; members above and below the real axis are not matched with each other, or whirl forwards would be
 /// taken for the conjugate of whirl backwards, which has the same shape.
 Matrix disagreement(const GridPoint& last, const GridPoint& next) {
@@ -61,8 +72,9 @@ GridPoint in_order(const GridPoint& last, const GridPoint& next) {
 
 }  // namespace
 
-GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p) {
+GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes) {
   GridLoci loci;
+  Eigen::Index followed = 0;
   loci.both_members = true;
   EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p.front())), {}, false};
   GridPoint last;
@@ -76,11 +88,12 @@ GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p) {
     loci.message = "QZ did not yield a spectrum";
     if (spectrum.status != SpectrumStatus::complete) return loci;
     GridPoint next = members_of(spectrum, point);
+    if (loci.p.empty()) followed = count_members(spectrum, modes);
     loci.message = "the number of finite eigenvalues changes";
     if (!loci.p.empty() && next.s.size() != last.s.size()) return loci;
     last = loci.p.empty() ? std::move(next) : in_order(last, next);
     loci.p.push_back(value);
-    loci.s.push_back(last.s);
+    loci.s.emplace_back(last.s.head(followed));
   }
   loci.message.clear();
   loci.completed = true;

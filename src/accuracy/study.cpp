@@ -6,8 +6,7 @@
 namespace eigentrail {
 namespace {
 
-constexpr Method grid_methods[] = {Method::qz_linear, Method::qz_spline, Method::zero_order, Method::secant,
-                                   Method::tangent};
+constexpr Method grid_methods[] = {Method::qz, Method::zero_order, Method::secant, Method::tangent};
 
 /// Sets options of a trace for a while.
 class OptionsGuard {
@@ -29,23 +28,25 @@ bool all(const Values& values, Within within) {
 
 }  // namespace
 
-std::string method_name(Method method) {
-  switch (method) {
-    case Method::trace:
-      return "eigentrail";
-    case Method::trace_uncertified:
-      return "eigentrail, no certificate";
-    case Method::qz_linear:
-      return "QZ, linear";
-    case Method::qz_spline:
-      return "QZ, cubic spline";
-    case Method::zero_order:
-      return "corrector, zero-order, cubic spline";
-    case Method::secant:
-      return "corrector, secant, cubic spline";
-    default:
-      return "corrector, tangent, cubic spline";
-  }
+std::string method_name(const MeasuredRun& run) {
+  const auto name = [](Method method) -> std::string {
+    switch (method) {
+      case Method::trace:
+        return "eigentrail";
+      case Method::trace_uncertified:
+        return "eigentrail, no certificate";
+      case Method::qz:
+        return "QZ";
+      case Method::zero_order:
+        return "corrector, zero-order";
+      case Method::secant:
+        return "corrector, secant";
+      default:
+        return "corrector, tangent";
+    }
+  };
+  if (!run.interpolation) return name(run.method);
+  return name(run.method) + (run.interpolation == Interpolation::linear ? ", linear" : ", cubic spline");
 }
 
 std::vector<std::string> find_faults(const StudyOptions& options) {
@@ -67,8 +68,8 @@ Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
                      const std::function<void(int, int)>& progress) {
   const OptionsGuard guard(setup.options);
   const TraceOptions own = setup.options;
-  const std::size_t all_runs =
-      options.tolerances.size() * options.orders.size() + 2 + options.grids.size() * std::size(grid_methods);
+  const std::size_t all_runs = options.tolerances.size() * options.orders.size() + 2 +
+                               2 * options.grids.size() * std::size(grid_methods);
   Study study{reference_set(setup, sample_parameters(own, options.samples)), {}};
   const auto done = [&](MeasuredRun run) {
     study.runs.push_back(std::move(run));
@@ -88,8 +89,11 @@ Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
   }
   setup.options = own;
   for (const Method method : grid_methods) {
-    for (const int points : options.grids)
-      done(measure_grid(setup, study.reference, method, points, options.repeat));
+    for (const int points : options.grids) {
+      const GridRuns runs = measure_grid(setup, study.reference, method, points, options.repeat);
+      done(runs.linear);
+      done(runs.spline);
+    }
   }
   return study;
 }

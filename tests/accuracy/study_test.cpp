@@ -42,27 +42,35 @@ INSTANTIATE_TEST_SUITE_P(Accuracy, ShippedScene,
                          testing::Values("pendulum", "spring_pendulum", "rotating_mass", "ziegler_column"),
                          [](const auto& name) { return std::string(name.param); });
 
-/// Order of convergence seen between a grid and one with half the step.
-double observed_order(const Setting& setting, const ReferenceSet& reference, Method method, int points) {
-  const MeasuredRun coarse = measure_grid(setting, reference, method, points, 1);
-  const MeasuredRun fine = measure_grid(setting, reference, method, 2 * points - 1, 1);
-  EXPECT_TRUE(coarse.completed && fine.completed) << coarse.message << fine.message;
-  return std::log2(coarse.error / fine.error);
+/// Orders of convergence seen between a grid and one with half the step, by straight lines and by splines.
+struct Orders {
+  double linear, spline;
+};
+
+Orders observed_orders(const Setting& setting, const ReferenceSet& reference, Method method, int points) {
+  const GridRuns coarse = measure_grid(setting, reference, method, points, 1);
+  const GridRuns fine = measure_grid(setting, reference, method, 2 * points - 1, 1);
+  EXPECT_TRUE(coarse.linear.completed && fine.spline.completed)
+      << coarse.linear.message << fine.spline.message;
+  return {std::log2(coarse.linear.error / fine.linear.error),
+          std::log2(coarse.spline.error / fine.spline.error)};
 }
 
 TEST(GridRivals, ConvergeWithTheOrderOfTheirInterpolation) {
   const Setting setting = scene_setting("pendulum");
   const ReferenceSet reference = references(setting, 400);
-  EXPECT_NEAR(observed_order(setting, reference, Method::qz_linear, 51), 2.0, 0.4);
-  for (const Method method : {Method::qz_spline, Method::zero_order, Method::secant, Method::tangent})
-    EXPECT_NEAR(observed_order(setting, reference, method, 51), 4.0, 0.8) << method_name(method);
+  for (const Method method : {Method::qz, Method::zero_order, Method::secant, Method::tangent}) {
+    const Orders orders = observed_orders(setting, reference, method, 51);
+    EXPECT_NEAR(orders.linear, 2.0, 0.4) << static_cast<int>(method);
+    EXPECT_NEAR(orders.spline, 4.0, 0.8) << static_cast<int>(method);
+  }
 }
 
 TEST(GridRivals, BetterPredictorsSaveCorrectionsNotError) {
   const Setting setting = scene_setting("rotating_mass", {{"from", "100"}, {"to", "40"}});
   const ReferenceSet reference = references(setting);
-  const MeasuredRun zero = measure_grid(setting, reference, Method::zero_order, 100, 1);
-  const MeasuredRun tangent = measure_grid(setting, reference, Method::tangent, 100, 1);
+  const MeasuredRun zero = measure_grid(setting, reference, Method::zero_order, 100, 1).spline;
+  const MeasuredRun tangent = measure_grid(setting, reference, Method::tangent, 100, 1).spline;
   ASSERT_TRUE(zero.completed && tangent.completed) << zero.message << tangent.message;
   EXPECT_NEAR(zero.error, tangent.error, 1e-3 * zero.error);
   EXPECT_LE(tangent.factorizations, zero.factorizations);
@@ -72,9 +80,24 @@ TEST(GridRivals, NeedMorePointsThanTheTrace) {
   Setting setting = scene_setting("rotating_mass");
   const ReferenceSet reference = references(setting);
   const MeasuredRun own = measure_trace(setting, reference, 1);
-  const MeasuredRun rival = measure_grid(setting, reference, Method::qz_spline, 10 * own.points, 1);
+  const MeasuredRun rival = measure_grid(setting, reference, Method::qz, 10 * own.points, 1).spline;
   ASSERT_TRUE(rival.completed) << rival.message;
   EXPECT_GT(rival.error, own.error);
+}
+
+TEST(GridRivals, AreMeasuredOnTheModesThatATraceFollows) {
+  // The lower mode is constant, exact on any grid; the upper one is not.
+  const std::string scene =
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n"
+      "[matrix_family]\nM = [[[1, 0], [0, 1]]]\nK = [[[1, 0], [0, 4]], [[0, 0], [0, 9]]]\n";
+  Setting setting = make_setting(scene);
+  const ReferenceSet reference = references(setting);
+  for (const Method method : {Method::qz, Method::zero_order, Method::secant, Method::tangent}) {
+    setting.options.modes = 1;
+    EXPECT_LT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-14) << static_cast<int>(method);
+    setting.options.modes.reset();
+    EXPECT_GT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-3) << static_cast<int>(method);
+  }
 }
 
 TEST(Study, SamplesFillTheRange) {
@@ -151,9 +174,9 @@ TEST(Study, HasARunForEverySetting) {
   int last = 0;
   const Study study = accuracy_study(setting, options, [&](int done, int all) {
     EXPECT_EQ(done, ++last);
-    EXPECT_EQ(all, 11);
+    EXPECT_EQ(all, 14);
   });
-  EXPECT_EQ(study.runs.size(), 11U);
+  EXPECT_EQ(study.runs.size(), 14U);
   EXPECT_EQ(setting.options.tolerance, 1e-8);  // as the scene says, again
   EXPECT_TRUE(setting.options.certify);
 }

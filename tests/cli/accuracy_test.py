@@ -9,7 +9,7 @@ from command_test_case import CommandTest, blade_eigenvalues
 from program import BLADE, ProgramTest, each_case
 
 NARROW = ("--tolerances", "1e-3,1e-6", "--orders", "2,3", "--samples", "20", "--repeat", "1")
-N_RUNS = 2 * 2 + 2 + 5 * 2
+N_RUNS = 2 * 2 + 2 + 2 * 4 * 2
 
 # Per dataset: dimensions and units.
 LAYOUT = {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,36 +38,40 @@ struct ReferenceSet {
   double s_ref = 1.0;       ///< magnitude below which an eigenvalue counts as zero, 1/s
 };
 
-/// What produces eigenvalues over the whole range.
+/// What produces eigenvalues.
 enum class Method {
   trace,              ///< this program
   trace_uncertified,  ///< the same without certificate
-  qz_linear,          ///< QZ on a grid, labels by modal assurance and optimal assignment, straight lines
-  qz_spline,          ///< the same with a cubic spline
-  zero_order,         ///< corrector from the last point's modes on a grid, cubic spline
-  secant,             ///< corrector from the secant through the last two points
-  tangent             ///< corrector from the tangent at the last point
+  qz,                 ///< QZ on a grid, labels by modal assurance and optimal assignment
+  zero_order,         ///< corrector on a grid, from the last point's modes
+  secant,             ///< corrector on a grid, from the secant through the last two points
+  tangent             ///< corrector on a grid, from the tangent at the last point
 };
-/// "QZ, cubic spline": for tables and files.
-std::string method_name(Method method);
+
+/// What a grid has between its points.
+enum class Interpolation { linear, cubic_spline };
 
 /// A method at one setting: what it achieved and what that took.
 struct MeasuredRun {
   Method method = Method::trace;
-  double tolerance = 0.0;            ///< not a number on grids
-  int order = 0;                     ///< 0 on grids
-  bool completed = false;            ///< came to the end of the range
-  std::string message;               ///< why not
-  int points = 0;                    ///< nodes or grid points
-  double error = 0.0;                ///< largest over all samples, as the tolerance counts it
-  double worst_parameter = 0.0;      ///< where that is
-  int measured = 0;                  ///< samples it could be measured at
-  double seconds = 0.0;              ///< median wall time
-  std::uint64_t factorizations = 0;  ///< complex LU of about the pencil's size, all purposes
-  std::uint64_t spectra = 0;         ///< full spectra by QZ
-  std::uint64_t evaluations = 0;     ///< of the model's effects, residuals and linearizations
-  std::uint64_t bytes = 0;           ///< of the loci file; 0 where there is none
+  std::optional<Interpolation> interpolation;  ///< of grids
+  double tolerance = 0.0;                      ///< not a number on grids
+  int order = 0;                               ///< 0 on grids
+  bool completed = false;                      ///< came to the end of the range
+  std::string message;                         ///< why not
+  int points = 0;                              ///< nodes or grid points
+  double error = 0.0;                          ///< largest over all samples, as the tolerance counts it
+  double worst_parameter = 0.0;                ///< where that is
+  int measured = 0;                            ///< samples it could be measured at
+  double seconds = 0.0;                        ///< median wall time
+  std::uint64_t factorizations = 0;            ///< complex LU of about the pencil's size, all purposes
+  std::uint64_t spectra = 0;                   ///< full spectra by QZ
+  std::uint64_t evaluations = 0;               ///< of the model's effects, residuals and linearizations
+  std::uint64_t bytes = 0;                     ///< of the loci file; 0 where there is none
 };
+
+/// "QZ, cubic spline": for tables and files.
+std::string method_name(const MeasuredRun& run);
 
 struct [[nodiscard]] Study {
   ReferenceSet reference;
@@ -83,9 +88,14 @@ ReferenceSet reference_set(const TraceSetup& setup, const std::vector<double>& p
 /// Traces the scene with the setup's options and measures.
 MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference, int repeat);
 
-/// Runs another method on an equidistant grid and measures.
-MeasuredRun measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
-                         int repeat);
+/// The same grid with either interpolation; the time, that of its points, is the same.
+struct GridRuns {
+  MeasuredRun linear, spline;
+};
+
+/// Runs another method on an equidistant grid and measures, for the modes that a trace follows.
+GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
+                      int repeat);
 
 /// The whole study; `progress` is called with the number of runs done and of all runs.
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
