@@ -209,13 +209,13 @@ ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, 
 }
 
 ExpressionVector Draft::read_guess(TableReader& table, const std::string& key) const {
-  const ExpressionVector guess = table.vector(key);
-  for (const Expression& e : guess) {
+  const ExpressionVector found = table.vector(key);
+  for (const Expression& e : found) {
     const std::vector<double> values = check_values(e);
     if (!values.empty() && !std::isfinite(values[0]))
       table.fail(key, "is not a finite number; found " + exact_text(values[0]) + where_on_trace(0));
   }
-  return guess;
+  return found;
 }
 
 std::vector<double> Draft::check_values(const Expression& expression) const {
