@@ -171,8 +171,8 @@ class ModalTube {
 
   Sampled sampled_at(double t, const StepPencil::Sample* middle) const {
     const auto sample = pencil_.at(t);
-    const bool same = middle == nullptr || pencil_.has_constant_mass();
-    return {sample, at(*sample), same ? Matrix() : Matrix(middle->M * sample->M.partialPivLu().inverse())};
+    if (middle == nullptr || pencil_.has_constant_mass()) return {sample, at(*sample), Matrix()};
+    return {sample, at(*sample), middle->M * sample->M.partialPivLu().inverse()};
   }
 
   /// Residuals of pairs at a place, in modal coordinates of the companion form.

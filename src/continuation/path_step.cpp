@@ -62,8 +62,10 @@ ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
 /// Differences of roots on their way from one end of a piece over its middle to the other.
 class Differences {
  public:
-  explicit Differences(const ComplexVector& roots)
+  /// Roots closer than `resolution` all along are one.
+  Differences(const ComplexVector& roots, double resolution)
       : scale_(coinciding * roots.cwiseAbs().maxCoeff()),
+        resolution_(std::max(scale_, resolution)),
         start_(roots),
         unclear_(static_cast<std::size_t>(roots.size() * roots.size()), false) {}
 
@@ -71,7 +73,7 @@ class Differences {
   bool are_resolved(const std::array<const ComplexVector*, 3>& sets) const {
     return all_pairs([&](Eigen::Index i, Eigen::Index j) {
       const auto vanishes = [&](const ComplexVector* roots) {
-        return std::abs((*roots)[i] - (*roots)[j]) <= scale_;
+        return std::abs((*roots)[i] - (*roots)[j]) <= resolution_;
       };
       return change(sets, i, j) <= 1.0 || std::all_of(sets.begin(), sets.end(), vanishes);
     });
@@ -120,6 +122,7 @@ class Differences {
   }
 
   double scale_;
+  double resolution_;
   ComplexVector start_;
   std::vector<bool> unclear_;
 };
@@ -196,7 +199,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     told_apart = false;
     return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  Differences differences(roots);
+  Differences differences(roots, root_resolution(functions(from)));
   ComplexVector current = roots;
   double t = from;
   double piece = to - from;

@@ -48,11 +48,12 @@ const ComplexVector& StrandSampler::operator()(double t) {
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
   constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
-  const double scale = track.pair.Lambda.norm();
+  const double closest =
+      std::max(coinciding * track.pair.Lambda.norm(), root_resolution(sampler.functions()(0.0)));
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);
-      return std::abs(roots[i] - roots[j]) <= coinciding * scale;
+      return std::abs(roots[i] - roots[j]) <= closest;
     });
   };
   std::vector<Strand> strands;

@@ -110,7 +110,7 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const PathPoint&
   problem_.s_ref = options_.reference.value_or(reference_share * std::max(median, 1e-6 * spectrum.scale));
   problem_.s_max = infinity_share * std::max(std::abs(typical.back().s), problem_.s_ref);
   result_.s_ref = problem_.s_ref;
-  return std::move(modes);
+  return std::make_optional(std::move(modes));
 }
 
 bool Tracer::start_tracks(PathPoint& point, const std::vector<StartingMode>& modes,

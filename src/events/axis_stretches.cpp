@@ -12,6 +12,9 @@ namespace {
 /// Real parts of stored points below this, relatively, are zero: an undamped system does not grow by
 /// rounding.
 constexpr double vanishing_damping = 1e-9;
+/// A double eigenvalue zero, a rigid-body motion, is known to the root of rounding only, relative to the
+/// largest one of the system.
+constexpr double double_zero = 3e-8;
 /// An event with a real part below this, relatively, lies on the imaginary axis.
 constexpr double axis_width = 1e-6;
 constexpr int samples_per_step = 8;
@@ -48,6 +51,14 @@ double uncertainty(const DenseBlock& block, const ComplexVector& s, int mode, do
   return level * scale / std::max(std::pow(nearness, others), multiple);
 }
 
+double largest_magnitude(const ComplexVector& s) {
+  double largest = 0.0;
+  for (const Complex value : s) {
+    if (std::isfinite(value.real())) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
 AxisSample sample(const RecordedPath& path, const PathPosition& at, const EigenvalueAccuracy& accuracy) {
   AxisSample result;
   result.at = at;
@@ -55,12 +66,14 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Eigenv
   result.all_decay = true;
   const double level = result.exact ? vanishing_damping : accuracy.tolerance;
   const ComplexVector s = path.eigenvalues_at(at);
+  const double zero = double_zero * std::min(largest_magnitude(s), infinite_size * accuracy.reference);
   double fastest = -INFINITY;
   for (const DenseBlock& block : path.steps[at.step].blocks) {
     for (const int mode : block.modes) {
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
-      const double doubt = uncertainty(block, s, mode, level, accuracy);
+      const bool vanishes = block.size() > 1 && std::abs(s[mode]) <= zero;
+      const double doubt = vanishes ? zero : uncertainty(block, s, mode, level, accuracy);
       if (growth > doubt) result.unstable.push_back(mode);
       result.all_decay = result.all_decay && growth < -doubt;
       if (growth > fastest) result.critical = mode;
@@ -221,6 +234,7 @@ void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut&
   constexpr int deepest = 12;
   AxisStretch stretch{from, to};
   add_samples(path, accuracy, stretch);
+  if (stretch.samples.empty()) return;  // a sign seems to change where a cut is already
   if (const auto cut = depth < deepest ? missing_cut(path, stretch, accuracy) : std::nullopt) {
     add_stretches(path, from, *cut, accuracy, depth + 1, stretches);
     add_stretches(path, *cut, to, accuracy, depth + 1, stretches);
@@ -244,7 +258,7 @@ std::vector<int> passed(const std::vector<int>& unstable, const AxisCut& cut) {
 std::vector<int> unstable_at_end(const AxisStretch& stretch, bool first) {
   const auto tells = [](const AxisSample& s) { return verdict(s).has_value(); };
   const auto& samples = stretch.samples;
-  if (!stretch.seen) return samples.empty() ? std::vector<int>{} : samples.front().unstable;
+  if (!stretch.seen) return samples.front().unstable;
   return first ? std::find_if(samples.begin(), samples.end(), tells)->unstable
                : std::find_if(samples.rbegin(), samples.rend(), tells)->unstable;
 }

@@ -136,6 +136,8 @@ class ForeignModel final : public Model {
                .coordinate_units = {"m"},
                .constraint_names = {},
                .effects = {},
+               .masses = {},
+               .rotation_axis = {},
                .parameters = Parameters({parameter_p()})}) {}
   Vector initial_guess(const Vector&) const override { return Vector::Zero(1); }
   Structure structure(int) const override { return {.known_equilibrium = true}; }

@@ -251,9 +251,15 @@ TEST(BranchPoint, OfATrussThatGivesWaySideways) {
         EXPECT_LT(std::abs(determinant), 1e-11) << "point " << i << " mode " << state.mode;
       }
     }
-    if (branch == "1") EXPECT_LT(std::abs(farthest), 1e-9);
-    if (branch == "2") EXPECT_GT(farthest, 0.5);
-    if (branch == "3") EXPECT_LT(farthest, -0.5);
+    if (branch == "1") {
+      EXPECT_LT(std::abs(farthest), 1e-9);
+    }
+    if (branch == "2") {
+      EXPECT_GT(farthest, 0.5);
+    }
+    if (branch == "3") {
+      EXPECT_LT(farthest, -0.5);
+    }
   }
 }
 

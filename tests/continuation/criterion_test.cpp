@@ -42,7 +42,9 @@ TEST(Criterion, SeriesIsThatOfTheValue) {
         return std::abs(sum - criterion_value(criterion, mu_at(h), chart, 0.6 + h));
       };
       EXPECT_LT(miss(0.05), 1e-5);
-      if (miss(0.05) > 1e-14) EXPECT_NEAR(miss(0.1) / miss(0.05), 32.0, 10.0);
+      if (miss(0.05) > 1e-14) {
+        EXPECT_NEAR(miss(0.1) / miss(0.05), 32.0, 10.0);
+      }
     }
   }
 }

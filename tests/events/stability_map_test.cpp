@@ -116,7 +116,9 @@ TEST(StabilityMap, UndampedSystemsAreMarginalOutsideFlutter) {
     const bool flutter = std::abs(d) < 2.0 * std::abs(line.second) - on_boundary;
     EXPECT_EQ(line.unstable[cell], flutter ? 1 : 0);
     EXPECT_EQ(line.margin[cell] < 0.0, flutter);
-    if (!flutter) EXPECT_EQ(line.margin[cell], 0.0);
+    if (!flutter) {
+      EXPECT_EQ(line.margin[cell], 0.0);
+    }
     marginal += flutter ? 0 : 1;
     Matrix K(2, 2);
     K << 1, line.second, -line.second, 1 + d;
@@ -264,7 +266,9 @@ TEST(StabilityMap, CellsWithAMissingModeAreUnknown) {
   for_cells(map, [&](const MapLine& line, std::size_t cell, double p) {
     SCOPED_TRACE("p " + exact_text(p) + " q " + exact_text(line.second));
     const int expected = line.second < 0.0 ? 2 : 0;
-    if (line.unstable[cell] != MapLine::unknown) EXPECT_EQ(line.unstable[cell], expected);
+    if (line.unstable[cell] != MapLine::unknown) {
+      EXPECT_EQ(line.unstable[cell], expected);
+    }
   });
 }
 

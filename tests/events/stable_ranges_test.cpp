@@ -201,5 +201,43 @@ TEST(StableRanges, GoOnWhereTheMarginTouchesZero) {
   EXPECT_NEAR(traced.ranges[0].least_margin, 0.0, 1e-3);
 }
 
+TEST(StableRanges, ARigidBodyModeIsNoGrowth) {
+  // Two masses on a spring, free to move on: the double eigenvalue zero is found as +-1e-8 or so.
+  for (const double stiffness : {1.0, 1e4}) {
+    const std::string k = rounded(stiffness, 3);
+    const TracedRanges traced =
+        traced_family("from = 1\nto = 3", "M = [[[1, 0], [0, 2]]]\nK = [[[0, 0], [0, 0]], [[" + k + ", -" +
+                                              k + "], [-" + k + ", " + k + "]]]\n");
+    expect_ranges(traced.ranges, {{marginal, 1.0, 3.0, "start", "end"}});
+  }
+}
+
+TEST(StableRanges, ManyRigidBodyModesAreNoGrowthAndCostNothing) {
+  // Two points in space on a spring: five modes are rigid, and none can be told from the others.
+  const TracedRanges traced = traced_ranges(make_setting(R"([parameters]
+k = 1
+[trace]
+parameter = "k"
+from = 1
+to = 3
+[[point]]
+name = "a"
+mass = 1
+position = [0, 0, 0]
+[[point]]
+name = "b"
+mass = 2
+position = [1, 0, 0]
+[[spring]]
+from = "a"
+to = "b"
+stiffness = "k"
+free_length = 1
+)"));
+  EXPECT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
+  EXPECT_LT(traced.result.nodes, 50);
+  expect_ranges(traced.ranges, {{marginal, 1.0, 3.0, "start", "end"}});
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -79,7 +79,9 @@ TEST(SymmetricPairs, ChainOfSpringsEqualsTheClosedForm) {
     EXPECT_LT(pairs[i].backward_error, rounding);
     for (std::size_t j = 0; j <= 3; ++j) {
       EXPECT_NEAR(series[i].Lambda[j](0, 0).imag(), binomial[j] * omega, tolerance * omega) << b << " " << j;
-      if (j > 0) EXPECT_LT(series[i].Z[j].norm(), tolerance / omega) << "shapes do not change";
+      if (j > 0) {
+        EXPECT_LT(series[i].Z[j].norm(), tolerance / omega) << "shapes do not change";
+      }
     }
   }
 }

@@ -49,7 +49,8 @@ struct AxisStretch {
   /// false: so short that the error of the dense output hides its real parts; a neighbour told instead, if
   /// any
   bool seen = true;
-  std::vector<AxisSample> samples = {};  ///< inside, as the trace goes, and at those ends that are on no axis
+  /// Inside, as the trace goes, and at those ends that are on no axis; at least one.
+  std::vector<AxisSample> samples = {};
 
   /// Whether a mode grows somewhere on the stretch.
   bool grows(int mode) const;
