@@ -239,6 +239,8 @@ BOUNDARIES = [
     row("boundary with a derived parameter", [*BOUNDARY, "--second", "damping", "--from", "0", "--to", "1"],
         "--second: 'damping' is defined by an expression",
         prepare=edit("column.toml", "damping = 0.1", 'damping = "load + 0.1"')),
+    row("boundary of a scene without its range", [*BOUNDARY, *SECOND], "[trace] from: is missing", "--first-from",
+        prepare=edit("column.toml", "from =", "# from =")),
     row("boundary of an empty window", [*BOUNDARY, "--second", "damping", "--from", "1", "--to", "1"],
         "--to: expected more than --from (1), found 1"),
     row("boundary of a window the wrong way round", [*BOUNDARY, "--second", "damping", "--from", "1", "--to", "0"],
