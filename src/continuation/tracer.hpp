@@ -18,6 +18,7 @@
 
 namespace eigentrail {
 
+// Nothing derives from it. NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor)
 class Tracer final : private Checkpoint {
  public:
   Tracer(const Model& model, const TraceOptions& options, const TraceObserver& observer, BasisChoice basis);
