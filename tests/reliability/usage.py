@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from good import BLADE, TWO_SHORT_RODS
+from good import BLADE, FAMILY, TWO_SHORT_RODS
 from program import edited
 
 TRACE = ["trace", "scene.toml", "-o", "new.h5"]
@@ -239,6 +239,9 @@ BOUNDARIES = [
     row("boundary with a derived parameter", [*BOUNDARY, "--second", "damping", "--from", "0", "--to", "1"],
         "--second: 'damping' is defined by an expression",
         prepare=edit("column.toml", "damping = 0.1", 'damping = "load + 0.1"')),
+    row("family that does not name its parameter", ["trace", "family.toml", "-o", "new.h5", "--parameter", "p"],
+        "family.toml: [trace] parameter: a scene with [matrix_family] names here the parameter",
+        prepare=write("family.toml", "[parameters]\np = 1\n" + edited(FAMILY, 'parameter = "p"\n', ""))),
     row("boundary of a scene without its range", [*BOUNDARY, *SECOND], "[trace] from: is missing", "--first-from",
         prepare=edit("column.toml", "from =", "# from =")),
     row("boundary of an empty window", [*BOUNDARY, "--second", "damping", "--from", "1", "--to", "1"],
