@@ -51,14 +51,16 @@ void print_traces(const std::vector<MeasuredRun>& runs) {
   print_table(rows);
 }
 
+/// One row per grid: its two runs stand side by side, straight lines first.
 void print_rivals(const std::vector<MeasuredRun>& runs) {
   std::vector<std::vector<std::string>> rows{
-      {"instead, on a grid", "points", "error", "LU", "QZ", "evaluations", "time"}};
-  for (const MeasuredRun& run : runs) {
-    if (by_trace(run)) continue;
-    rows.push_back({method_name(run), std::to_string(run.points), error_text(run),
-                    std::to_string(run.factorizations), std::to_string(run.spectra),
-                    std::to_string(run.evaluations), milliseconds(run.seconds)});
+      {"instead, on a grid", "points", "error, linear", "spline", "LU", "QZ", "evaluations", "time"}};
+  for (auto run = runs.begin(); run != runs.end(); ++run) {
+    if (run->interpolation != Interpolation::linear) continue;
+    rows.push_back({method_name(run->method), std::to_string(run->points), error_text(*run),
+                    error_text(*std::next(run)), std::to_string(run->factorizations),
+                    std::to_string(run->spectra), std::to_string(run->evaluations),
+                    milliseconds(run->seconds)});
   }
   if (rows.size() == 1) return;
   std::printf(
@@ -82,7 +84,7 @@ std::string cost_text(const MeasuredRun* run) {
   if (run == nullptr) return "none of those tried";
   const std::string setting = run->method == Method::trace ? "order " + std::to_string(run->order) + " at " +
                                                                  exact_text(run->tolerance)
-                                                           : method_name(*run);
+                                                           : run_name(*run);
   return setting + ": " + std::to_string(run->points) + " points, " + milliseconds(run->seconds);
 }
 

@@ -28,25 +28,27 @@ bool all(const Values& values, Within within) {
 
 }  // namespace
 
-std::string method_name(const MeasuredRun& run) {
-  const auto name = [](Method method) -> std::string {
-    switch (method) {
-      case Method::trace:
-        return "eigentrail";
-      case Method::trace_uncertified:
-        return "eigentrail, no certificate";
-      case Method::qz:
-        return "QZ";
-      case Method::zero_order:
-        return "corrector, zero-order";
-      case Method::secant:
-        return "corrector, secant";
-      default:
-        return "corrector, tangent";
-    }
-  };
-  if (!run.interpolation) return name(run.method);
-  return name(run.method) + (run.interpolation == Interpolation::linear ? ", linear" : ", cubic spline");
+std::string method_name(Method method) {
+  switch (method) {
+    case Method::trace:
+      return "eigentrail";
+    case Method::trace_uncertified:
+      return "eigentrail, no certificate";
+    case Method::qz:
+      return "QZ";
+    case Method::zero_order:
+      return "corrector, zero-order";
+    case Method::secant:
+      return "corrector, secant";
+    default:
+      return "corrector, tangent";
+  }
+}
+
+std::string run_name(const MeasuredRun& run) {
+  if (!run.interpolation) return method_name(run.method);
+  return method_name(run.method) +
+         (run.interpolation == Interpolation::linear ? ", linear" : ", cubic spline");
 }
 
 std::vector<std::string> find_faults(const StudyOptions& options) {

@@ -50,8 +50,7 @@ class RunColumns {
 void write_runs(Hdf5File& file, const std::vector<MeasuredRun>& runs, const std::string& parameter_unit) {
   using Run = MeasuredRun;
   RunColumns columns(file, runs);
-  columns.write<std::string>({"method", "1", "what was run"},
-                             [](const Run& run) { return method_name(run); });
+  columns.write<std::string>({"method", "1", "what was run"}, [](const Run& run) { return run_name(run); });
   columns.write<double>({"run_tolerance", "1", "tolerance asked for; NaN: none"},
                         std::mem_fn(&Run::tolerance));
   columns.write<std::int64_t>({"order", "1", "order of the series; 0: none"}, std::mem_fn(&Run::order));

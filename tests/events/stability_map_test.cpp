@@ -76,8 +76,8 @@ TEST_P(MapTolerances, CellsAreThoseOfTheClosedForm) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MapTolerances, testing::Values(1e-4, 1e-6, 1e-9), [](const auto& info) {
-  return "tolerance_1em" + std::to_string(static_cast<int>(-std::log10(info.param) + 0.5));
+INSTANTIATE_TEST_SUITE_P(All, MapTolerances, testing::Values(1e-4, 1e-6, 1e-9), [](const auto& test) {
+  return "tolerance_1em" + std::to_string(static_cast<int>(-std::log10(test.param) + 0.5));
 });
 
 /// Cells that lie on the circle and on the line exactly: nothing grows there that does not on either side.

@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
         RangesCase{"H22_rigid_body_mode", {{marginal, 0, 0.1, "collision", "end"}}},
         RangesCase{"C01_rotating_mass", {{stable, 100, 12.4393882230095183, "start", "flutter"}}},
         RangesCase{"C05_pushed_pendulum", {{marginal, 0, 1, "start", "fold"}}}),
-    [](const auto& info) { return info.param.hard_case; });
+    [](const auto& test) { return test.param.hard_case; });
 
 /// s^2 + 2 c s + 1 with c = (p - 1)(p - 2)(p - 4)(p - 5)/10: stable but for two windows, |s| = 1 throughout.
 TEST(StableRanges, LeaveOutTwoWindowsOfInstability) {

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                     FactoredMode{"damped_real_root", true, -0.7, std::polar(1.0, 0.4)},
                     FactoredMode{"damped_oscillation", true, {-0.1, 1.3}, 1.0},
                     FactoredMode{"damped_on_the_axis", true, {0.0, 1.3}, 1.0}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace eigentrail::test

@@ -70,12 +70,14 @@ struct MeasuredRun {
   std::uint64_t bytes = 0;                     ///< of the loci file; 0 where there is none
 };
 
-/// "QZ, cubic spline": for tables and files.
-std::string method_name(const MeasuredRun& run);
+/// "QZ", "corrector, secant".
+std::string method_name(Method method);
+/// "QZ, cubic spline".
+std::string run_name(const MeasuredRun& run);
 
 struct [[nodiscard]] Study {
   ReferenceSet reference;
-  std::vector<MeasuredRun> runs;
+  std::vector<MeasuredRun> runs;  ///< traces, then grids: with straight lines, with the spline
 };
 
 /// Parameters from a golden-ratio sequence within the range of the options, ascending.
