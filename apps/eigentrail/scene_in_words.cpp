@@ -20,17 +20,21 @@ std::string freedoms(const Sizes& sizes) {
 
 /// What the structure of the pencil lets eigenvalues do.
 std::string prospects(const Structure& structure) {
-  if (structure.circulatory)
+  if (structure.circulatory) {
     return "Forces without a potential (unsymmetric K): flutter is possible, with and without damping.";
-  if (structure.damped && structure.gyroscopic)
+  }
+  if (structure.damped && structure.gyroscopic) {
     return "Damping and gyroscopic forces: modes decay where damping is external; damping that rotates may "
            "make them grow.";
-  if (structure.damped)
+  }
+  if (structure.damped) {
     return "Damping and a potential: modes decay until the stiffness is lost (divergence), as long as no "
            "damping is negative.";
-  if (structure.gyroscopic)
+  }
+  if (structure.gyroscopic) {
     return "Gyroscopic forces without damping: modes neither grow nor decay until two of them meet "
            "(flutter), or the stiffness is lost.";
+  }
   return "A potential without damping: modes neither grow nor decay until the stiffness is lost "
          "(divergence).";
 }
