@@ -257,7 +257,7 @@ class ArchiveReader {
     }
     SparseMatrix sparse(rows, columns);
     sparse.setFromTriplets(entries.begin(), entries.end());
-    matrix = std::move(sparse);
+    matrix = sparse;
   }
 
   std::string_view left_;

@@ -123,7 +123,7 @@ std::optional<SavedTrace> read_saved_trace(const std::string& path, const Scene&
   if (status != "running" && status != "interrupted") return std::nullopt;
   try {
     SavedTrace saved = split(path, read_file(path));
-    saved.path = loci;
+    saved.path = static_cast<const RecordedPath&>(loci);
     return saved;
   } catch (const ArchiveError& error) {
     throw InputError(path + ": cannot be resumed: the state of the trace is damaged: " + error.what());
