@@ -25,11 +25,15 @@ constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must
 class Tube {
  public:
   Tube(const StepPencil& pencil, const Track& left, const Track& right, double gap, RunCounts& counts)
-      : pencil_(pencil), chart_(left.pair.chart), W_(left.pair.W), counts_(counts), gap_(gap) {
-    left_Z_ = in_basis_of(pencil.left(), left.series.Z);
-    left_Lambda_ = left.series.Lambda;
-    right_Z_ = in_basis_of(pencil.left(), right.series.Z);
-    right_Lambda_ = right.series.Lambda;
+      : pencil_(pencil),
+        chart_(left.pair.chart),
+        W_(left.pair.W),
+        counts_(counts),
+        gap_(gap),
+        left_Z_(in_basis_of(pencil.left(), left.series.Z)),
+        left_Lambda_(left.series.Lambda),
+        right_Z_(in_basis_of(pencil.left(), right.series.Z)),
+        right_Lambda_(right.series.Lambda) {
     fix_basis(W_, left_Z_, left_Lambda_);
     fix_basis(W_, right_Z_, right_Lambda_);
   }

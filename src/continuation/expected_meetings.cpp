@@ -188,10 +188,9 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
-        RootsOnStep roots(
-            sampler, strands[a].members.front(), strands[b].members.front(),
-            std::max(coinciding_share * track.pair.Lambda.norm(), root_resolution(sampler.functions()(0.0))),
-            looked_into);
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
+                          std::max(coinciding_share * track.pair.Lambda.norm(), sampler.resolution()),
+                          looked_into);
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);

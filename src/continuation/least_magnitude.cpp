@@ -52,14 +52,14 @@ Place refine(Magnitude& magnitude, Place best) {
 double place_of_least_magnitude(const ComplexMatrix& functions) {
   Magnitude magnitude(functions);
   std::array<Place, intervals + 1> samples;
-  for (std::size_t i = 0; i <= intervals; ++i) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     const double t = static_cast<double>(i) / intervals;
     samples[i] = {t, magnitude(t)};
   }
   Place least;
-  for (std::size_t i = 0; i <= intervals; ++i) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     const bool falls_to_left = i > 0 && samples[i - 1].magnitude < samples[i].magnitude;
-    const bool falls_to_right = i < intervals && samples[i + 1].magnitude < samples[i].magnitude;
+    const bool falls_to_right = i + 1 < samples.size() && samples[i + 1].magnitude < samples[i].magnitude;
     if (falls_to_left || falls_to_right) continue;
     const Place place = refine(magnitude, samples[i]);
     if (place.magnitude < least.magnitude) least = place;

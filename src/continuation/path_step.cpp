@@ -199,7 +199,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     told_apart = false;
     return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  Differences differences(roots, root_resolution(functions(from)));
+  Differences differences(roots, root_resolution(functions(from), roots));
   ComplexVector current = roots;
   double t = from;
   double piece = to - from;

@@ -35,6 +35,7 @@ StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::s
     : functions_(functions_on_step(left, right, index, length)) {
   double position = 0.0;
   ComplexVector roots = departing_roots(left.tracks[index], length, position);
+  resolution_ = root_resolution(functions_(position), roots);
   known_.emplace(position, std::move(roots));
 }
 
@@ -48,8 +49,7 @@ const ComplexVector& StrandSampler::operator()(double t) {
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
   constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
-  const double closest =
-      std::max(coinciding * track.pair.Lambda.norm(), root_resolution(sampler.functions()(0.0)));
+  const double closest = std::max(coinciding * track.pair.Lambda.norm(), sampler.resolution());
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);

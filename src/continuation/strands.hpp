@@ -25,11 +25,15 @@ class StrandSampler {
   /// Smooth functions of the track on the step.
   const HermiteInterpolant& functions() const { return functions_; }
 
+  /// Distance within which none of the roots can be told apart at the left end (invariants.hpp).
+  double resolution() const { return resolution_; }
+
   /// Valid until the next call.
   const ComplexVector& operator()(double t);
 
  private:
   HermiteInterpolant functions_;
+  double resolution_ = 0.0;
   std::map<double, ComplexVector> known_;  ///< by t
   ComplexVector single_;                   ///< the root of a track that has one, at the last t
 };

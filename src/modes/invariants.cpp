@@ -73,14 +73,15 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
   return errors.norm() * std::min(1.0 / std::max(reciprocal, 1e-300), worst_condition);
 }
 
-double root_resolution(const ComplexVector& functions) {
+double root_resolution(const ComplexVector& functions, const ComplexVector& roots) {
   constexpr double rounding = 1e-13;  // of the corrector and of the basis that both ends of a step share
-  const Eigen::Index k = block_size(functions.size());
+  const Eigen::Index k = roots.size();
   if (k <= 2) return 0.0;
   const ComplexMatrix Lambda = functions.reshaped(k, k);
   // Departure from normality (Henrici 1962).
   const double departure = std::sqrt((Lambda * Lambda.adjoint() - Lambda.adjoint() * Lambda).norm());
-  return std::sqrt(rounding * Lambda.norm() * departure);
+  const double resolution = std::sqrt(rounding * Lambda.norm() * departure);
+  return (roots.array() - roots.mean()).abs().maxCoeff() <= resolution ? resolution : 0.0;
 }
 
 namespace {

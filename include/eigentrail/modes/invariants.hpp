@@ -33,10 +33,10 @@ Vector function_rounding(const ComplexMatrix& Lambda);
 /// roots counts as no less than `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
 
-/// Eigenvalues of a block of three and more that stay closer than this cannot be told apart: where the matrix
-/// is far from normal, as with several rigid-body modes, double eigenvalues are known to the root of its
-/// rounding only. 1/s; zero for smaller blocks, whose functions do not depend on a basis.
-double root_resolution(const ComplexVector& functions);
+/// Distance within which no two eigenvalues of a block can be told apart, 1/s: above zero for blocks of three
+/// and more all of whose `roots` coincide within rounding, as those of several rigid-body modes do. Their
+/// matrix is far from normal, and its eigenvalues are known to the root of its rounding only.
+double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
 
 /// Roots of `to` in the order of `from`: the assignment with the least total distance.
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to);
