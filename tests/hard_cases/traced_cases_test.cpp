@@ -19,6 +19,8 @@ std::string problems(const CaseReport& report) {
   if (report.worst_error > 4.0)
     text += "error " + std::to_string(report.worst_error) + " tolerances at " +
             std::to_string(report.worst_at) + "; ";
+  if (report.most_retrackings > 4)
+    text += std::to_string(report.most_retrackings) + " points for one event; ";
   if (report.wrong_labels > 0) text += std::to_string(report.wrong_labels) + " wrong labels; ";
   for (const std::string& event : report.missing) text += "missing " + event + "; ";
   for (const std::string& event : report.invented) text += "invented " + event + "; ";
