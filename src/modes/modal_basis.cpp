@@ -131,7 +131,8 @@ void ModalBasis::prepare_division(const PairSet& pairs) {
   for (Eigen::Index b = 0; b < divisors_.cols(); ++b) {
     for (Eigen::Index a = 0; a < rows; ++a) {
       const Complex difference = s_[static_cast<std::size_t>(b)] - s_[static_cast<std::size_t>(a)];
-      if (a != b && difference == difference) divisors_(a, b) = 1.0 / difference;
+      const bool is_number = !std::isnan(difference.real()) && !std::isnan(difference.imag());
+      if (a != b && is_number) divisors_(a, b) = 1.0 / difference;
     }
   }
   for (const PairSet::Place& b : pairs.places) {
