@@ -75,7 +75,7 @@ void print_influences(const Influences& influences, const std::string& at) {
     std::stable_sort(ranked.begin(), ranked.end(), [i](const auto* a, const auto* b) {
       return std::abs(a->derivatives[i]) > std::abs(b->derivatives[i]);
     });
-    std::printf("  mode %lld  %s\n", static_cast<long long>(i + 1),
+    std::printf("  mode %s  %s\n", std::to_string(i + 1).c_str(),
                 complex_text(s.real(), s.imag(), 8).c_str());
     std::vector<std::vector<std::string>> rows;
     for (const EffectInfluence* influence : ranked) {

@@ -35,7 +35,7 @@ double reference(const Window& window, const BoundaryFunction& function, const R
 }  // namespace
 
 Vector BoundaryFunction::series(const ComplexMatrix& functions) const {
-  Vector tau = functions.row(0).real().transpose();
+  const Vector tau = functions.row(0).real().transpose();
   if (kind != BoundaryKind::damping_ratio) return tau;
   const double z2 = damping_ratio * damping_ratio;
   return z2 * functions.row(1).real().transpose() + (1.0 - z2) * square(tau);
