@@ -61,8 +61,8 @@ TEST(GridRivals, ConvergeWithTheOrderOfTheirInterpolation) {
   const ReferenceSet reference = references(setting, 400);
   for (const Method method : {Method::qz, Method::zero_order, Method::secant, Method::tangent}) {
     const Orders orders = observed_orders(setting, reference, method, 51);
-    EXPECT_NEAR(orders.linear, 2.0, 0.4) << static_cast<int>(method);
-    EXPECT_NEAR(orders.spline, 4.0, 0.8) << static_cast<int>(method);
+    EXPECT_NEAR(orders.linear, 2.0, 0.4) << method_name(method);
+    EXPECT_NEAR(orders.spline, 4.0, 0.8) << method_name(method);
   }
 }
 
@@ -94,9 +94,9 @@ TEST(GridRivals, AreMeasuredOnTheModesThatATraceFollows) {
   const ReferenceSet reference = references(setting);
   for (const Method method : {Method::qz, Method::zero_order, Method::secant, Method::tangent}) {
     setting.options.modes = 1;
-    EXPECT_LT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-14) << static_cast<int>(method);
+    EXPECT_LT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-14) << method_name(method);
     setting.options.modes.reset();
-    EXPECT_GT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-3) << static_cast<int>(method);
+    EXPECT_GT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-3) << method_name(method);
   }
 }
 
