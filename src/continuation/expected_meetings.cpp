@@ -16,8 +16,7 @@ namespace {
 /// Double roots of an interpolant may lie this share of an interval off the axis, or off its ends.
 constexpr double looked_into = 0.1;
 constexpr double beside = 0.05;
-constexpr double smallest_piece = 1e-8;     ///< of a step
-constexpr double coinciding_share = 1e-12;  ///< of the size of a block: closer eigenvalues are one
+constexpr double smallest_piece = 1e-8;  ///< of a step
 /// Of an interval: roots that are not computed, because there are none, lie farther outside by this.
 constexpr double margin = 0.02;
 
@@ -31,10 +30,9 @@ bool stands_for_a_mode(const Track& track, const Strand& strand) {
 /// seen.
 class RootsOnStep {
  public:
-  /// Closer than `coinciding` throughout, the two are one. Roots farther off the axis than `off_axis` are not
-  /// asked for.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double coinciding, double off_axis)
-      : sampler_(sampler), a_(a), b_(b), coinciding_(coinciding), off_axis_(off_axis) {}
+  /// Roots farther off the axis than `off_axis` are not asked for.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis)
+      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis) {}
 
   std::vector<Complex> find() {
     if (!of_two_has_none()) search(0.0, 1.0);
@@ -110,7 +108,7 @@ class RootsOnStep {
       return 0.25 * d * d;
     };
     const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
-    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= coinciding_) return;
+    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution()) return;
     if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
       const double middle = begin + 0.5 * length;
       search(begin, middle);
@@ -127,7 +125,7 @@ class RootsOnStep {
 
   StrandSampler& sampler_;
   int a_, b_;
-  double coinciding_, off_axis_;
+  double off_axis_;
   int pieces_ = 0;
   std::vector<Complex> roots_;
 };
@@ -188,9 +186,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          std::max(coinciding_share * track.pair.Lambda.norm(), sampler.resolution()),
-                          looked_into);
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into);
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
@@ -353,7 +349,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          coinciding_share * track.pair.Lambda.norm(), widest / std::abs(length));
+                          widest / std::abs(length));
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }

@@ -27,10 +27,10 @@ std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {
   return members;
 }
 
-/// The eigenvalues that lie about as close to the two as these to each other.
-std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members) {
+/// The eigenvalues that lie about as close to the two as these to each other, or this share of their size.
+std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members,
+                                 double one_point = 1e-10) {
   constexpr double as_close = 3.0;
-  constexpr double one_point = 1e-10;
   double inside = one_point * roots.cwiseAbs().maxCoeff();
   for (const int i : members) {
     for (const int j : members) inside = std::max(inside, std::abs(roots[i] - roots[j]));
@@ -132,12 +132,11 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
   }
 }
 
-/// Two eigenvalues that coincide all along meet nowhere.
-bool vanishes(const ComplexVector& gap, double reach, double scale) {
-  constexpr double coinciding = 1e-12;
+/// Two eigenvalues whose distance stays within `resolution` are one, which meets nobody.
+bool vanishes(const ComplexVector& gap, double reach, double resolution) {
   double size = 0.0;
   for (Eigen::Index k = gap.size() - 1; k >= 0; --k) size = size * std::abs(reach) + std::abs(gap[k]);
-  return std::sqrt(size) <= coinciding * scale;
+  return std::sqrt(size) <= resolution;
 }
 
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
@@ -158,6 +157,27 @@ Rounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& part)
   constexpr double worst_condition = 100.0;
   const double condition = std::clamp(track.pair.condition, 1.0, worst_condition);
   return {4e-15 * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
+}
+
+/// Distance of members of a block from its other eigenvalues.
+double distance_from_others(const ComplexVector& roots, const std::vector<int>& members) {
+  double distance = INFINITY;
+  for (int i = 0; i < static_cast<int>(roots.size()); ++i) {
+    if (std::find(members.begin(), members.end(), i) != members.end()) continue;
+    for (const int j : members) distance = std::min(distance, std::abs(roots[i] - roots[j]));
+  }
+  return distance;
+}
+
+/// How well members of a block are told apart on a step of length `reach`: the nearer the others are, the
+/// less is known of the members' slopes.
+double member_resolution(const Track& track, const std::vector<int>& members, double reach) {
+  constexpr double coinciding = 1e-12;
+  const auto& Lambda = track.series.Lambda;
+  const double slope = Lambda.size() > 1 ? Lambda[1].norm() : 0.0;
+  const double of_slope = 10.0 * rounding_of(track, Lambda).lambda * slope * std::abs(reach) /
+                          distance_from_others(track.roots, members);
+  return std::max(coinciding * Lambda[0].norm(), of_slope);
 }
 
 /// All eigenvalues of a part in one point: their distances from the mean vanish together, linearly.
@@ -203,6 +223,18 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   return meeting;
 }
 
+/// Where all of a cluster meet, if it has more eigenvalues than these members.
+std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vector<int>& members,
+                                            const std::vector<int>& cluster, double reach) {
+  if (cluster.size() == members.size()) return std::nullopt;
+  const std::vector<ComplexMatrix> part = part_of_track(track, cluster);
+  if (part.empty()) return std::nullopt;
+  auto meeting = common_crossing(part, rounding_of(track, part), reach);
+  if (!meeting) meeting = common_collision(part, reach);
+  if (meeting) meeting->members = cluster;
+  return meeting;
+}
+
 }  // namespace
 
 ComplexVector gap_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
@@ -221,21 +253,17 @@ ComplexVector gap_of(const Track& track, const std::vector<int>& a, const std::v
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach) {
   const std::vector<int> members = both(a, b);
-  const std::vector<int> cluster = with_bystanders(track.roots, members);
-  if (cluster.size() > members.size()) {
-    const std::vector<ComplexMatrix> part = part_of_track(track, cluster);
-    if (!part.empty()) {
-      auto meeting = common_crossing(part, rounding_of(track, part), reach);
-      if (!meeting) meeting = common_collision(part, reach);
-      if (meeting) {
-        meeting->members = cluster;
-        return *meeting;
-      }
-    }
-  }
+  if (auto meeting = meeting_in_one_point(track, members, with_bystanders(track.roots, members), reach))
+    return *meeting;
   Meeting meeting;
   const ComplexVector gap = gap_of(track, a, b);
-  if (gap.size() == 0 || vanishes(gap, reach, track.pair.Lambda.norm())) return meeting;
+  if (gap.size() == 0) return meeting;
+  if (vanishes(gap, reach, member_resolution(track, members, reach))) {
+    // The two are one, and meet others together.
+    constexpr double nearby = 1e-7;
+    const std::vector<int> others = with_bystanders(track.roots, members, nearby);
+    return meeting_in_one_point(track, members, others, reach).value_or(meeting);
+  }
   const std::vector<Complex> roots = roots_by_magnitude(gap, reach);
   if (roots.empty() || std::abs(roots[0]) > 2.0 * std::abs(reach)) return meeting;
   meeting.found = true;

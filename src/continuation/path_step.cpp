@@ -199,7 +199,8 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     told_apart = false;
     return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  Differences differences(roots, root_resolution(functions(from), roots));
+  // Blocks of two have none, and are looked at most often.
+  Differences differences(roots, functions.size() > 2 ? root_resolution(functions(from), roots) : 0.0);
   ComplexVector current = roots;
   double t = from;
   double piece = to - from;

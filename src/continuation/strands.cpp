@@ -34,8 +34,9 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
 StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
     : functions_(functions_on_step(left, right, index, length)) {
   double position = 0.0;
-  ComplexVector roots = departing_roots(left.tracks[index], length, position);
-  resolution_ = root_resolution(functions_(position), roots);
+  const Track& track = left.tracks[index];
+  ComplexVector roots = departing_roots(track, length, position);
+  resolution_ = std::max(coinciding * track.pair.Lambda.norm(), root_resolution(functions_(position), roots));
   known_.emplace(position, std::move(roots));
 }
 
@@ -49,11 +50,10 @@ const ComplexVector& StrandSampler::operator()(double t) {
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
   constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
-  const double closest = std::max(coinciding * track.pair.Lambda.norm(), sampler.resolution());
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);
-      return std::abs(roots[i] - roots[j]) <= closest;
+      return std::abs(roots[i] - roots[j]) <= sampler.resolution();
     });
   };
   std::vector<Strand> strands;

@@ -25,7 +25,7 @@ class StrandSampler {
   /// Smooth functions of the track on the step.
   const HermiteInterpolant& functions() const { return functions_; }
 
-  /// Distance within which none of the roots can be told apart at the left end (invariants.hpp).
+  /// Roots that stay closer than this are one.
   double resolution() const { return resolution_; }
 
   /// Valid until the next call.

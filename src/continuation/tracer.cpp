@@ -9,6 +9,7 @@
 #include "continuation/regrouping.hpp"
 #include "core/matrix_series.hpp"
 #include "core/parallel.hpp"
+#include "eigentrail/core/constraint_factorization.hpp"
 
 namespace eigentrail {
 namespace {
@@ -21,6 +22,7 @@ constexpr double passing_share = 0.01;      ///< error of a mode that is not cor
 constexpr double far_from_axis = 100.0;     ///< |Re s| / error, and |s| / what counts as zero
 constexpr double far_from_others = 2.0;     ///< meetings of modes that pass / those that divide blocks
 constexpr double large_block_step = 0.05;   ///< of the range: longest step with a block of three or more
+constexpr double singular_angle = 1e-3;     ///< rad: constraints this close to each other explain a lot
 
 }  // namespace
 
@@ -257,6 +259,21 @@ bool Tracer::emit(const PathNode& node, const PathStep* step) {
   return stop(TraceStatus::stopped, "stopped on request at " + at_parameter(node.p));
 }
 
+namespace {
+
+/// Links that come to lie in one line take the mechanism to where its freedoms change, and the path ends.
+std::string remark_on_constraints(const PathNode& node) {
+  const double angle = ConstraintFactorization(node.linearization.A[0]).independence();
+  if (angle > singular_angle) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "; the constraints come to depend on each other (least angle " << angle
+       << " rad), as where links of a mechanism lie in one line";
+  return text.str();
+}
+
+}  // namespace
+
 bool Tracer::give_up(const Trouble& trouble) {
   std::string who;
   if (trouble.track >= 0) {
@@ -265,7 +282,8 @@ bool Tracer::give_up(const Trouble& trouble) {
     }
   }
   return stop(TraceStatus::step_too_small, "the step became too small after " + at_parameter(node_.p) + ": " +
-                                               (who.empty() ? who : who + ": ") + trouble.reason);
+                                               (who.empty() ? who : who + ": ") + trouble.reason +
+                                               remark_on_constraints(node_));
 }
 
 bool Tracer::stop(TraceStatus status, const std::string& message) {

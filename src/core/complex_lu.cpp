@@ -1,8 +1,13 @@
 #include "eigentrail/core/complex_lu.hpp"
 
 #include <type_traits>
+#include <utility>
 
 #include "core/lapack.hpp"
+
+extern "C" void ztrsv_(const char* triangle, const char* form, const char* diagonal, const int* n,
+                       const eigentrail::Complex* A, const int* stride, eigentrail::Complex* b,
+                       const int* increment);
 
 namespace eigentrail {
 
@@ -14,10 +19,31 @@ ComplexLu::ComplexLu(ComplexMatrix A)
   LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
 }
 
-void ComplexLu::solve(char form, Eigen::Ref<ComplexMatrix> B) const {
+void ComplexLu::solve_in_place(Eigen::Ref<ComplexMatrix> B) const {
   const auto n = static_cast<lapack_int>(factors_.rows());
-  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, form, n, static_cast<lapack_int>(B.cols()), factors_.data(), n,
+  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, 'N', n, static_cast<lapack_int>(B.cols()), factors_.data(), n,
                       pivots_.data(), B.data(), static_cast<lapack_int>(B.outerStride()));
+}
+
+void ComplexLu::solve_in_place(ComplexVector& b) const {
+  for (std::size_t i = 0; i < pivots_.size(); ++i)
+    std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);
+  substitute('L', 'N', b);
+  substitute('U', 'N', b);
+}
+
+void ComplexLu::solve_adjoint_in_place(ComplexVector& b) const {
+  substitute('U', 'C', b);
+  substitute('L', 'C', b);
+  for (std::size_t i = pivots_.size(); i-- > 0;)
+    std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);
+}
+
+void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {
+  const auto n = static_cast<int>(factors_.rows());
+  const int next = 1;
+  const char diagonal = triangle == 'L' ? 'U' : 'N';  // of ones, or its own
+  ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, b.data(), &next);
 }
 
 }  // namespace eigentrail

@@ -13,20 +13,22 @@ constexpr double stagnation = 1e-11;
 constexpr double rounding = 1e-15;
 
 /// Corrects an approximate solution until its corrections stop shrinking or what is left of the error is
-/// below `accuracy`; `correct` returns the size of one correction relative to the solution.
+/// below `accuracy`; `correct` returns the size of one correction relative to the solution. The number of
+/// corrections.
 template <class Correct>
-void refine(double accuracy, Correct&& correct) {
+int refine(double accuracy, Correct&& correct) {
   double last = INFINITY;
-  for (int i = 0; i < max_refinements; ++i) {
+  for (int i = 1; i <= max_refinements; ++i) {
     const double size = correct();
     // The first solution is a correction of relative size one, and with factors from a distant prediction the
     // next may not be much smaller: corrections that do not halve end the refinement only at the level of
     // rounding.
-    if (!(size > rounding) || (size > 0.5 * last && size < stagnation)) return;
+    if (!(size > rounding) || (size > 0.5 * last && size < stagnation)) return i;
     // Every correction leaves an error that is smaller by about the same factor.
-    if (std::isfinite(last) && size < 0.1 * last && size * size < accuracy * last) return;
+    if (std::isfinite(last) && size < 0.1 * last && size * size < accuracy * last) return i;
     last = size;
   }
+  return max_refinements;
 }
 
 double size_of(const ComplexMatrix& Lambda) {
@@ -203,25 +205,32 @@ PairSeries differentiate_mode(const ReducedPencil& pencil, const InvariantPair& 
   return result;
 }
 
+/// Whether factors at the pair itself pay: those of a predicted pair took `corrections` for one coefficient.
+bool is_worth_factoring(int corrections, int coefficients, Eigen::Index n) {
+  constexpr int with_own_factors = 3;
+  constexpr double size_per_correction = 18.0;  // an LU of this size takes as long as a correction
+  return (corrections - with_own_factors) * coefficients * size_per_correction > static_cast<double>(n);
+}
+
 }  // namespace
 
 PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& pair, int order,
                               ModeCounts& counts, double accuracy) {
-  const auto found = factors_of(PencilAtPoint(pencil, pair.chart), pair);
-  const PairFactorization& factors = *found;
+  const PencilAtPoint point(pencil, pair.chart);
+  auto factors = factors_of(point, pair);
   if (!pair.factors) counts.factorizations += static_cast<std::uint64_t>(pair.size());
-  if (pair.size() == 1) return differentiate_mode(pencil, pair, factors, order, counts, accuracy);
+  if (pair.size() == 1) return differentiate_mode(pencil, pair, *factors, order, counts, accuracy);
   SeriesEquations series(pencil, pair, order);
   const double size = size_of(pair.Lambda);
   ComplexMatrix known_residual, known_defect, dZ, dLambda;
   for (int j = 1; j <= order; ++j) {
     const auto at = static_cast<std::size_t>(j);
     series.known_terms(j, known_residual, known_defect);
-    refine(0.0, [&] {
+    const int corrections = refine(rounding, [&] {
       ComplexMatrix residual = known_residual;
       ComplexMatrix defect = known_defect;
       series.unknown_terms(j, residual, defect);
-      factors.solve(-residual, -defect, dZ, dLambda);
+      factors->solve(-residual, -defect, dZ, dLambda);
       counts.solves += static_cast<std::uint64_t>(pair.size());
       if (pair.is_real) {
         dZ.imag().setZero();
@@ -233,6 +242,10 @@ PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& 
       return total > 0.0 ? (dZ.norm() * size + dLambda.norm()) / total : 0.0;
     });
     series.update(j);
+    if (j == 1 && is_worth_factoring(corrections, order - 1, pencil.size())) {
+      factors = std::make_shared<const PairFactorization>(point, pair.Z, pair.Lambda, pair.W);
+      counts.factorizations += static_cast<std::uint64_t>(pair.size());
+    }
   }
   return {std::move(series.Z), std::move(series.Lambda)};
 }

@@ -2,8 +2,12 @@
 // directions, with four first steps; hard_case_table prints the same as a table.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+
 #include "eigentrail/core/text.hpp"
+#include "hard_cases/family.hpp"
 #include "hard_cases/run_case.hpp"
+#include "support/families.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -42,6 +46,30 @@ TEST_P(TracedCase, MatchesItsReference) {
     }
   }
   EXPECT_TRUE(found.empty()) << found;
+}
+
+/// Rounding, which differs from one basis to the next, makes no second crossing of a doublet with itself out
+/// of the one with the third mode.
+TEST(PermanentDoublet, IsCrossedOnceInEveryBasis) {
+  constexpr double third = 1.0 / 3.0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937_64 engine(seed);
+    const Matrix Q = Eigen::HouseholderQR<Matrix>(random_matrix(3, 3, engine)).householderQ();
+    const Matrix I = Matrix::Identity(3, 3);
+    const HardCase turned = family_case("doublet", "", -0.5, 0.5,
+                                        {{I}, {}, {I, Q * Matrix::Constant(3, 3, third) * Q.transpose()}},
+                                        {{"crossing", 0.0, Complex(0.0, 1.0)}});
+    for (const double first_step : {0.0, 0.3}) {
+      const RecordedTrace trace = trace_case(turned, {1e-6, true, first_step});
+      const EventComparison events = compare_events(turned, trace, 1e-6);
+      std::string found;
+      for (const Event& event : trace.result.events) found += event_line(event) + "\n";
+      EXPECT_TRUE(events.missing.empty()) << "seed " << seed << ", first step " << first_step << "\n"
+                                          << found;
+      EXPECT_TRUE(events.invented.empty()) << "seed " << seed << ", first step " << first_step << "\n"
+                                           << found;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TracedCase, testing::ValuesIn(hard_cases()),

@@ -242,6 +242,27 @@ TEST_P(PairOfFamily, SeriesOfABlockHaveTheirOrder) {
   }
 }
 
+/// Factors of a distant prediction serve for the series, too: where they are so far off that every
+/// coefficient takes many corrections, the block is factored anew.
+TEST_P(PairOfFamily, SeriesOfABlockDoNotDependOnItsFactors) {
+  const PencilAtPoint point(start);
+  const InvariantPair pair = correct_pair(point, block_of(modes(), 2), s_ref, {}, counts);
+  ASSERT_EQ(pair.status, PairStatus::converged);
+  InvariantPair near = pair, distant = pair;
+  near.factors.reset();
+  distant.factors = std::make_shared<const PairFactorization>(point, pair.Z, 1.02 * pair.Lambda, pair.W);
+  ModeCounts with_own, with_distant;
+  const PairSeries expected = differentiate_pair(family, near, 4, with_own);
+  const PairSeries found = differentiate_pair(family, distant, 4, with_distant);
+  EXPECT_EQ(with_own.factorizations, 2u);
+  EXPECT_EQ(with_distant.factorizations, 2u);
+  EXPECT_LE(with_own.solves, 2u * 3u * 4u) << "the second correction leaves rounding";
+  for (std::size_t k = 1; k <= 4; ++k) {
+    EXPECT_LT((found.Z[k] - expected.Z[k]).norm(), 1e-11 * expected.Z[k].norm()) << "order " << k;
+    EXPECT_LT((found.Lambda[k] - expected.Lambda[k]).norm(), 1e-11 * expected.Lambda[k].norm());
+  }
+}
+
 /// A conjugate pair as a real block: real all through, and the eigenvalues of the pair.
 TEST_P(PairOfFamily, ConjugatePairIsARealBlock) {
   const PencilAtPoint point(start);

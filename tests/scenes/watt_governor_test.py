@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from program import SCENES
 from scene_test_case import SceneTest
 
 G, BALL, SLEEVE, ARM, DASHPOT = 9.81, 1.5, 6.0, 0.4, 20.0
@@ -61,6 +62,15 @@ class WattGovernor(SceneTest):
     def test_close_to_the_lowest_speed(self):
         path = self.trace_scene("--to", "105.8", tolerance=1e-8)
         self.assert_within(self.eval_at(path, [105.8])[0, 0], root(105.8), 1e-7)
+
+    def test_hanging_arms_are_a_singular_position(self):
+        """At the lowest speed arms and links lie in one line: either side may then move by itself, and the path ends."""
+        done = self.run_program("trace", SCENES / "watt_governor.toml", "-o", "loci.h5", "--quiet", "--to", "100")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("constraints come to depend on each other", done.stderr)
+        p, s = self.nodes(self.folder / "loci.h5")
+        self.assertAlmostEqual(p[-1], LOWEST, delta=1e-6)
+        self.assertLess(abs(s[-1, 0]), 1e-3)
 
     def test_a_damping_ratio_is_largest_on_the_way(self):
         """zeta^2 = (c/m)^2 sin^2 a/(W^2 (1 + 2 M/m sin^2 a)); its maximum by golden section of the closed form."""

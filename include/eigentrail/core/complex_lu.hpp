@@ -16,14 +16,17 @@ class ComplexLu {
   Eigen::Index size() const { return factors_.rows(); }
 
   /// Overwrites B (size x columns) with A^-1 B. Cost size^2 per column.
-  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const { solve('N', B); }
-  void solve_in_place(ComplexVector& b) const { solve('N', b); }
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const;
 
-  /// Overwrites B with A^-H B.
-  void solve_adjoint_in_place(ComplexVector& b) const { solve('C', b); }
+  /// The same of one column, without LAPACK's copies of the factors: at size 200 in a quarter of the time.
+  void solve_in_place(ComplexVector& b) const;
+
+  /// Overwrites b with A^-H b.
+  void solve_adjoint_in_place(ComplexVector& b) const;
 
  private:
-  void solve(char form, Eigen::Ref<ComplexMatrix> B) const;
+  /// Overwrites b with L^-1 b, L^-H b ('L'; 'N', 'C') or with U^-1 b, U^-H b.
+  void substitute(char triangle, char form, ComplexVector& b) const;
 
   ComplexMatrix factors_;
   std::vector<int> pivots_;
