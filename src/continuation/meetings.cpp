@@ -173,11 +173,10 @@ double distance_from_others(const ComplexVector& roots, const std::vector<int>& 
 /// less is known of the members' slopes.
 double member_resolution(const Track& track, const std::vector<int>& members, double reach) {
   constexpr double coinciding = 1e-12;
-  const auto& Lambda = track.series.Lambda;
-  const double slope = Lambda.size() > 1 ? Lambda[1].norm() : 0.0;
-  const double of_slope = 10.0 * rounding_of(track, Lambda).lambda * slope * std::abs(reach) /
-                          distance_from_others(track.roots, members);
-  return std::max(coinciding * Lambda[0].norm(), of_slope);
+  const Rounding rounding = rounding_of(track, track.series.Lambda);
+  const double of_slope =
+      10.0 * rounding.lambda * rounding.slope * std::abs(reach) / distance_from_others(track.roots, members);
+  return std::max(coinciding * track.pair.Lambda.norm(), of_slope);
 }
 
 /// All eigenvalues of a part in one point: their distances from the mean vanish together, linearly.

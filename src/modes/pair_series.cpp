@@ -242,7 +242,8 @@ PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& 
       return total > 0.0 ? (dZ.norm() * size + dLambda.norm()) / total : 0.0;
     });
     series.update(j);
-    if (j == 1 && is_worth_factoring(corrections, order - 1, pencil.size())) {
+    // Without factors of its own the pair was factored above, as it is.
+    if (j == 1 && pair.factors && is_worth_factoring(corrections, order - 1, pencil.size())) {
       factors = std::make_shared<const PairFactorization>(point, pair.Z, pair.Lambda, pair.W);
       counts.factorizations += static_cast<std::uint64_t>(pair.size());
     }
