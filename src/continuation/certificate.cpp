@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "continuation/jacobian_change.hpp"
 #include "continuation/shared_basis.hpp"
 #include "core/matrix_series.hpp"
 #include "core/products.hpp"
@@ -28,6 +29,7 @@ class Tube {
       : pencil_(pencil),
         chart_(left.pair.chart),
         W_(left.pair.W),
+        W1_(W_.bottomRows(W_.rows() / 2)),
         counts_(counts),
         gap_(gap),
         left_Z_(in_basis_of(pencil.left(), left.series.Z)),
@@ -41,25 +43,25 @@ class Tube {
   bool closes() { return closes(0.0, 1.0, 0, INFINITY); }
 
  private:
+  /// The pair and the pencil at one place.
   struct State {
+    State(std::shared_ptr<const StepPencil::Sample> at, Chart chart, Eigen::Index n, Eigen::Index k)
+        : sample(std::move(at)),
+          pencil(sample->at, chart),
+          Z(ComplexMatrix::Zero(n, k)),
+          Lambda(ComplexMatrix::Zero(k, k)) {}
+
+    PairAtPlace place() const { return {pencil, Z, Lambda}; }
+
     std::shared_ptr<const StepPencil::Sample> sample;
-    const Matrix& M;  ///< of the chart
-    const Matrix& C;
-    const Matrix& K;
+    PencilAtPoint pencil;  ///< of the sample
     ComplexMatrix Z, Lambda;
   };
 
   State state(double t) const {
-    const auto sample = pencil_.at(t);
-    const Vector& w = sample->weights;
+    State state(pencil_.at(t), chart_, W_.rows() / 2, W_.cols());
+    const Vector& w = state.sample->weights;
     const auto count = static_cast<Eigen::Index>(left_Z_.size());
-    const bool finite = chart_ == Chart::finite;
-    State state{sample,
-                finite ? sample->M : sample->K,
-                sample->C,
-                finite ? sample->K : sample->M,
-                ComplexMatrix::Zero(W_.rows() / 2, W_.cols()),
-                ComplexMatrix::Zero(W_.cols(), W_.cols())};
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       state.Z += w[i] * left_Z_[at] + w[count + i] * right_Z_[at];
@@ -68,58 +70,12 @@ class Tube {
     return state;
   }
 
-  /// Jacobian with respect to (vec Z, vec Lambda / scale).
-  ComplexMatrix jacobian(const State& s, double scale) const {
-    return W_.cols() == 1 ? jacobian_of_mode(s, scale) : jacobian_of_block(s, scale);
-  }
-
-  ComplexMatrix jacobian_of_mode(const State& s, double scale) const {
-    const Eigen::Index n = s.Z.rows();
-    const Complex mu = s.Lambda(0, 0);
-    const Complex square = mu * mu;
-    ComplexMatrix J(n + 1, n + 1);
-    J.topLeftCorner(n, n).real() = square.real() * s.M + mu.real() * s.C + s.K;
-    J.topLeftCorner(n, n).imag() = square.imag() * s.M + mu.imag() * s.C;
-    J.topRightCorner(n, 1) = scale * (2.0 * mu * multiply(s.M, s.Z) + multiply(s.C, s.Z));
-    J.bottomLeftCorner(1, n) = W_.topRows(n).adjoint();
-    J(n, n) = 0.0;  // W1 = 0
-    return J;
-  }
-
-  /// Block (i, j) of size n x n belongs to columns i of the residual and j of Z: it is Lambda^2(j, i) M +
-  /// Lambda(j, i) C, and K where i is j; the others likewise.
-  ComplexMatrix jacobian_of_block(const State& s, double scale) const {
-    const Eigen::Index n = s.Z.rows();
-    const Eigen::Index k = s.Z.cols();
-    const ComplexMatrix L2 = s.Lambda * s.Lambda;
-    const ComplexMatrix MZ = multiply(s.M, s.Z);
-    const ComplexMatrix slope = MZ * s.Lambda + multiply(s.C, s.Z);
-    const ComplexMatrix W0 = W_.topRows(n).adjoint();
-    const ComplexMatrix W1 = W_.bottomRows(n).adjoint();
-    const ComplexMatrix W1Z = W1 * s.Z;
-    ComplexMatrix J(n * k + k * k, n * k + k * k);
-    for (Eigen::Index j = 0; j < k; ++j) {
-      for (Eigen::Index i = 0; i < k; ++i) {
-        const Complex l = s.Lambda(j, i);
-        const double own = i == j ? 1.0 : 0.0;
-        auto P = J.block(i * n, j * n, n, n);
-        P.real() = L2(j, i).real() * s.M + l.real() * s.C + own * s.K;
-        P.imag() = L2(j, i).imag() * s.M + l.imag() * s.C;
-        J.block(i * n, n * k + j * k, n, k) = scale * (l * MZ + own * slope);
-        J.block(n * k + i * k, j * n, k, n) = own * W0 + l * W1;
-        J.block(n * k + i * k, n * k + j * k, k, k) = scale * own * W1Z;
-      }
-    }
-    return J;
-  }
-
   ComplexVector residual(const State& s) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
-    const ComplexMatrix slope = multiply(s.M, s.Z) * s.Lambda + multiply(s.C, s.Z);
-    const ComplexMatrix R = slope * s.Lambda + multiply(s.K, s.Z);
-    const ComplexMatrix N = W_.topRows(n).adjoint() * s.Z + W_.bottomRows(n).adjoint() * (s.Z * s.Lambda) -
-                            ComplexMatrix::Identity(k, k);
+    const ComplexMatrix R = s.pencil.residual(s.Z, s.Lambda);
+    const ComplexMatrix N =
+        W_.topRows(n).adjoint() * s.Z + W1_.adjoint() * (s.Z * s.Lambda) - ComplexMatrix::Identity(k, k);
     ComplexVector F(n * k + k * k);
     F << R.reshaped(), N.reshaped();
     return F;
@@ -134,61 +90,82 @@ class Tube {
     return closes(begin, middle, depth + 1, Z1) && closes(middle, end, depth + 1, Z1);
   }
 
+  /// B of a piece, in the unknowns (vec Z, vec Lambda / scale).
+  struct Inverse {
+    PairFactorization factors;
+    double scale;
+    Eigen::Index eigenvalues;  ///< entries of Lambda
+
+    void apply(ComplexVector& v) const {
+      factors.solve_in_place(v);
+      v.tail(eigenvalues) *= 1.0 / scale;  // a division of complex numbers underflows
+    }
+    void apply_adjoint(ComplexVector& v) const {
+      v.tail(eigenvalues) *= 1.0 / scale;
+      factors.solve_adjoint_in_place(v);
+    }
+  };
+
   bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
     const double size = std::max(centre.Lambda.norm(), 1e-300);
     const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
-    const ComplexMatrix J = jacobian(centre, scale);
-    const ComplexLu lu(J);
-    ++counts_.certificate_factorizations;
-    // The ends differ most from the middle; the direction that grows most is about the same everywhere.
-    const std::array<double, 4> samples{begin, end, 0.5 * (begin + middle), 0.5 * (middle + end)};
-    ComplexMatrix F(J.rows(), 1 + static_cast<Eigen::Index>(samples.size()));
-    F.col(0) = residual(centre);
-    ComplexVector direction = start_vector(J.cols());
-    int iterations = power_iterations;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const State s = state(samples[i]);
-      F.col(1 + static_cast<Eigen::Index>(i)) = residual(s);
-      const ComplexMatrix change = jacobian(s, scale) - J;
-      Z1 = std::max(Z1, norm_of_solved(lu, change, iterations, direction));
+    const Inverse B{{centre.pencil, centre.Z, centre.Lambda, W_}, scale, centre.Lambda.size()};
+    counts_.certificate_factorizations += static_cast<std::uint64_t>(W_.cols());
+    double Y = size_of_solved(B, residual(centre));
+    ComplexVector direction = start_vector(centre.Z.size() + centre.Lambda.size());
+    for (const auto& [t, iterations] : samples_of(begin, middle, end)) {
+      const State s = state(t);
+      const JacobianChange change(centre.place(), s.place(), W1_, scale);
+      Z1 = std::max(Z1, norm_of_solved(B, change, iterations, direction));
       if (!(Z1 < 1.0)) return false;
-      iterations = further_iterations;
+      Y = std::max(Y, size_of_solved(B, residual(s)));
     }
-    lu.solve_in_place(F);
-    const double Y = F.colwise().norm().maxCoeff();
     if (!std::isfinite(Y)) return false;
-    const double Z2 = curvature_safety * curvature(centre, scale, lu);
+    const double Z2 = curvature_safety * curvature(centre, B);
     const double room = 1.0 - Z1;
     return room * room > 2.0 * Z2 * Y;
   }
 
-  /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
-  /// below.
-  double curvature(const State& s, double scale, const ComplexLu& lu) const {
-    const double mu = s.Lambda.norm();
-    const double equations =
-        2.0 * ((2.0 * s.M.norm() * mu + s.C.norm()) * scale + s.M.norm() * s.Z.norm() * scale * scale);
-    const double normalization = 2.0 * W_.bottomRows(s.Z.rows()).norm() * scale;
-    const Eigen::Index rows = s.Z.size();
-    Vector weights(lu.size());
-    weights.head(rows).setConstant(equations);
-    weights.tail(lu.size() - rows).setConstant(normalization);
-    ComplexVector direction = start_vector(lu.size());
-    return norm_of_solved(lu, weights, power_iterations, direction);
+  struct PlaceOnPiece {
+    double t;
+    int iterations;  ///< of the norm estimate there
+  };
+  /// The ends differ most from the middle; the direction that grows most is about the same everywhere.
+  static std::array<PlaceOnPiece, 4> samples_of(double begin, double middle, double end) {
+    return {{{begin, power_iterations},
+             {end, further_iterations},
+             {0.5 * (begin + middle), further_iterations},
+             {0.5 * (middle + end), further_iterations}}};
   }
 
-  static ComplexVector times(const ComplexMatrix& A, const ComplexVector& v) { return product(A, v); }
-  static ComplexVector adjoint_times(const ComplexMatrix& A, const ComplexVector& v) {
-    return adjoint_product(A, v);
+  static double size_of_solved(const Inverse& B, ComplexVector F) {
+    B.apply(F);
+    return F.norm();
   }
-  /// Of a real diagonal matrix.
-  static ComplexVector times(const Vector& entries, const ComplexVector& v) {
-    return entries.cwiseProduct(v);
+
+  /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
+  /// below.
+  double curvature(const State& s, const Inverse& B) const {
+    const double mu = s.Lambda.norm();
+    const double M = s.pencil.norm_M;
+    const double equations =
+        2.0 * ((2.0 * M * mu + s.pencil.norm_C) * B.scale + M * s.Z.norm() * B.scale * B.scale);
+    const double normalization = 2.0 * W1_.norm() * B.scale;
+    Diagonal weights{Vector(s.Z.size() + s.Lambda.size())};
+    weights.entries << Vector::Constant(s.Z.size(), equations),
+        Vector::Constant(s.Lambda.size(), normalization);
+    ComplexVector direction = start_vector(weights.entries.size());
+    return norm_of_solved(B, weights, power_iterations, direction);
   }
-  static ComplexVector adjoint_times(const Vector& entries, const ComplexVector& v) {
-    return entries.cwiseProduct(v);
-  }
+
+  /// A real diagonal matrix.
+  struct Diagonal {
+    Vector entries;
+
+    ComplexVector times(const ComplexVector& v) const { return entries.cwiseProduct(v); }
+    ComplexVector adjoint_times(const ComplexVector& v) const { return times(v); }
+  };
 
   /// Without symmetry.
   static ComplexVector start_vector(Eigen::Index size) {
@@ -197,18 +174,17 @@ class Tube {
     return v;
   }
 
-  /// |J^-1 A| by power iteration from a direction v, which it improves.
+  /// |B A| by power iteration from a direction v, which it improves.
   template <class Operator>
-  static double norm_of_solved(const ComplexLu& lu, const Operator& A, int iterations, ComplexVector& v) {
+  static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, ComplexVector& v) {
     double norm = 0.0;
-    ComplexVector w(v.size());
     for (int i = 0; i < iterations; ++i) {
       v.normalize();
-      w = times(A, v);
-      lu.solve_in_place(w);
+      ComplexVector w = A.times(v);
+      B.apply(w);
       norm = std::max(norm, w.norm());
-      lu.solve_adjoint_in_place(w);
-      ComplexVector next = adjoint_times(A, w);
+      B.apply_adjoint(w);
+      ComplexVector next = A.adjoint_times(w);
       const double length = next.norm();
       if (!(length > 0.0)) return norm_safety * norm;
       norm = std::max(norm, std::sqrt(length));
@@ -219,7 +195,7 @@ class Tube {
 
   const StepPencil& pencil_;
   Chart chart_;
-  ComplexMatrix W_;
+  ComplexMatrix W_, W1_;
   RunCounts& counts_;
   double gap_;
   std::vector<ComplexMatrix> left_Z_, left_Lambda_, right_Z_, right_Lambda_;
@@ -275,16 +251,16 @@ Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& rig
   return sum;
 }
 
-StepPencil::Sample StepPencil::sample(double t) const {
+std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
   ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
   ComplexMatrix right = left;
   left.topRows(count_).setIdentity();
   right.bottomRows(count_).setIdentity();
   Vector weights = HermiteInterpolant(length_, left, right)(t).real();
-  Matrix M = interpolate(left_.pencil.M, right_.M, weights);
-  Matrix C = interpolate(left_.pencil.C, right_.C, weights);
-  Matrix K = interpolate(left_.pencil.K, right_.K, weights);
-  return {std::move(weights), std::move(M), std::move(C), std::move(K)};
+  ReducedPencil pencil{{interpolate(left_.pencil.M, right_.M, weights)},
+                       {interpolate(left_.pencil.C, right_.C, weights)},
+                       {interpolate(left_.pencil.K, right_.K, weights)}};
+  return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
 }
 
 std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
@@ -292,7 +268,7 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
   const auto known = samples_.find(t);
   if (known != samples_.end()) return known->second;
   if (samples_.size() >= most_samples) samples_.clear();
-  return samples_.emplace(t, std::make_shared<const Sample>(sample(t))).first->second;
+  return samples_.emplace(t, sample(t)).first->second;
 }
 
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,

@@ -107,8 +107,7 @@ class ModalTube {
     std::vector<bool> result(places_.size(), false);
     const Sampled centre = sampled_at(middle, nullptr);
     const PairSet& set = centre.set;
-    const ReducedPencil matrices{{centre.sample->M}, {centre.sample->C}, {centre.sample->K}};
-    const auto basis = ModalBasis::from(PencilAtPoint(matrices), set);
+    const auto basis = ModalBasis::from(centre.sample->at, set);
     ++counts_.certificate_bases;
     if (!basis) return result;
     const Matrix weights = distances(*basis, set).cwiseInverse();
@@ -172,13 +171,13 @@ class ModalTube {
   Sampled sampled_at(double t, const StepPencil::Sample* middle) const {
     const auto sample = pencil_.at(t);
     if (middle == nullptr || pencil_.has_constant_mass()) return {sample, at(*sample), Matrix()};
-    return {sample, at(*sample), middle->M * sample->M.partialPivLu().inverse()};
+    return {sample, at(*sample), middle->at.M * sample->at.M.partialPivLu().inverse()};
   }
 
   /// Residuals of pairs at a place, in modal coordinates of the companion form.
   static ComplexMatrix modal_residual(const ModalBasis& basis, const Sampled& place, const PairSet& set) {
-    const auto& [weights, M, C, K] = *place.sample;
-    const ComplexMatrix R = residual(M, C, K, set);
+    const PencilAtPoint& pencil = place.sample->at;
+    const ComplexMatrix R = residual(pencil.M, pencil.C, pencil.K, set);
     return basis.coordinates(place.from_mass.size() == 0 ? R : multiply_many(place.from_mass, R));
   }
 

@@ -16,6 +16,10 @@ Matrix transposed_product(const Matrix& A, const Matrix& B);
 MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
 MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
 
+/// A X and A^T X of few complex columns, without a complex copy of A.
+ComplexMatrix product(const Matrix& A, const ComplexMatrix& X);
+ComplexMatrix transposed_product(const Matrix& A, const ComplexMatrix& X);
+
 /// A x, A^H x.
 ComplexVector product(const ComplexMatrix& A, const ComplexVector& x);
 ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x);

@@ -85,11 +85,17 @@ bool PairFactorization::factor_real(const PencilAtPoint& pencil, const ComplexVe
 
 void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
                               ComplexMatrix& dLambda) const {
-  if (coupling_) return solve_block(R, N, dZ, dLambda);
-  const Eigen::Index n = R.rows();
-  ComplexVector b(n + 1);
-  b.head(n) = R.col(0);
-  b[n] = border_scale_ * N(0, 0);
+  ComplexVector b(R.size() + N.size());
+  b << R.reshaped(), N.reshaped();
+  solve_in_place(b);
+  dZ = b.head(R.size()).reshaped(R.rows(), R.cols());
+  dLambda = b.tail(N.size()).reshaped(N.rows(), N.cols());
+}
+
+void PairFactorization::solve_in_place(ComplexVector& b) const {
+  if (coupling_) return solve_block(b);
+  const Eigen::Index n = b.size() - 1;
+  b[n] *= border_scale_;
   if (real_) {
     b.head(n) *= std::conj(real_->phase);
     real_->lu.solve_in_place(b);
@@ -98,37 +104,71 @@ void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, Co
   } else {
     columns_.front().solve_in_place(b);
   }
-  dZ = b.head(n);
-  dLambda.resize(1, 1);
-  dLambda(0, 0) = slope_scale_ * b[n];
+  b[n] *= slope_scale_;
 }
 
-void PairFactorization::solve_block(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
-                                    ComplexMatrix& dLambda) const {
+void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
+  if (coupling_) return solve_block_adjoint(b);
+  const Eigen::Index n = b.size() - 1;
+  b[n] *= slope_scale_;
+  if (real_) {
+    b.head(n) *= std::conj(real_->phase);
+    b[n] *= real_->direction;
+    real_->lu.solve_adjoint_in_place(b);
+    b.head(n) *= real_->phase;
+  } else {
+    columns_.front().solve_adjoint_in_place(b);
+  }
+  b[n] *= border_scale_;
+}
+
+void PairFactorization::solve_block(ComplexVector& b) const {
   const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
-  const Eigen::Index n = R.rows();
-  const Eigen::Index k = R.cols();
-  const ComplexMatrix right = R * U;
-  const ComplexMatrix unit = U.adjoint() * N * U;
-  ComplexMatrix X(n, k), Y(k, k);
-  ComplexVector b(n + k);
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  ComplexMatrix X = b.head(n * k).reshaped(n, k).lazyProduct(U);  // right sides, then solutions
+  ComplexMatrix Y = U.adjoint() * b.tail(k * k).reshaped(k, k) * U;
+  ComplexVector column(n + k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    b.head(n) = right.col(j);
-    b.tail(k) = unit.col(j);
     if (j > 0) {
       // What the columns before contribute to this one through the triangle of T.
       const auto t = T.col(j).head(j);
-      const ComplexVector Xt = X.leftCols(j) * t;
-      b.head(n) -= multiply(M, X.leftCols(j) * T2.col(j).head(j) + Z * (Y.leftCols(j) * t)) + multiply(C, Xt);
-      b.tail(k) -= W1.adjoint() * Xt;
+      const auto before = X.leftCols(j);
+      const ComplexVector Xt = before.lazyProduct(t);
+      const ComplexVector turn = Y.leftCols(j).lazyProduct(t);
+      X.col(j) -= multiply(M, before.lazyProduct(T2.col(j).head(j)) + Z.lazyProduct(turn)) + multiply(C, Xt);
+      Y.col(j) -= W1.adjoint() * Xt;
     }
-    b.tail(k) *= border_scale_;
-    columns_[static_cast<std::size_t>(j)].solve_in_place(b);
-    X.col(j) = b.head(n);
-    Y.col(j) = slope_scale_ * b.tail(k);
+    column << X.col(j), border_scale_ * Y.col(j);
+    columns_[static_cast<std::size_t>(j)].solve_in_place(column);
+    X.col(j) = column.head(n);
+    Y.col(j) = slope_scale_ * column.tail(k);
   }
-  dZ = X * U.adjoint();
-  dLambda = U * Y * U.adjoint();
+  b.head(n * k).reshaped(n, k) = X.lazyProduct(U.adjoint());
+  b.tail(k * k).reshaped(k, k) = U * Y * U.adjoint();
+}
+
+void PairFactorization::solve_block_adjoint(ComplexVector& b) const {
+  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  ComplexMatrix X = b.head(n * k).reshaped(n, k).lazyProduct(U);
+  ComplexMatrix Y = U.adjoint() * b.tail(k * k).reshaped(k, k) * U;
+  ComplexVector column(n + k);
+  for (Eigen::Index j = k - 1; j >= 0; --j) {
+    column << X.col(j), slope_scale_ * Y.col(j);
+    columns_[static_cast<std::size_t>(j)].solve_adjoint_in_place(column);
+    X.col(j) = column.head(n);
+    Y.col(j) = border_scale_ * column.tail(k);
+    if (j == 0) break;
+    const auto t = T.col(j).head(j);
+    const ComplexMatrix MX = transposed_multiply(M, X.col(j));
+    const ComplexMatrix Xt = transposed_multiply(C, X.col(j)) + W1.lazyProduct(Y.col(j));
+    X.leftCols(j) -= MX.lazyProduct(T2.col(j).head(j).adjoint()) + Xt.lazyProduct(t.adjoint());
+    Y.leftCols(j) -= (Z.adjoint() * MX).lazyProduct(t.adjoint());
+  }
+  b.head(n * k).reshaped(n, k) = X.lazyProduct(U.adjoint());
+  b.tail(k * k).reshaped(k, k) = U * Y * U.adjoint();
 }
 
 double PairFactorization::sensitivity() const {

@@ -12,14 +12,14 @@ constexpr int max_refinements = 40;
 constexpr double stagnation = 1e-11;
 constexpr double rounding = 1e-15;
 
-/// Corrects an approximate solution until its corrections stop shrinking or what is left of the error is
-/// below `accuracy`; `correct` returns the size of one correction relative to the solution. The number of
-/// corrections.
+/// Corrects a solution, which begins as zero, until its corrections stop shrinking or what is left of the
+/// error is below `accuracy`; `correct(is_first)` returns the size of one correction relative to the
+/// solution. The number of corrections.
 template <class Correct>
 int refine(double accuracy, Correct&& correct) {
   double last = INFINITY;
   for (int i = 1; i <= max_refinements; ++i) {
-    const double size = correct();
+    const double size = correct(i == 1);
     // The first solution is a correction of relative size one, and with factors from a distant prediction the
     // next may not be much smaller: corrections that do not halve end the refinement only at the level of
     // rounding.
@@ -36,7 +36,8 @@ double size_of(const ComplexMatrix& Lambda) {
   return size > 0.0 ? size : 1.0;
 }
 
-/// Coefficients of products of matrix series, filled order by order.
+/// Coefficients of products of matrix series, filled order by order. Products with the few columns of Lambda
+/// are lazy: the way of large ones, over packed copies, takes several times as long.
 class SeriesEquations {
  public:
   SeriesEquations(const ReducedPencil& pencil, const InvariantPair& pair, int order)
@@ -65,10 +66,11 @@ class SeriesEquations {
     defect = ComplexMatrix::Zero(Lambda[0].rows(), Lambda[0].cols());
     ComplexMatrix square = defect;
     for (int i = 1; i < j; ++i) square += Lambda[at(i)] * Lambda[at(j - i)];
-    residual += product(M_, j) * Lambda2_[0] + product(C_, j) * Lambda[0] + MZ_[0] * square;
+    residual += product(M_, j).lazyProduct(Lambda2_[0]) + product(C_, j).lazyProduct(Lambda[0]) +
+                MZ_[0].lazyProduct(square);
     for (int i = 1; i < j; ++i) {
-      residual += MZ_[at(j - i)] * Lambda2_[at(i)] + CZ_[at(j - i)] * Lambda[at(i)];
-      defect += W1_.adjoint() * (Z[at(i)] * Lambda[at(j - i)]);
+      residual += MZ_[at(j - i)].lazyProduct(Lambda2_[at(i)]) + CZ_[at(j - i)].lazyProduct(Lambda[at(i)]);
+      defect += W1_.adjoint() * Z[at(i)].lazyProduct(Lambda[at(j - i)]);
     }
   }
 
@@ -76,9 +78,11 @@ class SeriesEquations {
   void unknown_terms(int j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     const ComplexMatrix& X = Z[at(j)];
     const ComplexMatrix& Y = Lambda[at(j)];
-    residual += (multiply(M_[0], X) * Lambda[0] + multiply(C_[0], X)) * Lambda[0] + multiply(K_[0], X) +
-                MZ_[0] * (Lambda[0] * Y + Y * Lambda[0]) + CZ_[0] * Y;
-    defect += W0_.adjoint() * X + W1_.adjoint() * (X * Lambda[0] + Z[0] * Y);
+    const ComplexMatrix slope = multiply(M_[0], X).lazyProduct(Lambda[0]) + multiply(C_[0], X);
+    const ComplexMatrix turn = Lambda[0] * Y + Y * Lambda[0];
+    residual +=
+        slope.lazyProduct(Lambda[0]) + multiply(K_[0], X) + MZ_[0].lazyProduct(turn) + CZ_[0].lazyProduct(Y);
+    defect += W0_.adjoint() * X + W1_.adjoint() * (X.lazyProduct(Lambda[0]) + Z[0].lazyProduct(Y));
   }
 
   /// Takes the coefficients j of Z and Lambda into the products.
@@ -111,14 +115,15 @@ class ModeEquations {
   ComplexMatrix Z;   ///< n x (order + 1)
   ComplexVector mu;  ///< order + 1
 
-  ModeEquations(const ReducedPencil& pencil, const InvariantPair& mode, int order)
+  ModeEquations(const ReducedPencil& pencil, const PencilAtPoint& point, const InvariantPair& mode, int order)
       : Z(ComplexMatrix::Zero(mode.Z.rows(), order + 1)),
         mu(ComplexVector::Zero(order + 1)),
         M_(mode.chart == Chart::finite ? pencil.M : pencil.K),
         C_(pencil.C),
         K_(mode.chart == Chart::finite ? pencil.K : pencil.M),
-        undamped_(std::all_of(C_.begin(), C_.end(), [](const Matrix& C) { return C.isZero(0.0); })),
-        P_(PencilAtPoint(pencil, mode.chart).matrix(mode.eigenvalue())),
+        undamped_(point.is_undamped() &&
+                  std::all_of(C_.begin() + 1, C_.end(), [](const Matrix& C) { return C.isZero(0.0); })),
+        P_(point.matrix(mode.eigenvalue())),
         W0_(mode.W.topRows(mode.Z.rows())),
         MZ_(Z),
         CZ_(Z),
@@ -173,17 +178,18 @@ class ModeEquations {
   ComplexVector square_;
 };
 
-PairSeries differentiate_mode(const ReducedPencil& pencil, const InvariantPair& mode,
-                              const PairFactorization& factors, int order, ModeCounts& counts,
-                              double accuracy) {
-  ModeEquations series(pencil, mode, order);
+PairSeries differentiate_mode(const ReducedPencil& pencil, const PencilAtPoint& point,
+                              const InvariantPair& mode, const PairFactorization& factors, int order,
+                              ModeCounts& counts, double accuracy) {
+  ModeEquations series(pencil, point, mode, order);
   const double size = size_of(mode.Lambda);
-  ComplexMatrix residual, dZ, dmu, defect = ComplexMatrix::Zero(1, 1);
+  ComplexMatrix residual, dZ, dmu, defect;
   for (Eigen::Index j = 1; j <= order; ++j) {
     const ComplexVector known = series.known_terms(j);
-    refine(accuracy, [&] {
+    refine(accuracy, [&](bool is_first) {
       residual = known;
-      series.unknown_terms(j, residual, defect);
+      defect = ComplexMatrix::Zero(1, 1);
+      if (!is_first) series.unknown_terms(j, residual, defect);
       factors.solve(-residual, -defect, dZ, dmu);
       ++counts.solves;
       if (mode.is_real) {
@@ -219,17 +225,17 @@ PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& 
   const PencilAtPoint point(pencil, pair.chart);
   auto factors = factors_of(point, pair);
   if (!pair.factors) counts.factorizations += static_cast<std::uint64_t>(pair.size());
-  if (pair.size() == 1) return differentiate_mode(pencil, pair, *factors, order, counts, accuracy);
+  if (pair.size() == 1) return differentiate_mode(pencil, point, pair, *factors, order, counts, accuracy);
   SeriesEquations series(pencil, pair, order);
   const double size = size_of(pair.Lambda);
   ComplexMatrix known_residual, known_defect, dZ, dLambda;
   for (int j = 1; j <= order; ++j) {
     const auto at = static_cast<std::size_t>(j);
     series.known_terms(j, known_residual, known_defect);
-    const int corrections = refine(rounding, [&] {
+    const int corrections = refine(rounding, [&](bool is_first) {
       ComplexMatrix residual = known_residual;
       ComplexMatrix defect = known_defect;
-      series.unknown_terms(j, residual, defect);
+      if (!is_first) series.unknown_terms(j, residual, defect);
       factors->solve(-residual, -defect, dZ, dLambda);
       counts.solves += static_cast<std::uint64_t>(pair.size());
       if (pair.is_real) {

@@ -1,21 +1,25 @@
 #include "eigentrail/modes/pencil_at_point.hpp"
 
+#include "core/products.hpp"
+
 namespace eigentrail {
 namespace {
+
+constexpr Eigen::Index large = 16;  ///< rows from which on a call of BLAS pays
 
 /// As real matrix-vector products: a matrix product would first copy B into its own order, which costs more
 /// than the few columns themselves.
 template <class Real>
 ComplexMatrix multiply_columns(const Real& B, const ComplexMatrix& Z) {
   ComplexMatrix result(B.rows(), Z.cols());
-  Vector part(Z.rows()), product(B.rows());
+  Vector part(Z.rows()), Bz(B.rows());
   for (Eigen::Index j = 0; j < Z.cols(); ++j) {
     part = Z.col(j).real();
-    product.noalias() = B * part;
-    result.col(j).real() = product;
+    Bz.noalias() = B * part;
+    result.col(j).real() = Bz;
     part = Z.col(j).imag();
-    product.noalias() = B * part;
-    result.col(j).imag() = product;
+    Bz.noalias() = B * part;
+    result.col(j).imag() = Bz;
   }
   return result;
 }
@@ -23,11 +27,19 @@ ComplexMatrix multiply_columns(const Real& B, const ComplexMatrix& Z) {
 }  // namespace
 
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
+  return B.rows() < large ? multiply_columns(B, Z) : product(B, Z);
+}
+
+ComplexMatrix multiply(const SparseMatrix& B, const ComplexMatrix& Z) {
   return multiply_columns(B, Z);
 }
 
 ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z) {
-  return B.visit([&](const auto& values) { return multiply_columns(values, Z); });
+  return B.visit([&](const auto& values) { return multiply(values, Z); });
+}
+
+ComplexMatrix transposed_multiply(const Matrix& B, const ComplexMatrix& Z) {
+  return B.rows() < large ? multiply_columns(B.transpose(), Z) : transposed_product(B, Z);
 }
 
 PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)
@@ -38,6 +50,14 @@ PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)
       norm_C(C.norm()),
       norm_K(K.norm()) {}
 
+PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
+    : M(chart == Chart::finite ? finite.M : finite.K),
+      C(finite.C),
+      K(chart == Chart::finite ? finite.K : finite.M),
+      norm_M(chart == Chart::finite ? finite.norm_M : finite.norm_K),
+      norm_C(finite.norm_C),
+      norm_K(chart == Chart::finite ? finite.norm_K : finite.norm_M) {}
+
 ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
   ComplexMatrix P(M.rows(), M.cols());
   const Complex mu2 = mu * mu;
@@ -47,13 +67,10 @@ ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
 }
 
 ComplexMatrix PencilAtPoint::residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const {
-  ComplexMatrix slope = multiply(M, Z);
-  if (Z.cols() == 1) {
-    slope *= Lambda(0, 0);
-    if (!is_undamped()) slope += multiply(C, Z);
-    return slope * Lambda(0, 0) + multiply(K, Z);
-  }
-  return (slope * Lambda + multiply(C, Z)) * Lambda + multiply(K, Z);
+  // Lazy products: few columns.
+  ComplexMatrix slope = multiply(M, Z).lazyProduct(Lambda);
+  if (!is_undamped()) slope += multiply(C, Z);
+  return slope.lazyProduct(Lambda) + multiply(K, Z);
 }
 
 double PencilAtPoint::magnitude(double mu) const {

@@ -321,13 +321,15 @@ TEST(StepPencil, HasTheEigenvaluesOfThePathBetweenItsPoints) {
   const Setting setting = scene_setting("rotating_mass");
   RunCounts counts;
   for (const double t : {0.0, 0.3, 0.5, 1.0}) {
-    const StepPencil::Sample m = *pencil.at(t);
+    const auto sample = pencil.at(t);
     std::vector<Complex> expected;
     for (const InvariantPair& pair : point_from_guess(setting.problem(), 100.0 - 10.0 * t, counts).pairs) {
       expected.push_back(pair.eigenvalue());
       expected.push_back(std::conj(pair.eigenvalue()));
     }
-    EXPECT_LT(matched_distance(expected, quadratic_eigenvalues(m.M, m.C, m.K)), 1e-9) << "t = " << t;
+    EXPECT_LT(matched_distance(expected, quadratic_eigenvalues(sample->at.M, sample->at.C, sample->at.K)),
+              1e-9)
+        << "t = " << t;
   }
 }
 

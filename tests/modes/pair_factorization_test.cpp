@@ -1,4 +1,4 @@
-// The linearized equations of a single mode, in complex and in real arithmetic.
+// The linearized equations of a single mode, in complex and in real arithmetic, and of a block.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,11 +11,8 @@ namespace {
 
 constexpr Eigen::Index n = 6;
 
-ComplexVector random_vector(std::mt19937_64& engine) {
-  ComplexVector v(n);
-  v.real() = random_matrix(n, 1, engine);
-  v.imag() = random_matrix(n, 1, engine);
-  return v;
+ComplexVector random_vector(Eigen::Index size, std::mt19937_64& engine) {
+  return random_complex(size, 1, engine);
 }
 
 struct FactoredMode {
@@ -35,7 +32,7 @@ class SingleModeFactors : public testing::TestWithParam<FactoredMode> {
     if (!GetParam().damped) family.C[0].setZero();
     const bool is_real = GetParam().phase != Complex(0.0);
     z = is_real ? ComplexVector(GetParam().phase * random_matrix(n, 1, engine).cast<Complex>())
-                : random_vector(engine);
+                : random_vector(n, engine);
     z /= z.norm();
     W = ComplexMatrix::Zero(2 * n, 1);
     W.topRows(n) = z;
@@ -52,7 +49,7 @@ TEST_P(SingleModeFactors, SolveTheirEquations) {
   const PencilAtPoint pencil(family);
   const Complex s = GetParam().s;
   const PairFactorization factors(pencil, z, ComplexMatrix::Constant(1, 1, s), W);
-  const ComplexMatrix R = random_vector(engine);
+  const ComplexMatrix R = random_vector(n, engine);
   const ComplexMatrix N = ComplexMatrix::Constant(1, 1, Complex(0.3, -0.8));
   ComplexMatrix dZ, ds;
   factors.solve(R, N, dZ, ds);
@@ -60,6 +57,24 @@ TEST_P(SingleModeFactors, SolveTheirEquations) {
   const ComplexVector rest = pencil.matrix(s) * dZ + slope * ds(0, 0) - R;
   EXPECT_LT(rest.norm(), 1e-13 * pencil.magnitude(std::abs(s)) * dZ.norm());
   EXPECT_LT(std::abs(z.dot(dZ.col(0)) - N(0, 0)), 1e-13 * dZ.norm());
+}
+
+/// Whether <B u, v> = <u, B^H v>.
+void expect_adjoint(const PairFactorization& factors, Eigen::Index size, std::mt19937_64& engine) {
+  const ComplexVector u = random_vector(size, engine);
+  const ComplexVector v = random_vector(size, engine);
+  ComplexVector Bu = u;
+  factors.solve_in_place(Bu);
+  ComplexVector adjoint = v;
+  factors.solve_adjoint_in_place(adjoint);
+  EXPECT_LT(std::abs(Bu.dot(v) - u.dot(adjoint)), 1e-13 * Bu.norm() * v.norm() * static_cast<double>(size));
+  EXPECT_GT(std::abs(Bu.dot(v)), 1e-3 * Bu.norm() * v.norm()) << "nothing compared";
+}
+
+TEST_P(SingleModeFactors, HaveAnAdjoint) {
+  const PencilAtPoint pencil(family);
+  const PairFactorization factors(pencil, z, ComplexMatrix::Constant(1, 1, GetParam().s), W);
+  expect_adjoint(factors, n + 1, engine);
 }
 
 /// Every residual of size one, one by one, against the bound of all of them.
@@ -85,6 +100,41 @@ INSTANTIATE_TEST_SUITE_P(
                     FactoredMode{"damped_oscillation", true, {-0.1, 1.3}, 1.0},
                     FactoredMode{"damped_on_the_axis", true, {0.0, 1.3}, 1.0}),
     [](const auto& test) { return test.param.name; });
+
+/// A block about which the equations are linearized need not solve them.
+class BlockFactors : public testing::TestWithParam<int> {
+ protected:
+  int k = GetParam();
+  std::mt19937_64 engine{5};
+  ReducedPencil family = random_family(n, 1);
+  ComplexMatrix Z = random_complex(n, k, engine);
+  ComplexMatrix Lambda = random_complex(k, k, engine);
+  ComplexMatrix W = random_complex(2 * n, k, engine);
+};
+
+TEST_P(BlockFactors, SolveTheirEquations) {
+  const PencilAtPoint pencil(family);
+  const PairFactorization factors(pencil, Z, Lambda, W);
+  const ComplexMatrix R = random_complex(n, k, engine);
+  const ComplexMatrix N = random_complex(k, k, engine);
+  ComplexMatrix X, Y;
+  factors.solve(R, N, X, Y);
+  const ComplexMatrix M = pencil.M.cast<Complex>();
+  const ComplexMatrix C = pencil.C.cast<Complex>();
+  const ComplexMatrix rest = M * X * Lambda * Lambda + C * X * Lambda + pencil.K * X +
+                             M * Z * (Lambda * Y + Y * Lambda) + C * Z * Y - R;
+  const ComplexMatrix unit =
+      W.topRows(n).adjoint() * X + W.bottomRows(n).adjoint() * (X * Lambda + Z * Y) - N;
+  EXPECT_LT(rest.norm(), 1e-12 * (X.norm() + Y.norm()));
+  EXPECT_LT(unit.norm(), 1e-12 * (X.norm() + Y.norm()));
+}
+
+TEST_P(BlockFactors, HaveAnAdjoint) {
+  const PencilAtPoint pencil(family);
+  expect_adjoint(PairFactorization(pencil, Z, Lambda, W), n * k + k * k, engine);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, BlockFactors, testing::Values(2, 3, 4));
 
 }  // namespace
 }  // namespace eigentrail::test

@@ -12,6 +12,13 @@ inline Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt1993
   return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
+inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& engine) {
+  ComplexMatrix B(rows, columns);
+  B.real() = random_matrix(rows, columns, engine);
+  B.imag() = random_matrix(rows, columns, engine);
+  return B;
+}
+
 /// Polynomial family with a well-conditioned mass, gyroscopic and circulatory parts: series of length 4 about
 /// 0.
 inline ReducedPencil random_family(Eigen::Index n, unsigned seed) {

@@ -26,8 +26,13 @@ class StepPencil {
 
   /// What is interpolated at one place of the step.
   struct Sample {
-    Vector weights;  ///< of the coefficients at both ends, left, then right
-    Matrix M, C, K;
+    Sample(Vector hermite, ReducedPencil interpolated)
+        : weights(std::move(hermite)), pencil(std::move(interpolated)), at(pencil) {}
+    Sample(const Sample&) = delete;  // refers to itself
+
+    Vector weights;        ///< of the coefficients at both ends, left, then right
+    ReducedPencil pencil;  ///< one coefficient of each
+    PencilAtPoint at;      ///< the same in the finite chart, with its norms
   };
   /// At t in [0, 1].
   std::shared_ptr<const Sample> at(double t) const;
@@ -36,7 +41,7 @@ class StepPencil {
   bool has_constant_mass() const { return left_.pencil.M.size() == 1 && right_.M.size() == 1; }
 
  private:
-  Sample sample(double t) const;
+  std::shared_ptr<const Sample> sample(double t) const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
 
   const PathNode& left_;

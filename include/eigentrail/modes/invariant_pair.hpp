@@ -56,6 +56,11 @@ class PairFactorization {
   /// x k).
   void solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ, ComplexMatrix& dLambda) const;
 
+  /// The same in one vector: overwrites (R, N) with (dZ, dLambda), column by column.
+  void solve_in_place(ComplexVector& b) const;
+  /// Overwrites b with B^H b, B being the linear map of solve_in_place.
+  void solve_adjoint_in_place(ComplexVector& b) const;
+
   /// Bound of |dLambda| / |R|: how far a residual moves the block as a whole.
   double sensitivity() const;
 
@@ -76,8 +81,8 @@ class PairFactorization {
   /// Factors the real form of a single mode, if it has one.
   bool factor_real(const PencilAtPoint& pencil, const ComplexVector& z, Complex s, const ComplexVector& w,
                    const ComplexVector& slope);
-  void solve_block(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
-                   ComplexMatrix& dLambda) const;
+  void solve_block(ComplexVector& b) const;
+  void solve_block_adjoint(ComplexVector& b) const;
 
   std::optional<Coupling> coupling_;
   std::optional<RealMode> real_;

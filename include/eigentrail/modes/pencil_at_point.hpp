@@ -22,6 +22,8 @@ struct PencilAtPoint {
 
   explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
   explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;  ///< referred to, not copied
+  /// One in the chart given, from that of the finite one.
+  PencilAtPoint(const PencilAtPoint& finite, Chart chart);
 
   Eigen::Index size() const { return M.rows(); }
   bool is_undamped() const { return norm_C == 0.0; }  ///< C vanishes
@@ -34,6 +36,9 @@ struct PencilAtPoint {
 
 /// B Z for a real matrix and few complex columns.
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z);
+ComplexMatrix multiply(const SparseMatrix& B, const ComplexMatrix& Z);
 ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z);
+/// B^T Z.
+ComplexMatrix transposed_multiply(const Matrix& B, const ComplexMatrix& Z);
 
 }  // namespace eigentrail

@@ -1,0 +1,89 @@
+// The change of the linearized equations along a step, against their definition.
+#include "continuation/jacobian_change.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/families.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr Eigen::Index n = 20;  // products by BLAS
+constexpr double scale = 0.3;
+
+struct Pair {
+  ComplexMatrix Z, Lambda;
+};
+
+/// J(v): what the residual and the normalization change by when (Z, Lambda) changes by (X, scale Y).
+ComplexVector linearized(const PencilAtPoint& pencil, const Pair& at, const ComplexMatrix& W1,
+                         const ComplexVector& v) {
+  const Eigen::Index k = at.Z.cols();
+  const ComplexMatrix X = v.head(n * k).reshaped(n, k);
+  const ComplexMatrix Y = scale * v.tail(k * k).reshaped(k, k);
+  const ComplexMatrix M = pencil.M.cast<Complex>();
+  const ComplexMatrix C = pencil.C.cast<Complex>();
+  const ComplexMatrix R = M * X * at.Lambda * at.Lambda + C * X * at.Lambda + pencil.K * X +
+                          M * at.Z * (at.Lambda * Y + Y * at.Lambda) + C * at.Z * Y;
+  const ComplexMatrix N = W1.adjoint() * (X * at.Lambda + at.Z * Y);
+  ComplexVector result(v.size());
+  result << R.reshaped(), N.reshaped();
+  return result;
+}
+
+struct Place {
+  std::string name;
+  int k;
+  bool constant_mass;
+};
+
+void PrintTo(const Place& place, std::ostream* out) {
+  *out << place.name;
+}
+
+class ChangeOfJacobian : public testing::TestWithParam<Place> {
+ protected:
+  ChangeOfJacobian() {
+    if (GetParam().constant_mass) there.M = here.M;
+    if (k == 1) W1.setZero();
+  }
+
+  Pair random_pair() { return {random_complex(n, k, engine), random_complex(k, k, engine)}; }
+
+  int k = GetParam().k;
+  std::mt19937_64 engine{11};
+  ReducedPencil here = random_family(n, 1);
+  ReducedPencil there = random_family(n, 2);
+  ComplexMatrix W1 = random_complex(n, k, engine);
+  Pair from = random_pair(), to = random_pair();
+  PencilAtPoint pencil_here{here}, pencil_there{there};
+  ComplexVector u = random_complex(n * k + k * k, 1, engine);
+  ComplexVector v = random_complex(n * k + k * k, 1, engine);
+};
+
+TEST_P(ChangeOfJacobian, IsTheDifferenceOfBoth) {
+  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_there, to.Z, to.Lambda}, W1, scale);
+  const ComplexVector expected = linearized(pencil_there, to, W1, v) - linearized(pencil_here, from, W1, v);
+  EXPECT_LT((change.times(v) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST_P(ChangeOfJacobian, HasAnAdjoint) {
+  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_there, to.Z, to.Lambda}, W1, scale);
+  const Complex expected = u.dot(change.times(v));
+  EXPECT_LT(std::abs(change.adjoint_times(u).dot(v) - expected), 1e-12 * std::abs(expected));
+}
+
+TEST_P(ChangeOfJacobian, IsNothingFromAPlaceToItself) {
+  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_here, from.Z, from.Lambda}, W1,
+                              scale);
+  EXPECT_LT(change.times(v).norm(), 1e-13 * linearized(pencil_here, from, W1, v).norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, ChangeOfJacobian,
+                         testing::Values(Place{"mode", 1, false}, Place{"mode_constant_mass", 1, true},
+                                         Place{"two", 2, false}, Place{"two_constant_mass", 2, true},
+                                         Place{"three", 3, false}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace eigentrail::test
