@@ -278,11 +278,15 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const double noise = std::abs(gap[1]) > 0.0
                            ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
                            : 0.0;
-  // The gap of a defective part is known to rounding times its size: double roots to the root of that.
+  // The gap of a defective part is known to rounding times its size: double roots to the root of that, single
+  // ones, whose parabola has no other root within reach, to its share in their slope.
   const double curvature = std::abs(gap[2]);
+  const bool is_single = std::abs(gap[1]) > 2.0 * std::abs(reach) * curvature;
   const bool defective =
       distance > 1e-6 * std::max(track.pair.Lambda.norm(), 1e-3 * rounding.slope * std::abs(reach));
-  if (defective && curvature > 0.0) {
+  if (defective && is_single) {
+    resolution = std::max(resolution, 4.0 * rounding.lambda * distance / std::abs(gap[1]));
+  } else if (defective && curvature > 0.0) {
     resolution = std::max(resolution, std::sqrt(4.0 * rounding.lambda * distance / curvature));
   } else if (rounding.slope > 0.0) {
     resolution = std::max(resolution, rounding.lambda / rounding.slope);

@@ -272,6 +272,18 @@ std::string remark_on_constraints(const PathNode& node) {
   return text.str();
 }
 
+/// Beside zero the tolerance asks for more than rounding leaves where next to nothing counts as zero, as when
+/// all modes are slow where the trace begins.
+std::string remark_on_zero(const Track& track, double reference) {
+  constexpr double near = 100.0;
+  if (!(track.roots.cwiseAbs().minCoeff() < near * reference)) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "; an eigenvalue passes zero, where rounding leaves errors above tolerance * reference, which is "
+       << reference << " 1/s here: give a larger `reference`";
+  return text.str();
+}
+
 }  // namespace
 
 bool Tracer::give_up(const Trouble& trouble) {
@@ -281,9 +293,13 @@ bool Tracer::give_up(const Trouble& trouble) {
       if (mode >= 0) who += (who.empty() ? "mode " : ", ") + std::to_string(mode + 1);
     }
   }
+  std::string remarks = remark_on_constraints(node_);
+  if (trouble.kind == Trouble::Kind::inaccurate && trouble.track >= 0) {
+    const Track& track = node_.tracks[static_cast<std::size_t>(trouble.track)];
+    remarks += remark_on_zero(track, problem_.reference(track.pair.chart));
+  }
   return stop(TraceStatus::step_too_small, "the step became too small after " + at_parameter(node_.p) + ": " +
-                                               (who.empty() ? who : who + ": ") + trouble.reason +
-                                               remark_on_constraints(node_));
+                                               (who.empty() ? who : who + ": ") + trouble.reason + remarks);
 }
 
 bool Tracer::stop(TraceStatus status, const std::string& message) {

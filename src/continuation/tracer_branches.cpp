@@ -174,8 +174,6 @@ void Tracer::bridge_start(PathPoint& point) {
     bridge_.reset();
     return;
   }
-  // A trace of order 4 that begins on a bridge loses a mode that is born there.
-  if (!options_.order) use_order(std::min(problem_.order, usual_order));
   point =
       reduce_on(problem_, bridge_->path(options_.from, problem_.order + 1), point.basis.T[0], result_.counts);
 }

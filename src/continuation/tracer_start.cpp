@@ -80,7 +80,8 @@ std::optional<std::vector<StartingMode>> Tracer::starting_modes(const PathPoint&
     return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
   };
   const double mass = largest(pencil.M[0]);
-  if (mass > 0.0 && std::max(largest(pencil.K[0]), largest(pencil.C[0])) <= no_force * mass) {
+  // On a branch point the stiffness of a single freedom vanishes, and there alone.
+  if (!bridge_ && mass > 0.0 && std::max(largest(pencil.K[0]), largest(pencil.C[0])) <= no_force * mass) {
     stop(TraceStatus::no_modes, "no force acts on the freedoms" + where +
                                     ": all eigenvalues are zero, and there is nothing to follow");
     return std::nullopt;

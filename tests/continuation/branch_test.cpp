@@ -31,10 +31,11 @@ const std::string tilted = "[1.2, 0, -0.9]";
 /// every k.
 constexpr double critical_stiffness = 2.0 * 9.81 / 1.5;
 
-Setting spring_pendulum(double from, double to, const std::string& position, const std::string& branch) {
+Setting spring_pendulum(double from, double to, const std::string& position, const std::string& branch,
+                        const std::string& options = "") {
   std::ostringstream trace;
   trace.precision(17);
-  trace << "parameter = \"k\"\nfrom = " << from << "\nto = " << to << "\n";
+  trace << options << "parameter = \"k\"\nfrom = " << from << "\nto = " << to << "\n";
   if (!branch.empty()) trace << "branch = " << branch << "\n";
   return make_setting(
       pendulum("k = 20.0\n", trace.str(), position,
@@ -52,9 +53,12 @@ double straight_stiffness(double k) {
 /// Turns with its plane about the vertical: straight for every speed, tilted for omega^2 > g / l.
 const double critical_speed = std::sqrt(9.81 / 1.5);
 
-Setting whirling_pendulum(double from, double to, const std::string& branch) {
+Setting whirling_pendulum(double from, double to, const std::string& branch,
+                          const std::string& options = "") {
   std::ostringstream trace;
-  trace << "parameter = \"omega\"\nfrom = " << from << "\nto = " << to << "\nbranch = " << branch << "\n";
+  trace.precision(17);
+  trace << options << "parameter = \"omega\"\nfrom = " << from << "\nto = " << to << "\nbranch = " << branch
+        << "\n";
   return make_setting(
       pendulum("omega = 1.0\n", trace.str(), straight, "[frame]\nangular_velocity = [0, 0, \"omega\"]\n"));
 }
@@ -145,14 +149,48 @@ TEST(BranchPoint, IsLeftFromTheTiltedPathTowardsTheEndFirst) {
 }
 
 TEST(BranchPoint, MayBeWhereTheTraceBegins) {
-  for (const auto& [branch, tilts] : {std::pair("1", false), std::pair("2", true)}) {
-    const auto trace = record_trace(spring_pendulum(critical_stiffness, 20, straight, branch));
-    expect_pitchfork(trace, critical_stiffness);
-    for (const double d : beside) {
-      const double k = critical_stiffness + d;
-      expect_squares(trace, k, {tilts ? tilted_stiffness(k) : straight_stiffness(k)});
+  for (const std::string order : {"1", "2", "3", "4"}) {
+    for (const auto& [branch, tilts] : {std::pair("1", false), std::pair("2", true)}) {
+      const auto trace =
+          record_trace(spring_pendulum(critical_stiffness, 20, straight, branch, "order = " + order + "\n"));
+      expect_pitchfork(trace, critical_stiffness);
+      for (const double d : beside) {
+        const double k = critical_stiffness + d;
+        expect_squares(trace, k, {tilts ? tilted_stiffness(k) : straight_stiffness(k)});
+      }
     }
   }
+}
+
+/// No force is left there: its only freedom has no stiffness.
+TEST(BranchPoint, MayBeWhereAWhirlingPendulumBegins) {
+  for (const std::string order : {"1", "2", "3", "4"}) {
+    for (const std::string branch : {"1", "2", "3"}) {
+      const auto trace =
+          record_trace(whirling_pendulum(critical_speed, 5, branch, "order = " + order + "\n"));
+      ASSERT_EQ(trace.result.status, TraceStatus::completed)
+          << trace.result.message << ", order " << order << ", branch " << branch;
+      expect_pitchfork(trace, critical_speed);
+      for (const double d : {1e-5, 1e-2, 1.0}) {
+        const double speed = critical_speed + d;
+        const double hanging = (critical_speed - speed) * (critical_speed + speed);
+        const double cosine = std::pow(critical_speed / speed, 2);
+        expect_squares(trace, speed, {branch == "1" ? hanging : -hanging * (1.0 + cosine)});
+      }
+    }
+  }
+}
+
+/// Where the only mode is slow at the start, next to nothing counts as zero.
+TEST(BranchPoint, BesideTheStartAsksForAReference) {
+  const std::string branch = "1";
+  const auto fails = record_trace(whirling_pendulum(critical_speed - 1e-3, 5, branch));
+  EXPECT_EQ(fails.result.status, TraceStatus::step_too_small);
+  EXPECT_NE(fails.result.message.find("give a larger `reference`"), std::string::npos)
+      << fails.result.message;
+  const auto passes = record_trace(whirling_pendulum(critical_speed - 1e-3, 5, branch, "reference = 0.01\n"));
+  EXPECT_EQ(passes.result.status, TraceStatus::completed) << passes.result.message;
+  expect_pitchfork(passes, critical_speed);
 }
 
 TEST(BranchPoint, MayBeWhereTheTraceEnds) {
