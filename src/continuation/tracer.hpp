@@ -104,6 +104,7 @@ class Tracer final : private Checkpoint {
   void label_arrival(double h, PathNode& next) const;
   void label_departure(double h, PathNode& next, const std::vector<bool>& coincide);
   void settle_real_block(Track& track);
+  void name_in_collisions(int parent, int born);
   int partner_of(int mode);
   PathStep make_step(double h, const PathNode& next) const;
   std::vector<ModeState> mode_states(const PathNode& node) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/event_tools.hpp"
 #include "continuation/shared_basis.hpp"
 #include "continuation/strands.hpp"
 #include "continuation/tracer.hpp"
@@ -67,6 +68,17 @@ int Tracer::partner_of(int mode) {
   return born;
 }
 
+/// A collision at this point was recorded before it was known that a mode begins there.
+void Tracer::name_in_collisions(int parent, int born) {
+  for (Event& event : result_.events) {
+    if (event.node != result_.nodes || event.kind != EventKind::collision) continue;
+    const auto has = [&event](int mode) {
+      return std::find(event.modes.begin(), event.modes.end(), mode) != event.modes.end();
+    };
+    if (has(parent) && !has(born)) event.modes = sorted_modes(united(event.modes, {born}));
+  }
+}
+
 /// In a real block every real eigenvalue is a mode, and of a complex pair the upper member is.
 void Tracer::settle_real_block(Track& track) {
   ComplexVector& roots = track.departure ? track.departure->roots : track.roots;
@@ -106,6 +118,7 @@ void Tracer::settle_real_block(Track& track) {
       parent = other;
     }
     mode = partner_of(parent);
+    name_in_collisions(parent, mode);
     // It comes from where its parent was: what it crosses at once is not missed.
     for (std::size_t c = 0; c < criteria_.size(); ++c) {
       if (!criteria_[c].asks_for_pairs()) watches_[{mode, c}] = watches_[{parent, c}];

@@ -97,8 +97,13 @@ class Events(CommandTest):
         self.assertAlmostEqual(float(collision["imag"]), 0.0, delta=1e-7)
         self.assertAlmostEqual(float(divergence["parameter"]), 1.0, delta=1e-12)
         self.assertEqual((float(divergence["real"]), float(divergence["imag"])), (0.0, 0.0))
-        self.assertIn("1", collision["modes"].split(";"))
-        self.assertEqual(divergence["modes"], "1")
+        self.assertEqual(collision["modes"], "1;2")
+
+    def test_a_collision_names_both_modes_whether_one_begins_or_ends_there(self):
+        for way in ((), ("--from", "1.5", "--to", "0")):
+            self.trace(BIRTH, "--force", *way)
+            collisions = [event["modes"] for event in self.events() if event["kind"] == "collision"]
+            self.assertEqual(collisions, ["1;2"], way)
 
     def test_csv_is_what_the_file_holds(self):
         for scene in (BIRTH, CROSSING, BLADE):
