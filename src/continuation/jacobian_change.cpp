@@ -24,11 +24,9 @@ JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, c
       slope_(slope_of(to, MZ_to_) - slope_of(from, MZ_from_)) {
   if (Z_.cols() == 1) {
     set_pencil();
-    return;
+  } else {
+    set_terms();
   }
-  add_terms(from.pencil.M, from.Lambda * from.Lambda, to.pencil.M, to.Lambda * to.Lambda);
-  add_terms(from.pencil.C, from.Lambda, to.pencil.C, to.Lambda);
-  K_ = to.pencil.K - from.pencil.K;
 }
 
 void JacobianChange::set_pencil() {
@@ -43,14 +41,26 @@ void JacobianChange::set_pencil() {
   P_.imag() = square_b.imag() * b.M - square_a.imag() * a.M + s_b.imag() * b.C - s_a.imag() * a.C;
 }
 
-void JacobianChange::add_terms(const Matrix& from, const ComplexMatrix& L_from, const Matrix& to,
-                               const ComplexMatrix& L_to) {
-  if (from == to) {
-    terms_.push_back({&to, L_to - L_from});
-    return;
-  }
-  terms_.push_back({&to, L_to});
-  terms_.push_back({&from, -L_from});
+void JacobianChange::set_terms() {
+  std::vector<const Matrix*> terms;
+  const auto add = [&](const Matrix& B, ComplexMatrix L) {
+    terms.push_back(&B);
+    L_.push_back(std::move(L));
+  };
+  const auto add_change = [&](const Matrix& from, const ComplexMatrix& L_from, const Matrix& to,
+                              const ComplexMatrix& L_to) {
+    if (from == to) return add(to, L_to - L_from);
+    add(to, L_to);
+    add(from, -L_from);
+  };
+  add_change(from_.pencil.M, from_.Lambda * from_.Lambda, to_.pencil.M, to_.Lambda * to_.Lambda);
+  add_change(from_.pencil.C, from_.Lambda, to_.pencil.C, to_.Lambda);
+  const Matrix K = to_.pencil.K - from_.pencil.K;
+  add(K, ComplexMatrix::Identity(Z_.cols(), Z_.cols()));
+  const Eigen::Index n = Z_.rows();
+  B_.resize(n * static_cast<Eigen::Index>(terms.size()), n);
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    B_.middleRows(static_cast<Eigen::Index>(i) * n, n) = *terms[i];
 }
 
 ComplexVector JacobianChange::times(const ComplexVector& v) const {
@@ -64,8 +74,9 @@ ComplexVector JacobianChange::times(const ComplexVector& v) const {
   if (k == 1) {  // W1 = 0
     R += product(P_, ComplexVector(X));
   } else {
-    R += multiply(K_, X);
-    for (const Term& term : terms_) R += multiply(*term.B, X).lazyProduct(term.L);
+    const ComplexMatrix BX = multiply(B_, X);
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      R += BX.middleRows(static_cast<Eigen::Index>(i) * n, n).lazyProduct(L_[i]);
     N = W1_.adjoint() * (X.lazyProduct(Lambda_) + Z_.lazyProduct(Y));
   }
   ComplexVector result(v.size());
@@ -84,8 +95,10 @@ ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
     X = adjoint_product(P_, ComplexVector(R));
   } else {
     const ComplexMatrix W1N = W1_.lazyProduct(v.tail(k * k).reshaped(k, k));
-    X = transposed_multiply(K_, R) + W1N.lazyProduct(Lambda_.adjoint());
-    for (const Term& term : terms_) X += transposed_multiply(*term.B, R).lazyProduct(term.L.adjoint());
+    ComplexMatrix RL(B_.rows(), k);
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      RL.middleRows(static_cast<Eigen::Index>(i) * n, n) = R.lazyProduct(L_[i].adjoint());
+    X = transposed_multiply(B_, RL) + W1N.lazyProduct(Lambda_.adjoint());
     Y += Z_.adjoint() * W1N;
   }
   ComplexVector result(v.size());

@@ -26,15 +26,8 @@ class JacobianChange {
   ComplexVector adjoint_times(const ComplexVector& v) const;
 
  private:
-  /// X -> B X L.
-  struct Term {
-    const Matrix* B;
-    ComplexMatrix L;
-  };
-
   void set_pencil();
-  void add_terms(const Matrix& from, const ComplexMatrix& L_from, const Matrix& to,
-                 const ComplexMatrix& L_to);
+  void set_terms();
 
   PairAtPlace from_, to_;
   const ComplexMatrix& W1_;
@@ -42,8 +35,10 @@ class JacobianChange {
   ComplexMatrix MZ_from_, MZ_to_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
   ComplexMatrix P_;                   ///< of a single mode: the pencil's change
-  Matrix K_;                          ///< of a block: the change of K
-  std::vector<Term> terms_;           ///< of a block: those of M and C
+  /// Of a block, X -> the sum of B_i X L_i: all B_i one below the other, for one product takes less time than
+  /// several small ones; and the L_i.
+  Matrix B_;
+  std::vector<ComplexMatrix> L_;
 };
 
 }  // namespace eigentrail

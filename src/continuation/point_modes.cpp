@@ -55,8 +55,8 @@ class ModeCorrections {
       InvariantPair other = reduced(prediction_.continued[i]->pair);
       normalize_pair(other.Z, other.Lambda, other.W, reference);
       other.backward_error = backward_error(pencil, other);
-      if (prediction_.continued[i]->may_pass &&
-          other.condition * other.backward_error <= problem_.corrector.passing_error) {
+      if (other.condition * other.backward_error <= problem_.corrector.passing_error &&
+          prediction_.may_pass(*prediction_.continued[i], i)) {
         other.status = PairStatus::converged;
         point_.pairs[i] = std::move(other);
         point_.passed[i] = prediction_.continued[i]->series;

@@ -198,10 +198,11 @@ Prediction Tracer::predict_all(double h) {
     const int threads = is_worth_sharing(count, node_.pencil.size()) ? problem_.threads : 1;
     in_parallel(count, threads, [&](std::size_t i) {
       if (prediction.ready[i] != nullptr) return;
-      auto& mode = prediction.continued[i];
-      mode = continue_mode(previous_, node_, i, last_step_, h);
-      if (mode) mode->may_pass = is_far_from_events(*mode, i, h);
+      prediction.continued[i] = continue_mode(previous_, node_, i, last_step_, h);
     });
+    prediction.may_pass = [this, h](const ContinuedMode& mode, std::size_t i) {
+      return is_far_from_events(mode, i, h);
+    };
   }
   return prediction;
 }

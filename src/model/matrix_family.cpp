@@ -36,23 +36,34 @@ auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Inde
   using std::isfinite;
   using Scalar = Series<Real, Q>;
   using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  std::vector<Coefficient> result(static_cast<std::size_t>(order) + 1, Coefficient::Zero(rows, columns));
-  Scalar power(1.0);
-  for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
+  std::size_t count = 1;  // matrices of zeros would cost more than the others
+  const auto look_at = [&](const Scalar& factor) {
     for (int k = 0; k <= order; ++k) {
-      finite = finite && isfinite(power[k]);
-      if (power[k] != Real(0.0))
-        result[static_cast<std::size_t>(k)] += power[k] * polynomial.coefficients[j].template cast<Real>();
+      finite = finite && isfinite(factor[k]);
+      if (factor[k] != Real(0.0)) count = std::max(count, static_cast<std::size_t>(k) + 1);
     }
-    for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
-      if (entry.power != static_cast<int>(j)) continue;
-      const Scalar value = entry.expression.evaluate(std::span<const Scalar>(parameters.si)) * power;
-      for (int k = 0; k <= order; ++k) {
-        finite = finite && isfinite(value[k]);
-        result[static_cast<std::size_t>(k)](entry.row, entry.column) += value[k];
-      }
+  };
+  std::vector<Scalar> powers, values;
+  for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
+    powers.push_back(j == 0 ? Scalar(1.0) : powers.back() * parameters.variable);
+    look_at(powers.back());
+  }
+  for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
+    values.push_back(entry.expression.evaluate(std::span<const Scalar>(parameters.si)) *
+                     powers[static_cast<std::size_t>(entry.power)]);
+    look_at(values.back());
+  }
+  std::vector<Coefficient> result(count, Coefficient::Zero(rows, columns));
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto at = static_cast<int>(k);
+    for (std::size_t j = 0; j < powers.size(); ++j) {
+      if (powers[j][at] != Real(0.0))
+        result[k] += powers[j][at] * polynomial.coefficients[j].template cast<Real>();
     }
-    power *= parameters.variable;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const MatrixPolynomial::Entry& entry = polynomial.entries[i];
+      result[k](entry.row, entry.column) += values[i][at];
+    }
   }
   while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
   return typename BasicLinearization<Real>::Coefficients(std::make_move_iterator(result.begin()),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,9 +131,8 @@ struct EquilibriumGuess {
 
 /// A single mode as the dense output of the last step goes on, at the next point.
 struct ContinuedMode {
-  InvariantPair pair;     ///< Z in physical coordinates
-  PairSeries series;      ///< the same
-  bool may_pass = false;  ///< may stand without correction where it is accurate enough
+  InvariantPair pair;  ///< Z in physical coordinates
+  PairSeries series;   ///< the same
 };
 
 /// Where the next point is expected.
@@ -142,6 +142,8 @@ struct Prediction {
   std::vector<InvariantPair> pairs;  ///< Z in physical coordinates
   /// Per pair another prediction, which may be good enough to stand; empty where there is none.
   std::vector<std::optional<ContinuedMode>> continued = {};
+  /// Whether the one of that pair may stand; asked, by several threads at once, where it is accurate enough.
+  std::function<bool(const ContinuedMode&, std::size_t)> may_pass = {};
   /// Per pair its track where the same point was computed before, or null; empty where there is none.
   std::vector<const Track*> ready = {};
   std::optional<PathPlane> plane = {};  ///< where p is not given but found: the plane that the point lies on
