@@ -22,6 +22,59 @@ constexpr double norm_safety = 1.2;       ///< factor on it
 constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
 constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
 
+/// Unknowns up to which one matrix takes less time than the systems that it falls apart into.
+constexpr Eigen::Index largest_matrix = 80;
+
+/// B = J^-1 of a pair, in the unknowns (vec Z, vec Lambda / scale), from J as one matrix.
+class WholeInverse {
+ public:
+  WholeInverse(const PairAtPlace& at, const ComplexMatrix& W, double scale)
+      : W_(W), scale_(scale), J_(jacobian_matrix(at, W, scale)), lu_(J_) {}
+
+  void apply(ComplexVector& v) const { lu_.solve_in_place(v); }
+  void apply_adjoint(ComplexVector& v) const { lu_.solve_adjoint_in_place(v); }
+  double scale() const { return scale_; }
+
+  struct Change {
+    ComplexMatrix matrix;
+
+    ComplexVector times(const ComplexVector& v) const { return product(matrix, v); }
+    ComplexVector adjoint_times(const ComplexVector& v) const { return adjoint_product(matrix, v); }
+  };
+  Change change_to(const PairAtPlace& other) const { return {jacobian_matrix(other, W_, scale_) - J_}; }
+
+ private:
+  const ComplexMatrix& W_;
+  double scale_;
+  ComplexMatrix J_;
+  ComplexLu lu_;
+};
+
+/// The same from one system of size n + k per column of the pair's Schur form.
+class TriangularInverse {
+ public:
+  TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
+      : at_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
+
+  void apply(ComplexVector& v) const {
+    factors_.solve_in_place(v);
+    v.tail(at_.Lambda.size()) *= 1.0 / scale_;  // a division of complex numbers underflows
+  }
+  void apply_adjoint(ComplexVector& v) const {
+    v.tail(at_.Lambda.size()) *= 1.0 / scale_;
+    factors_.solve_adjoint_in_place(v);
+  }
+  double scale() const { return scale_; }
+
+  JacobianChange change_to(const PairAtPlace& other) const { return {at_, other, W1_, scale_}; }
+
+ private:
+  PairAtPlace at_;
+  const ComplexMatrix& W1_;
+  double scale_;
+  PairFactorization factors_;
+};
+
 /// One block on one step.
 class Tube {
  public:
@@ -90,34 +143,31 @@ class Tube {
     return closes(begin, middle, depth + 1, Z1) && closes(middle, end, depth + 1, Z1);
   }
 
-  /// B of a piece, in the unknowns (vec Z, vec Lambda / scale).
-  struct Inverse {
-    PairFactorization factors;
-    double scale;
-    Eigen::Index eigenvalues;  ///< entries of Lambda
-
-    void apply(ComplexVector& v) const {
-      factors.solve_in_place(v);
-      v.tail(eigenvalues) *= 1.0 / scale;  // a division of complex numbers underflows
-    }
-    void apply_adjoint(ComplexVector& v) const {
-      v.tail(eigenvalues) *= 1.0 / scale;
-      factors.solve_adjoint_in_place(v);
-    }
+  struct PlaceOnPiece {
+    double t;
+    int iterations;  ///< of the norm estimate there
   };
-
   bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
     const double size = std::max(centre.Lambda.norm(), 1e-300);
     const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
-    const Inverse B{{centre.pencil, centre.Z, centre.Lambda, W_}, scale, centre.Lambda.size()};
+    const auto samples = samples_of(begin, middle, end);
+    if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
+      ++counts_.certificate_factorizations;
+      return closes_about(centre, WholeInverse(centre.place(), W_, scale), samples, Z1);
+    }
     counts_.certificate_factorizations += static_cast<std::uint64_t>(W_.cols());
+    return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), samples, Z1);
+  }
+
+  template <class Inverse>
+  bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
+                    double& Z1) const {
     double Y = size_of_solved(B, residual(centre));
     ComplexVector direction = start_vector(centre.Z.size() + centre.Lambda.size());
-    for (const auto& [t, iterations] : samples_of(begin, middle, end)) {
+    for (const auto& [t, iterations] : samples) {
       const State s = state(t);
-      const JacobianChange change(centre.place(), s.place(), W1_, scale);
-      Z1 = std::max(Z1, norm_of_solved(B, change, iterations, direction));
+      Z1 = std::max(Z1, norm_of_solved(B, B.change_to(s.place()), iterations, direction));
       if (!(Z1 < 1.0)) return false;
       Y = std::max(Y, size_of_solved(B, residual(s)));
     }
@@ -127,10 +177,6 @@ class Tube {
     return room * room > 2.0 * Z2 * Y;
   }
 
-  struct PlaceOnPiece {
-    double t;
-    int iterations;  ///< of the norm estimate there
-  };
   /// The ends differ most from the middle; the direction that grows most is about the same everywhere.
   static std::array<PlaceOnPiece, 4> samples_of(double begin, double middle, double end) {
     return {{{begin, power_iterations},
@@ -139,6 +185,7 @@ class Tube {
              {0.5 * (middle + end), further_iterations}}};
   }
 
+  template <class Inverse>
   static double size_of_solved(const Inverse& B, ComplexVector F) {
     B.apply(F);
     return F.norm();
@@ -146,12 +193,14 @@ class Tube {
 
   /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
   /// below.
+  template <class Inverse>
   double curvature(const State& s, const Inverse& B) const {
     const double mu = s.Lambda.norm();
     const double M = s.pencil.norm_M;
+    const double scale = B.scale();
     const double equations =
-        2.0 * ((2.0 * M * mu + s.pencil.norm_C) * B.scale + M * s.Z.norm() * B.scale * B.scale);
-    const double normalization = 2.0 * W1_.norm() * B.scale;
+        2.0 * ((2.0 * M * mu + s.pencil.norm_C) * scale + M * s.Z.norm() * scale * scale);
+    const double normalization = 2.0 * W1_.norm() * scale;
     Diagonal weights{Vector(s.Z.size() + s.Lambda.size())};
     weights.entries << Vector::Constant(s.Z.size(), equations),
         Vector::Constant(s.Lambda.size(), normalization);
@@ -175,7 +224,7 @@ class Tube {
   }
 
   /// |B A| by power iteration from a direction v, which it improves.
-  template <class Operator>
+  template <class Inverse, class Operator>
   static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, ComplexVector& v) {
     double norm = 0.0;
     for (int i = 0; i < iterations; ++i) {

@@ -11,6 +11,34 @@ ComplexMatrix slope_of(const PairAtPlace& place, const ComplexMatrix& MZ) {
 
 }  // namespace
 
+/// Block (i, j) of size n x n belongs to columns i of the residual and j of Z: it is Lambda^2(j, i) M +
+/// Lambda(j, i) C, and K where i is j; the others likewise.
+ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale) {
+  const auto& [pencil, Z, Lambda] = at;
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  const ComplexMatrix L2 = Lambda * Lambda;
+  const ComplexMatrix MZ = multiply(pencil.M, Z);
+  const ComplexMatrix slope = slope_of(at, MZ);
+  const ComplexMatrix W0 = W.topRows(n).adjoint();
+  const ComplexMatrix W1 = W.bottomRows(n).adjoint();
+  const ComplexMatrix W1Z = W1 * Z;
+  ComplexMatrix J(n * k + k * k, n * k + k * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Complex l = Lambda(j, i);
+      const double own = i == j ? 1.0 : 0.0;
+      auto P = J.block(i * n, j * n, n, n);
+      P.real() = L2(j, i).real() * pencil.M + l.real() * pencil.C + own * pencil.K;
+      P.imag() = L2(j, i).imag() * pencil.M + l.imag() * pencil.C;
+      J.block(i * n, n * k + j * k, n, k) = scale * (l * MZ + own * slope);
+      J.block(n * k + i * k, j * n, k, n) = own * W0 + l * W1;
+      J.block(n * k + i * k, n * k + j * k, k, k) = scale * own * W1Z;
+    }
+  }
+  return J;
+}
+
 JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1,
                                double scale)
     : from_(from),

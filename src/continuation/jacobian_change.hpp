@@ -14,6 +14,9 @@ struct PairAtPlace {
   const ComplexMatrix& Lambda;  ///< k x k
 };
 
+/// J, the linear map of (vec Z, vec Lambda / scale), n k + k^2 entries, as a matrix; W = [W0; W1] is 2n x k.
+ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale);
+
 /// J(to) - J(from), a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Refers to all it is
 /// given. That of a single mode is held as a matrix, that of a block as a sum of products: as a matrix it
 /// would have k^2 times the pencil's entries.

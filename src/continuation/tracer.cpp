@@ -277,11 +277,11 @@ std::string remark_on_constraints(const PathNode& node) {
 /// all modes are slow where the trace begins.
 std::string remark_on_zero(const Track& track, double reference) {
   constexpr double near = 100.0;
-  if (!(track.roots.cwiseAbs().minCoeff() < near * reference)) return {};
+  if (track.pair.chart != Chart::finite || !(track.roots.cwiseAbs().minCoeff() < near * reference)) return {};
   std::ostringstream text;
   text.precision(3);
-  text << "; an eigenvalue passes zero, where rounding leaves errors above tolerance * reference, which is "
-       << reference << " 1/s here: give a larger `reference`";
+  text << "; beside zero rounding exceeds tolerance * reference: give a larger `reference`, now " << reference
+       << " 1/s";
   return text.str();
 }
 
@@ -296,8 +296,7 @@ bool Tracer::give_up(const Trouble& trouble) {
   }
   std::string remarks = remark_on_constraints(node_);
   if (trouble.kind == Trouble::Kind::inaccurate && trouble.track >= 0) {
-    const Track& track = node_.tracks[static_cast<std::size_t>(trouble.track)];
-    remarks += remark_on_zero(track, problem_.reference(track.pair.chart));
+    remarks += remark_on_zero(node_.tracks[static_cast<std::size_t>(trouble.track)], problem_.s_ref);
   }
   return stop(TraceStatus::step_too_small, "the step became too small after " + at_parameter(node_.p) + ": " +
                                                (who.empty() ? who : who + ": ") + trouble.reason + remarks);

@@ -19,12 +19,6 @@ ComplexLu::ComplexLu(ComplexMatrix A)
   LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
 }
 
-void ComplexLu::solve_in_place(Eigen::Ref<ComplexMatrix> B) const {
-  const auto n = static_cast<lapack_int>(factors_.rows());
-  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, 'N', n, static_cast<lapack_int>(B.cols()), factors_.data(), n,
-                      pivots_.data(), B.data(), static_cast<lapack_int>(B.outerStride()));
-}
-
 void ComplexLu::solve_in_place(ComplexVector& b) const {
   for (std::size_t i = 0; i < pivots_.size(); ++i)
     std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);

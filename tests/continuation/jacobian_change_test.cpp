@@ -67,6 +67,16 @@ TEST_P(ChangeOfJacobian, IsTheDifferenceOfBoth) {
   EXPECT_LT((change.times(v) - expected).norm(), 1e-13 * expected.norm());
 }
 
+TEST_P(ChangeOfJacobian, IsThatOfTheMatrices) {
+  const PairAtPlace here_{pencil_here, from.Z, from.Lambda};
+  const PairAtPlace there_{pencil_there, to.Z, to.Lambda};
+  ComplexMatrix W(2 * n, k);
+  W << random_complex(n, k, engine), W1;
+  const ComplexMatrix expected = jacobian_matrix(there_, W, scale) - jacobian_matrix(here_, W, scale);
+  const ComplexVector change = JacobianChange(here_, there_, W1, scale).times(v);
+  EXPECT_LT((change - expected * v).norm(), 1e-13 * change.norm());
+}
+
 TEST_P(ChangeOfJacobian, HasAnAdjoint) {
   const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_there, to.Z, to.Lambda}, W1, scale);
   const Complex expected = u.dot(change.times(v));

@@ -15,10 +15,8 @@ class ComplexLu {
 
   Eigen::Index size() const { return factors_.rows(); }
 
-  /// Overwrites B (size x columns) with A^-1 B. Cost size^2 per column.
-  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const;
-
-  /// The same of one column, without LAPACK's copies of the factors: at size 200 in a quarter of the time.
+  /// Overwrites b with A^-1 b. Cost size^2; without the copies of the factors that LAPACK makes: at size 200
+  /// in a quarter of the time.
   void solve_in_place(ComplexVector& b) const;
 
   /// Overwrites b with A^-H b.
