@@ -147,6 +147,7 @@ class Tube {
     double t;
     int iterations;  ///< of the norm estimate there
   };
+
   bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
     const double size = std::max(centre.Lambda.norm(), 1e-300);
@@ -163,15 +164,19 @@ class Tube {
   template <class Inverse>
   bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
                     double& Z1) const {
-    double Y = size_of_solved(B, residual(centre));
+    double Y = 0.0;
+    const auto has_finite_defect = [&](const State& s) {
+      const double size = size_of_solved(B, residual(s));
+      Y = std::max(Y, size);
+      return std::isfinite(size);
+    };
+    if (!has_finite_defect(centre)) return false;
     ComplexVector direction = start_vector(centre.Z.size() + centre.Lambda.size());
     for (const auto& [t, iterations] : samples) {
       const State s = state(t);
       Z1 = std::max(Z1, norm_of_solved(B, B.change_to(s.place()), iterations, direction));
-      if (!(Z1 < 1.0)) return false;
-      Y = std::max(Y, size_of_solved(B, residual(s)));
+      if (!(Z1 < 1.0) || !has_finite_defect(s)) return false;
     }
-    if (!std::isfinite(Y)) return false;
     const double Z2 = curvature_safety * curvature(centre, B);
     const double room = 1.0 - Z1;
     return room * room > 2.0 * Z2 * Y;

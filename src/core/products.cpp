@@ -42,7 +42,7 @@ ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   return y;
 }
 
-/// The same of one complex column.
+/// A x or A^T x of one complex column.
 ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
   const auto rows = static_cast<int>(A.rows());
   const auto columns = static_cast<int>(A.cols());
@@ -57,6 +57,7 @@ ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
   return y;
 }
 
+/// The same of several.
 ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   const Eigen::Index columns = X.cols();
   if (A.size() == 0) return ComplexMatrix::Zero(form == 'N' ? A.rows() : A.cols(), columns);
