@@ -1,0 +1,178 @@
+#include "core/hdf5_handle.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Most elements that are read from one dataset; more is refused before memory is asked for.
+constexpr std::uint64_t max_elements = std::uint64_t{1} << 31U;
+
+/// Opens an attribute that holds one value; an array would be read past the end of that value.
+Handle open_scalar_attribute(hid_t object, const std::string& name) {
+  Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of attribute " + name);
+  if (H5Sget_simple_extent_npoints(space) != 1)
+    throw Hdf5Error("HDF5 attribute " + name + " is not a single value");
+  return attribute;
+}
+
+std::string read_text_attribute(hid_t object, const std::string& name) {
+  const Handle attribute = open_scalar_attribute(object, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
+  if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) <= 0) {
+    throw Hdf5Error("HDF5 attribute " + name + " is not a text");
+  }
+  const Handle type = text_type();
+  char* text = nullptr;
+  check(H5Aread(attribute, type, &text), "read attribute " + name);
+  std::string result = text == nullptr ? "" : text;
+  H5free_memory(text);
+  return result;
+}
+
+template <class Number>
+Number read_number_attribute(hid_t object, const std::string& name, hid_t type) {
+  const Handle attribute = open_scalar_attribute(object, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
+  if (H5Tget_class(stored) != H5Tget_class(type))
+    throw Hdf5Error("HDF5 attribute " + name + " is of another type");
+  Number value{};
+  check(H5Aread(attribute, type, &value), "read attribute " + name);
+  return value;
+}
+
+}  // namespace
+
+std::uint64_t element_count(const Shape& shape) {
+  std::uint64_t count = 1;
+  for (const std::uint64_t dimension : shape) {
+    if (dimension != 0 && count > max_elements / dimension) return max_elements + 1;
+    count *= dimension;
+  }
+  return count;
+}
+
+Shape Hdf5File::Implementation::shape(const std::string& name) const {
+  const Handle set = dataset(name);
+  const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + name);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) throw Hdf5Error("HDF5 could not read the shape of " + name);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
+  return {dims.begin(), dims.end()};
+}
+
+template <class Element>
+std::vector<Element> Hdf5File::Implementation::read(const std::string& name, ElementType type) const {
+  const std::uint64_t count = element_count(shape(name));
+  if (count > max_elements) throw Hdf5Error("dataset " + name + " of " + path + " is too large to read");
+  std::vector<Element> data(count);
+  if (data.empty()) return data;
+  const Handle set = dataset(name);
+  check(H5Dread(set, memory_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
+        "read dataset " + name + " of " + path);
+  return data;
+}
+
+template <class Element>
+std::vector<Element> Hdf5File::Implementation::read_row(const std::string& name, std::uint64_t row,
+                                                        ElementType type) const {
+  const std::string action = "read a row of dataset " + name + " of " + path;
+  const Shape dims = shape(name);
+  if (dims.empty() || row >= dims[0]) throw Hdf5Error(action + ": there is no such row");
+  std::vector<hsize_t> start(dims.size(), 0);
+  std::vector<hsize_t> block(dims.begin(), dims.end());
+  start[0] = row;
+  block[0] = 1;
+  const std::uint64_t count = element_count({block.begin(), block.end()});
+  if (count > max_elements) throw Hdf5Error(action + ": it is too large");
+  std::vector<Element> data(count);
+  if (data.empty()) return data;
+  const Handle set = dataset(name);
+  const Handle space(H5Dget_space(set), H5Sclose, action);
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), action);
+  const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
+                      action);
+  check(H5Dread(set, memory_type(type), memory, space, H5P_DEFAULT, data.data()), action);
+  return data;
+}
+
+Shape Hdf5File::shape(const std::string& dataset) const {
+  return implementation_->shape(dataset);
+}
+
+bool Hdf5File::has(const std::string& dataset) const {
+  // A path exists when every part of it does.
+  for (std::size_t slash = dataset.find('/', 1);; slash = dataset.find('/', slash + 1)) {
+    if (H5Lexists(implementation_->file, dataset.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (slash == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  const Handle handle(H5Gopen2(implementation_->file, group.c_str(), H5P_DEFAULT), H5Gclose,
+                      "open group " + group);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list group " + group);
+  return names;
+}
+
+std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
+  return implementation_->read<double>(dataset, ElementType::real);
+}
+
+std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
+  return implementation_->read<Complex>(dataset, ElementType::complex);
+}
+
+std::vector<Complex> Hdf5File::read_complex_row(const std::string& dataset, std::uint64_t row) const {
+  return implementation_->read_row<Complex>(dataset, row, ElementType::complex);
+}
+
+std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
+  return implementation_->read<std::int64_t>(dataset, ElementType::integer);
+}
+
+std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
+  std::vector<char*> raw = implementation_->read<char*>(dataset, ElementType::text);
+  std::vector<std::string> texts;
+  for (char* text : raw) {
+    texts.emplace_back(text == nullptr ? "" : text);
+    H5free_memory(text);
+  }
+  return texts;
+}
+
+bool Hdf5File::has_attribute(const std::string& name) const {
+  return H5Aexists(implementation_->file, name.c_str()) > 0;
+}
+std::string Hdf5File::text_attribute(const std::string& name) const {
+  return read_text_attribute(implementation_->file, name);
+}
+double Hdf5File::real_attribute(const std::string& name) const {
+  return read_number_attribute<double>(implementation_->file, name, H5T_NATIVE_DOUBLE);
+}
+std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
+  return read_number_attribute<std::int64_t>(implementation_->file, name, H5T_NATIVE_INT64);
+}
+
+std::string Hdf5File::text_attribute(const std::string& dataset, const std::string& name) const {
+  const Handle set = implementation_->dataset(dataset);
+  return H5Aexists(set, name.c_str()) > 0 ? read_text_attribute(set, name) : "";
+}
+
+std::vector<std::string> Hdf5File::attribute_names() const {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Aiterate2(implementation_->file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+        "list attributes");
+  return names;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,167 @@
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/hdf5_handle.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Before the names of all complex datasets in the order of the alphabet, in which netCDF reads.
+constexpr const char* complex_type_name = "complex128";
+
+/// The type of a dataset. That of complex numbers has a name in the file: netCDF passes over compounds
+/// without one.
+Handle stored_type(hid_t file, ElementType type) {
+  if (type != ElementType::complex) return memory_type(type);
+  const std::string action = "name the type of complex numbers";
+  if (H5Lexists(file, complex_type_name, H5P_DEFAULT) > 0)
+    return {H5Topen2(file, complex_type_name, H5P_DEFAULT), H5Tclose, action};
+  Handle named = complex_type();
+  const Handle properties(H5Pcreate(H5P_DATATYPE_CREATE), H5Pclose, action);
+  check(H5Pset_obj_track_times(properties, false), action);
+  check(H5Tcommit2(file, complex_type_name, named, H5P_DEFAULT, properties, H5P_DEFAULT), action);
+  return named;
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar space");
+  if (H5Aexists(object, name.c_str()) > 0)
+    check(H5Adelete(object, name.c_str()), "replace attribute " + name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "create attribute " + name);
+  check(H5Awrite(attribute, type, value), "write attribute " + name);
+}
+
+void write_text_attribute(hid_t object, const std::string& name, const std::string& value) {
+  const char* text = value.c_str();
+  write_attribute(object, name, text_type(), &text);
+}
+
+/// Rows per chunk for about 16 KiB, at least one: files have some thirty growing datasets, and most are
+/// small.
+hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
+  std::uint64_t row = element_size;
+  for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
+  return std::clamp<std::uint64_t>(16384 / std::max<std::uint64_t>(row, 1), 1, 1024);
+}
+
+}  // namespace
+
+void Hdf5File::Implementation::write(const std::string& name, std::uint64_t first_row, ElementType type,
+                                     std::size_t count, const void* data) {
+  if (count == 0) return;
+  const std::string action = "write dataset " + name + " of " + path;
+  const Handle set = dataset(name);
+  std::vector<hsize_t> dims;
+  {
+    const Handle space(H5Dget_space(set), H5Sclose, action);
+    dims.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), action);
+  }
+  hsize_t row = 1;
+  for (std::size_t i = 1; i < dims.size(); ++i) row *= dims[i];
+  if (row == 0 || count % row != 0) throw Hdf5Error(action + ": the data are no whole number of rows");
+  std::vector<hsize_t> start(dims.size(), 0);
+  std::vector<hsize_t> block = dims;
+  start[0] = first_row;
+  block[0] = count / row;
+  if (start[0] + block[0] > dims[0]) {
+    dims[0] = start[0] + block[0];
+    check(H5Dset_extent(set, dims.data()), action);
+  }
+  const Handle space(H5Dget_space(set), H5Sclose, action);
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), action);
+  const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
+                      action);
+  check(H5Dwrite(set, memory_type(type), memory, space, H5P_DEFAULT, data), action);
+}
+
+void Hdf5File::create_dataset(const DatasetSpec& spec) {
+  const std::string action = "create dataset " + spec.name + " of " + implementation_->path;
+  std::vector<hsize_t> dims(spec.shape.begin(), spec.shape.end());
+  std::vector<hsize_t> limits = dims;
+  const Handle type = stored_type(implementation_->file, spec.type);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
+  // Without the time of day the same results are the same bytes.
+  check(H5Pset_obj_track_times(properties, false), action);
+  if (spec.growing) {
+    std::fill(limits.begin(), limits.end(), H5S_UNLIMITED);
+    std::vector<hsize_t> chunk = dims;
+    chunk[0] = chunk_rows(spec.shape, H5Tget_size(type));
+    for (hsize_t& c : chunk) c = std::max<hsize_t>(c, 1);
+    check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), action);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const Complex complex_fill(nan, nan);
+    const double real_fill = nan;
+    const std::int64_t integer_fill = -1;
+    if (spec.type != ElementType::text) {
+      const void* fill = spec.type == ElementType::complex   ? static_cast<const void*>(&complex_fill)
+                         : spec.type == ElementType::integer ? static_cast<const void*>(&integer_fill)
+                                                             : static_cast<const void*>(&real_fill);
+      check(H5Pset_fill_value(properties, type, fill), action);
+    }
+  }
+  const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose,
+                     action);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, action);
+  check(H5Pset_create_intermediate_group(links, 1), action);
+  const Handle set(
+      H5Dcreate2(implementation_->file, spec.name.c_str(), type, space, links, properties, H5P_DEFAULT),
+      H5Dclose, action);
+  for (const auto& [name, value] : spec.attributes) write_text_attribute(set, name, value);
+}
+
+void Hdf5File::extend(const std::string& dataset, unsigned dimension, std::uint64_t size) {
+  Shape dims = shape(dataset);
+  dims.at(dimension) = size;
+  const std::vector<hsize_t> extent(dims.begin(), dims.end());
+  check(H5Dset_extent(implementation_->dataset(dataset), extent.data()), "extend dataset " + dataset);
+}
+
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<double>& data) {
+  implementation_->write(dataset, first_row, ElementType::real, data.size(), data.data());
+}
+
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<Complex>& data) {
+  implementation_->write(dataset, first_row, ElementType::complex, data.size(), data.data());
+}
+
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<std::int64_t>& data) {
+  implementation_->write(dataset, first_row, ElementType::integer, data.size(), data.data());
+}
+
+void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
+                          const std::vector<std::string>& data) {
+  std::vector<const char*> texts;
+  texts.reserve(data.size());
+  for (const std::string& text : data) texts.push_back(text.c_str());
+  implementation_->write(dataset, first_row, ElementType::text, texts.size(), texts.data());
+}
+
+void Hdf5File::make_scale(const std::string& dataset, const std::string& label) {
+  const Handle set = implementation_->dataset(dataset);
+  check(H5DSset_scale(set, label.c_str()), "make " + dataset + " a dimension scale");
+}
+
+void Hdf5File::attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension) {
+  const Handle set = implementation_->dataset(dataset);
+  const Handle scale_set = implementation_->dataset(scale);
+  check(H5DSattach_scale(set, scale_set, dimension), "attach scale " + scale + " to " + dataset);
+}
+
+void Hdf5File::set_attribute(const std::string& name, const std::string& value) {
+  write_text_attribute(implementation_->file, name, value);
+}
+void Hdf5File::set_attribute(const std::string& name, double value) {
+  write_attribute(implementation_->file, name, H5T_NATIVE_DOUBLE, &value);
+}
+void Hdf5File::set_attribute(const std::string& name, std::int64_t value) {
+  write_attribute(implementation_->file, name, H5T_NATIVE_INT64, &value);
+}
+
+}  // namespace eigentrail
