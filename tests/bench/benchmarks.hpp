@@ -11,7 +11,7 @@ namespace eigentrail::test {
 
 struct BenchOptions {
   bool smoke = false;  ///< sizes that take seconds: to see that everything runs, not for figures
-  int repeats = 3;     ///< of every timed run, >= 1; medians are reported
+  int repeats = 5;     ///< of every timed run, >= 1; medians are reported
 };
 
 using Figures = std::vector<Figure>;

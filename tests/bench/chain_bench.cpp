@@ -5,6 +5,7 @@
 #include "bench/benchmarks.hpp"
 #include "bench/text.hpp"
 #include "bench/timed_trace.hpp"
+#include "bench/timing.hpp"
 #include "support/chains.hpp"
 
 namespace eigentrail::test {
@@ -31,19 +32,25 @@ std::string account(const TraceResult& result) {
 }
 
 /// Times both kinds of matrices on ten modes.
-void compare_kinds(Setting setting, const std::string& what, const BenchOptions& options, Figures& figures) {
+void compare_kinds(const Setting& setting, const std::string& what, const BenchOptions& options,
+                   Figures& figures) {
   const TraceOptions traced = ten_modes_of(setting);
-  const TimedTrace by_sparse = time_trace(setting, traced, options.repeats);
-  const std::unique_ptr<Model> model = std::move(setting.model);
-  setting.model = std::make_unique<OtherKind>(*model, OtherKind::Kind::dense);
-  const TimedTrace by_dense = time_trace(setting, traced, options.repeats);
+  Setting dense;
+  dense.model = std::make_unique<OtherKind>(*setting.model, OtherKind::Kind::dense);
+  TimedTrace by_sparse, by_dense;
+  Rounds rounds;
+  for (int i = 0; i < options.repeats; ++i) {
+    by_sparse = time_trace(setting, traced);
+    by_dense = time_trace(dense, traced);
+    rounds.add({by_dense.seconds, by_sparse.seconds});
+  }
   const RunCounts& counts = by_sparse.result.counts;
   const std::string size = ", " + what + ", 10 modes";
   figures.push_back({"dense / sparse matrices, time of a trace" + size,
-                     by_dense.seconds / by_sparse.seconds,
+                     rounds.ratio(0, 1),
                      {},
-                     time_text(by_dense.seconds) + ", " + account(by_dense.result) + " / " +
-                         time_text(by_sparse.seconds) + ", " + account(by_sparse.result)});
+                     time_text(rounds.seconds(0)) + ", " + account(by_dense.result) + " / " +
+                         time_text(rounds.seconds(1)) + ", " + account(by_sparse.result)});
   figures.push_back({"share of equilibrium and reduction" + size,
                      (counts.equilibrium_seconds + counts.reduction_seconds) / by_sparse.result.seconds,
                      at_most(0.5)});

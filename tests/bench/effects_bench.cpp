@@ -22,7 +22,7 @@ std::uint64_t evaluations(const Setting& setting, const TraceResult& result, con
 }
 
 /// Time of the series of residual and linearization at the scene's guess.
-double evaluation_seconds(const Setting& setting, int repeats) {
+double evaluation_seconds(const Setting& setting) {
   const PathProblem problem = setting.problem();
   Path path;
   path.parameters = Matrix::Zero(problem.parameters.size(), 2);
@@ -33,8 +33,8 @@ double evaluation_seconds(const Setting& setting, int repeats) {
   EvaluationCounts counts = setting.model->new_counts();
   SteadyResidual residual;
   Linearization linearization;
-  return median_seconds(5 * repeats, [&] {
-    for (int i = 0; i < 20 * repeats; ++i) {
+  return median_seconds(5, [&] {
+    for (int i = 0; i < 60; ++i) {
       setting.model->residual(path, problem.order + 1, residual, counts);
       setting.model->linearize(path, problem.order + 1, linearization, counts);
     }
@@ -45,19 +45,23 @@ double evaluation_seconds(const Setting& setting, int repeats) {
 
 Figures absent_effects(const BenchOptions& options) {
   const Setting whole = chain_without("");
-  const TimedTrace whole_trace = time_trace(whole, whole.options, options.repeats);
   std::uint64_t absent = 0, present = 0;
   double worst_evaluation = 0.0, worst_trace = 0.0;
   std::string text, trace_text;
   for (const std::string& effect : chain_effects()) {
     const Setting without = chain_without(effect);
-    const TimedTrace trace = time_trace(without, without.options, options.repeats);
+    TimedTrace trace, whole_trace;
+    Rounds evaluation, points;
+    for (int i = 0; i < options.repeats; ++i) {
+      trace = time_trace(without, without.options);
+      whole_trace = time_trace(whole, whole.options);
+      points.add({trace.seconds / trace.result.nodes, whole_trace.seconds / whole_trace.result.nodes});
+      evaluation.add({evaluation_seconds(without), evaluation_seconds(whole)});
+    }
     absent += evaluations(without, trace.result, effect);
     present += evaluations(whole, whole_trace.result, effect);
-    const double whole_seconds = evaluation_seconds(whole, options.repeats);  // beside it: machines drift
-    const double ratio = evaluation_seconds(without, options.repeats) / whole_seconds;
-    const double trace_ratio =
-        trace.seconds / trace.result.nodes * whole_trace.result.nodes / whole_trace.seconds;
+    const double ratio = evaluation.ratio(0, 1);
+    const double trace_ratio = points.ratio(0, 1);
     worst_evaluation = std::max(worst_evaluation, ratio);
     worst_trace = std::max(worst_trace, trace_ratio);
     text += (text.empty() ? "" : ", ") + effect + " " + short_text(ratio);

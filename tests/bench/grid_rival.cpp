@@ -89,7 +89,7 @@ RivalTime time_grid(const Setting& setting, const TraceOptions& range, int point
   return {seconds * points / measured, measured};
 }
 
-double saved_by_qr(const Setting& setting, double p, int repeats) {
+double saved_by_qr(const Setting& setting, double p) {
   const ReducedPencil pencil = pencil_at(setting, p);
   const Eigen::Index n = pencil.size();
   const auto size = static_cast<lapack_int>(2 * n);
@@ -100,12 +100,12 @@ double saved_by_qr(const Setting& setting, double p, int repeats) {
   A.bottomLeftCorner(n, n) = -pencil.K[0];
   A.bottomRightCorner(n, n) = -pencil.C[0];
   E.bottomRightCorner(n, n) = pencil.M[0];
-  const double qz = median_seconds(repeats, [&] {
+  const double qz = median_seconds(1, [&] {
     Matrix a = A, e = E;
     LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, e.data(), size, real.data(), imag.data(),
                   beta.data(), nullptr, 1, right.data(), size);
   });
-  const double qr = median_seconds(repeats, [&] {
+  const double qr = median_seconds(1, [&] {
     Matrix a = E.lu().solve(A);
     LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, real.data(), imag.data(), nullptr, 1,
                   right.data(), size);

@@ -6,6 +6,7 @@
 #include "bench/families.hpp"
 #include "bench/text.hpp"
 #include "bench/timed_trace.hpp"
+#include "bench/timing.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -32,6 +33,12 @@ std::vector<Named> settings(bool smoke) {
   return list;
 }
 
+double seconds_of_trace(const Setting& setting, const TraceOptions& options, int repeats) {
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) times.push_back(time_trace(setting, options).seconds);
+  return median(std::move(times));
+}
+
 /// Times of the orders from 1 to 4; infinite where a trace would have far too many points or ends early.
 std::vector<double> times_of_orders(const Setting& setting, TraceOptions options, int repeats,
                                     std::string& text) {
@@ -42,7 +49,7 @@ std::vector<double> times_of_orders(const Setting& setting, TraceOptions options
     const bool hopeless = std::pow(options.tolerance, -1.0 / (2.0 * order + 2.0)) > 150.0;
     text += order > 1 ? ", " : "";
     try {
-      times.push_back(hopeless ? INFINITY : time_trace(setting, options, repeats).seconds);
+      times.push_back(hopeless ? INFINITY : seconds_of_trace(setting, options, repeats));
     } catch (const std::runtime_error&) {
       times.push_back(INFINITY);
     }

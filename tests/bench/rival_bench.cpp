@@ -3,6 +3,8 @@
 #include "bench/families.hpp"
 #include "bench/grid_rival.hpp"
 #include "bench/text.hpp"
+#include "bench/timed_trace.hpp"
+#include "bench/timing.hpp"
 #include "hard_cases/catalogue.hpp"
 
 namespace eigentrail::test {
@@ -13,20 +15,13 @@ constexpr unsigned seed = 7;
 /// A trace and the grid that does as well.
 struct Contest {
   Recording exact;
-  TimedTrace ours;
   double error = 0.0;  ///< achieved by both
   int points = 0;      ///< of the grid
-
-  std::string our_text() const {
-    return "error " + short_text(error) + "; ours " + time_text(ours.seconds) + " on " +
-           std::to_string(ours.result.nodes) + " points";
-  }
 };
 
 Contest contest(const Setting& setting, const TraceOptions& traced, const BenchOptions& options) {
   Contest result;
   result.exact = reference_of(setting, traced);
-  result.ours = time_trace(setting, traced, options.repeats);
   const std::vector<double> tests = parameters_on(traced, options.smoke ? 101 : 2003, 0.382);
   const Recording recorded = record(setting, traced);
   result.error =
@@ -35,22 +30,43 @@ Contest contest(const Setting& setting, const TraceOptions& traced, const BenchO
   return result;
 }
 
-std::string rival_text(const RivalTime& rival, int points) {
-  std::string text = time_text(rival.seconds) + " on " + std::to_string(points) + " points";
-  if (rival.measured < points) text += " (" + std::to_string(rival.measured) + " measured)";
+std::string rival_text(double seconds, int points, int measured) {
+  std::string text = time_text(seconds) + " on " + std::to_string(points) + " points";
+  if (measured < points) text += " (" + std::to_string(measured) + " measured)";
   return text;
 }
 
 Figures against_grid(const std::string& name, const Setting& setting, const TraceOptions& traced,
                      const Contest& contest, double target, int most, const BenchOptions& options) {
-  const RivalTime grid = time_grid(setting, traced, contest.points, most);
-  const double saved = contest.points * saved_by_qr(setting, traced.from, options.repeats);
-  return {{"QZ grid, matching, spline / ours, " + name, grid.seconds / contest.ours.seconds, at_least(target),
-           contest.our_text() + "; grid " + rival_text(grid, contest.points)},
-          {"the same with QR in place of QZ",
-           (grid.seconds - saved) / contest.ours.seconds,
-           {},
-           "needs a regular mass"}};
+  enum Work : std::size_t { by_qz, by_qr, ours };
+  TimedTrace timed;
+  RivalTime grid;
+  Rounds rounds;
+  for (int i = 0; i < options.repeats; ++i) {
+    timed = time_trace(setting, traced);
+    grid = time_grid(setting, traced, contest.points, most);
+    const double saved = contest.points * saved_by_qr(setting, traced.from);
+    rounds.add({grid.seconds, grid.seconds - saved, timed.seconds});
+  }
+  return {{"QZ grid, matching, spline / ours, " + name, rounds.ratio(by_qz, ours), at_least(target),
+           "error " + short_text(contest.error) + "; ours " + time_text(rounds.seconds(ours)) + " on " +
+               std::to_string(timed.result.nodes) + " points; grid " +
+               rival_text(rounds.seconds(by_qz), contest.points, grid.measured)},
+          {"the same with QR in place of QZ", rounds.ratio(by_qr, ours), {}, "needs a regular mass"}};
+}
+
+Figure against_arnoldi(const std::string& name, const Setting& setting, const TraceOptions& traced,
+                       const Contest& contest, double target, int most, const BenchOptions& options) {
+  ArnoldiTime arnoldi;
+  Rounds rounds;
+  for (int i = 0; i < options.repeats; ++i) {
+    const double ours = time_trace(setting, traced).seconds;
+    arnoldi = time_arnoldi(setting, traced, contest.exact, 0.1 * traced.tolerance, contest.points, most);
+    rounds.add({arnoldi.seconds, ours});
+  }
+  return {"shift-invert Arnoldi grid, spline / ours, " + name, rounds.ratio(0, 1), at_least(target),
+          std::to_string(arnoldi.steps) + " solves and one LU per point, no labels; " +
+              rival_text(rounds.seconds(0), contest.points, arnoldi.measured)};
 }
 
 TraceOptions traced_at(const Setting& setting, double tolerance) {
@@ -87,12 +103,7 @@ Figures few_modes(const BenchOptions& options) {
   const Contest fought = contest(setting, traced, options);
   const std::string name = "n = " + std::to_string(n) + ", " + std::to_string(modes) + " modes";
   Figures figures = against_grid(name, setting, traced, fought, 20.0, options.smoke ? 8 : 4, options);
-  const ArnoldiTime arnoldi =
-      time_arnoldi(setting, traced, fought.exact, 0.1 * traced.tolerance, fought.points, 50);
-  figures.push_back({"shift-invert Arnoldi grid, spline / ours, " + name,
-                     arnoldi.seconds / fought.ours.seconds, at_least(20.0),
-                     std::to_string(arnoldi.steps) + " solves and one LU per point, no labels; " +
-                         rival_text(arnoldi, fought.points)});
+  figures.push_back(against_arnoldi(name, setting, traced, fought, 20.0, 50, options));
   return figures;
 }
 

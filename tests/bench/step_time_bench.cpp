@@ -28,13 +28,13 @@ double lu_seconds(int n, Factor&& factor) {
   const ComplexMatrix matrix = ComplexMatrix::Random(n, n);
   const int inner = std::max(1, 20'000'000 / (n * n * n));
   double sink = 0.0;
-  const double seconds = median_seconds(9, [&] {
+  const double seconds = median_seconds(3, [&] {
     for (int i = 0; i < inner; ++i) sink += factor(matrix);
   });
   return sink > 0.0 ? seconds / inner : 0.0;
 }
 
-/// Median time of one complex LU as the engine does it.
+/// Time of one complex LU as the engine does it.
 double own_lu_seconds(int n) {
   return lu_seconds(n, [](const ComplexMatrix& matrix) {
     const ComplexLu lu(matrix);
@@ -63,42 +63,48 @@ std::string stages(const TimedTrace& timed) {
          " of the run";
 }
 
-std::string account(const TimedTrace& timed) {
-  return time_text(timed.seconds) + " on " + std::to_string(timed.result.nodes) + " points, " +
+std::string account(const TimedTrace& timed, double seconds) {
+  return time_text(seconds) + " on " + std::to_string(timed.result.nodes) + " points, " +
          std::to_string(timed.result.rejections.total()) + " tried again; " + stages(timed);
 }
 
-/// Time of points alone: equilibrium, reduction, correction, series; with the certificate when it is on.
-double point_seconds(const TimedTrace& timed) {
+/// Time of points alone per mode and step: equilibrium, reduction, correction, series; with the certificate
+/// when it is on.
+double point_seconds_per_mode_step(const TimedTrace& timed) {
   const RunCounts& c = timed.result.counts;
   const double stages = c.equilibrium_seconds + c.reduction_seconds + c.modes_seconds +
                         c.differentiation_seconds + c.certificate_seconds;
   // The engine's own clock is the wall's: only the share counts.
-  return timed.seconds * stages / timed.result.seconds;
+  return timed.seconds * stages / timed.result.seconds / static_cast<double>(timed.result.mode_steps);
 }
 
 void add_step_figures(int n, int modes, bool certify, std::optional<Target> target,
                       const BenchOptions& options, Figures& figures) {
   const Setting setting = gyroscopic_family(n, seed, {});
-  const TimedTrace timed = time_trace(setting, few_modes_of(setting, modes, certify), options.repeats);
-  const double lu = own_lu_seconds(n);
+  TimedTrace timed;
+  Rounds rounds;
+  enum Work : std::size_t { mode_step, points, own_lu, eigen_lu };
+  for (int i = 0; i < options.repeats; ++i) {
+    timed = time_trace(setting, few_modes_of(setting, modes, certify));
+    rounds.add({timed.seconds_per_mode_step(), point_seconds_per_mode_step(timed), own_lu_seconds(n),
+                eigen_lu_seconds(n)});
+  }
   const std::string what = " per mode and step / complex LU, n = " + std::to_string(n) + ", certificate " +
                            (certify ? "on" : "off");
   const auto steps = static_cast<double>(std::max(1L, timed.result.mode_steps));
-  figures.push_back({"time" + what, timed.seconds_per_mode_step() / lu, target,
+  const auto per_step = [&](std::uint64_t count) { return short_text(static_cast<double>(count) / steps); };
+  figures.push_back({"time" + what, rounds.ratio(mode_step, own_lu), target,
                      std::to_string(timed.result.nodes - 1) + " steps of " + std::to_string(modes) +
                          " modes, " + std::to_string(timed.result.rejections.total()) + " tried again; LU " +
-                         time_text(lu) + "; " + stages(timed)});
-  const double eigen = eigen_lu_seconds(n);
-  figures.push_back({"the same in LU by Eigen", timed.seconds_per_mode_step() / eigen, target,
-                     "which takes " + time_text(eigen)});
-  figures.push_back(
-      {"of that, points" + std::string(certify ? " and certificate" : " alone"),
-       point_seconds(timed) / steps / lu, target,
-       short_text(static_cast<double>(timed.result.counts.modes.factorizations) / steps) + " LU, " +
-           short_text(static_cast<double>(timed.result.counts.modes.solves) / steps) + " solves, " +
-           short_text(static_cast<double>(timed.result.counts.certificate_factorizations) / steps) +
-           " LU of the certificate"});
+                         time_text(rounds.seconds(own_lu)) + "; " + stages(timed)});
+  figures.push_back({"the same in LU by Eigen", rounds.ratio(mode_step, eigen_lu), target,
+                     "which takes " + time_text(rounds.seconds(eigen_lu))});
+  const RunCounts& counts = timed.result.counts;
+  figures.push_back({"of that, points" + std::string(certify ? " and certificate" : " alone"),
+                     rounds.ratio(points, own_lu), target,
+                     per_step(counts.modes.factorizations) + " LU, " + per_step(counts.modes.solves) +
+                         " solves, " + per_step(counts.certificate_factorizations) +
+                         " LU of the certificate"});
 }
 
 /// Least-squares slope of log y over log x.
@@ -117,11 +123,16 @@ struct Growth {
   std::vector<double> x, whole, per_mode_step;
   std::string text;
 
-  void add(double at, const TimedTrace& timed) {
+  void measure(double at, const Setting& setting, const TraceOptions& traced, int repeats) {
+    Rounds rounds;
+    for (int i = 0; i < repeats; ++i) {
+      const TimedTrace timed = time_trace(setting, traced);
+      rounds.add({timed.seconds, timed.seconds_per_mode_step()});
+    }
     x.push_back(at);
-    whole.push_back(timed.seconds);
-    per_mode_step.push_back(timed.seconds_per_mode_step());
-    text += (text.empty() ? "" : ", ") + short_text(at) + ": " + time_text(timed.seconds);
+    whole.push_back(rounds.seconds(0));
+    per_mode_step.push_back(rounds.seconds(1));
+    text += (text.empty() ? "" : ", ") + short_text(at) + ": " + time_text(whole.back());
   }
 };
 
@@ -144,12 +155,12 @@ Figures growth(const BenchOptions& options) {
   Growth with_size, with_modes;
   for (const int n : options.smoke ? std::vector<int>{8, 16} : std::vector<int>{25, 50, 100, 200}) {
     const Setting setting = gyroscopic_family(n, seed, {});
-    with_size.add(n, time_trace(setting, few_modes_of(setting, 6, true), options.repeats));
+    with_size.measure(n, setting, few_modes_of(setting, 6, true), options.repeats);
   }
   const int n_fixed = options.smoke ? 8 : 50;
   const Setting setting = gyroscopic_family(n_fixed, seed, {});
   for (const int modes : options.smoke ? std::vector<int>{2, 4} : std::vector<int>{3, 6, 12, 25, 50})
-    with_modes.add(modes, time_trace(setting, few_modes_of(setting, modes, true), options.repeats));
+    with_modes.measure(modes, setting, few_modes_of(setting, modes, true), options.repeats);
   return {
       {"exponent of whole time in n, 6 modes", exponent(with_size.x, with_size.whole), {}, with_size.text},
       {"exponent of time per mode and step in n", exponent(with_size.x, with_size.per_mode_step), {}},
@@ -169,19 +180,33 @@ Figures symmetric(const BenchOptions& options) {
       TraceOptions all = setting.options;
       all.tolerance = 1e-6;
       all.certify = certify;
-      return time_trace(setting, all, options.repeats);
+      return time_trace(setting, all);
     };
-    const TimedTrace symmetric = time(undamped);
-    const TimedTrace damped = time(general);
+    enum Work : std::size_t {
+      damped_step,
+      undamped_step,
+      damped_points,
+      undamped_points,
+      damped_run,
+      undamped_run
+    };
+    TimedTrace symmetric, damped;
+    Rounds rounds;
+    for (int i = 0; i < options.repeats; ++i) {
+      symmetric = time(undamped);
+      damped = time(general);
+      rounds.add({damped.seconds_per_mode_step(), symmetric.seconds_per_mode_step(),
+                  point_seconds_per_mode_step(damped), point_seconds_per_mode_step(symmetric), damped.seconds,
+                  symmetric.seconds});
+    }
     const std::string what = std::string("time per mode and step, certificate ") + (certify ? "on" : "off");
     figures.push_back(
         {"damped gyroscopic / undamped symmetric, all modes, n = " + std::to_string(n) + ", " + what,
-         damped.seconds_per_mode_step() / symmetric.seconds_per_mode_step(),
-         certify ? std::nullopt : std::optional(at_least(4.0)),
-         "undamped " + account(symmetric) + "; general " + account(damped)});
+         rounds.ratio(damped_step, undamped_step), certify ? std::nullopt : std::optional(at_least(4.0)),
+         "undamped " + account(symmetric, rounds.seconds(undamped_run)) + "; general " +
+             account(damped, rounds.seconds(damped_run))});
     figures.push_back({"of that, points" + std::string(certify ? " and certificate" : " alone"),
-                       point_seconds(damped) / static_cast<double>(damped.result.mode_steps) /
-                           (point_seconds(symmetric) / static_cast<double>(symmetric.result.mode_steps))});
+                       rounds.ratio(damped_points, undamped_points)});
   }
   return figures;
 }
@@ -190,23 +215,22 @@ Figures threads(const BenchOptions& options) {
   const int n = options.smoke ? 40 : 100;
   const int modes = options.smoke ? 16 : 40;
   const Setting setting = gyroscopic_family(n, seed, {});
-  // On the wall, one after the other: what else the machine does meets both.
-  std::vector<double> one, two;
   TraceOptions with = few_modes_of(setting, modes, true);
-  std::string account;
+  TimedTrace timed;
+  Rounds rounds;  // on the wall
   for (int i = 0; i < options.repeats; ++i) {
+    std::vector<double> seconds;
     for (const int count : {1, 2}) {
       with.threads = count;
-      const TimedTrace timed = time_trace(setting, with, 1);
-      (count == 1 ? one : two).push_back(timed.result.seconds);
-      account = std::to_string(timed.result.nodes) + " points";
+      timed = time_trace(setting, with);
+      seconds.push_back(timed.result.seconds);
     }
+    rounds.add(seconds);
   }
-  const double alone = median(one);
-  const double together = median(two);
   return {{"speed-up by a second thread, " + std::to_string(modes) + " modes of n = " + std::to_string(n),
-           alone / together, at_least(1.6),
-           time_text(alone) + " / " + time_text(together) + " on the wall, " + account}};
+           rounds.ratio(0, 1), at_least(1.6),
+           time_text(rounds.seconds(0)) + " / " + time_text(rounds.seconds(1)) + " on the wall, " +
+               std::to_string(timed.result.nodes) + " points"}};
 }
 
 }  // namespace eigentrail::test

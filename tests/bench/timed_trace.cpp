@@ -20,21 +20,16 @@ double TimedTrace::seconds_per_mode_step() const {
   return follow_seconds / static_cast<double>(std::max(1L, result.mode_steps));
 }
 
-TimedTrace time_trace(const Setting& setting, const TraceOptions& options, int repeats) {
+TimedTrace time_trace(const Setting& setting, const TraceOptions& options) {
+  const double begin = cpu_seconds();
+  double first_point = begin;
+  TraceObserver observer;
+  observer.started = [&](const TraceStart&) { first_point = cpu_seconds(); };
   TimedTrace timed;
-  std::vector<double> whole, following;
-  for (int i = 0; i < repeats; ++i) {
-    const double begin = cpu_seconds();
-    double first_point = begin;
-    TraceObserver observer;
-    observer.started = [&](const TraceStart&) { first_point = cpu_seconds(); };
-    timed.result = completed(trace(*setting.model, options, observer));
-    const double end = cpu_seconds();
-    whole.push_back(end - begin);
-    following.push_back(end - first_point);
-  }
-  timed.seconds = median(std::move(whole));
-  timed.follow_seconds = median(std::move(following));
+  timed.result = completed(trace(*setting.model, options, observer));
+  const double end = cpu_seconds();
+  timed.seconds = end - begin;
+  timed.follow_seconds = end - first_point;
   return timed;
 }
 

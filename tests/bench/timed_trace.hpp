@@ -9,15 +9,15 @@
 namespace eigentrail::test {
 
 struct TimedTrace {
-  TraceResult result;           ///< of the last repetition
-  double seconds = 0.0;         ///< CPU time, median, the first spectrum included
-  double follow_seconds = 0.0;  ///< median, from the first point on
+  TraceResult result;
+  double seconds = 0.0;         ///< CPU time, the first spectrum included
+  double follow_seconds = 0.0;  ///< the same from the first point on
 
   double seconds_per_mode_step() const;
 };
 
 /// Throws std::runtime_error unless the trace is completed.
-TimedTrace time_trace(const Setting& setting, const TraceOptions& options, int repeats);
+TimedTrace time_trace(const Setting& setting, const TraceOptions& options);
 
 /// The dense output, with the trace's magnitude below which an eigenvalue counts as zero.
 struct Recording {

@@ -38,4 +38,30 @@ double median_seconds(int repeats, Work&& work) {
   return median(std::move(times));
 }
 
+/// Times of several works, taken in rounds of all of them: on a machine whose speed changes a ratio within a
+/// round says more than one of medians.
+class Rounds {
+ public:
+  /// The works' times in one round, in the same order every time.
+  void add(const std::vector<double>& seconds) { rounds_.push_back(seconds); }
+
+  double seconds(std::size_t work) const {
+    return median_of([work](const std::vector<double>& round) { return round[work]; });
+  }
+  /// Time of one work / that of another.
+  double ratio(std::size_t work, std::size_t other) const {
+    return median_of([=](const std::vector<double>& round) { return round[work] / round[other]; });
+  }
+
+ private:
+  template <class Value>
+  double median_of(Value&& value) const {
+    std::vector<double> values;
+    for (const std::vector<double>& round : rounds_) values.push_back(value(round));
+    return median(std::move(values));
+  }
+
+  std::vector<std::vector<double>> rounds_;
+};
+
 }  // namespace eigentrail::test

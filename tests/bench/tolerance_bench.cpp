@@ -3,6 +3,7 @@
 #include "bench/families.hpp"
 #include "bench/text.hpp"
 #include "bench/timed_trace.hpp"
+#include "bench/timing.hpp"
 #include "hard_cases/catalogue.hpp"
 
 namespace eigentrail::test {
@@ -21,15 +22,33 @@ std::vector<Named> settings(const BenchOptions& options) {
   return list;
 }
 
-TimedTrace timed(const Setting& setting, double tolerance, int order, const BenchOptions& options) {
-  TraceOptions trace_options = setting.options;
-  trace_options.tolerance = tolerance;
-  trace_options.order = order;
-  return time_trace(setting, trace_options, options.repeats);
-}
+/// One way to trace a scene.
+struct Way {
+  double tolerance = 0.0;
+  int order = 3;
+};
 
-std::string text_of(const TimedTrace& trace) {
-  return time_text(trace.seconds) + " on " + std::to_string(trace.result.nodes) + " points";
+/// The time of one way / that of another.
+Figure compare(const std::string& quantity, const Setting& setting, const std::vector<Way>& ways,
+               Target target, const BenchOptions& options) {
+  Rounds rounds;
+  std::vector<int> points(ways.size());
+  for (int i = 0; i < options.repeats; ++i) {
+    std::vector<double> seconds;
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      TraceOptions trace_options = setting.options;
+      trace_options.tolerance = ways[w].tolerance;
+      trace_options.order = ways[w].order;
+      const TimedTrace timed = time_trace(setting, trace_options);
+      seconds.push_back(timed.seconds);
+      points[w] = timed.result.nodes;
+    }
+    rounds.add(seconds);
+  }
+  const auto text = [&](std::size_t w) {
+    return time_text(rounds.seconds(w)) + " on " + std::to_string(points[w]) + " points";
+  };
+  return {quantity, rounds.ratio(0, 1), target, text(0) + " / " + text(1)};
 }
 
 }  // namespace
@@ -37,10 +56,8 @@ std::string text_of(const TimedTrace& trace) {
 Figures tolerance(const BenchOptions& options) {
   Figures figures;
   for (const auto& [name, setting] : settings(options)) {
-    const TimedTrace tight = timed(setting, 1e-10, 3, options);
-    const TimedTrace loose = timed(setting, 1e-6, 3, options);
-    figures.push_back({"time at tolerance 1e-10 / 1e-6, " + name, tight.seconds / loose.seconds, at_most(4.0),
-                       text_of(tight) + " / " + text_of(loose)});
+    figures.push_back(compare("time at tolerance 1e-10 / 1e-6, " + name, setting, {{1e-10}, {1e-6}},
+                              at_most(4.0), options));
   }
   return figures;
 }
@@ -49,13 +66,8 @@ Figures order(const BenchOptions& options) {
   Figures figures;
   const double tolerance = options.smoke ? 1e-6 : 1e-10;
   for (const auto& [name, setting] : settings(options)) {
-    const TimedTrace third = timed(setting, tolerance, 3, options);
-    BenchOptions once = options;
-    once.repeats = 1;  // long
-    const TimedTrace first = timed(setting, tolerance, 1, once);
-    figures.push_back({"time of order 1 / order 3 at tolerance " + short_text(tolerance) + ", " + name,
-                       first.seconds / third.seconds, at_least(2.5),
-                       text_of(first) + " / " + text_of(third)});
+    figures.push_back(compare("time of order 1 / order 3 at tolerance " + short_text(tolerance) + ", " + name,
+                              setting, {{tolerance, 1}, {tolerance, 3}}, at_least(2.5), options));
   }
   return figures;
 }
