@@ -50,13 +50,14 @@ Figures absent_effects(const BenchOptions& options) {
   std::string text, trace_text;
   for (const std::string& effect : chain_effects()) {
     const Setting without = chain_without(effect);
-    TimedTrace trace, whole_trace;
     Rounds evaluation, points;
-    for (int i = 0; i < options.repeats; ++i) {
+    for (int i = 0; i < options.repeats; ++i)
+      evaluation.add({evaluation_seconds(without), evaluation_seconds(whole)});
+    TimedTrace trace, whole_trace;
+    for (int i = 0; i < 5 * options.repeats; ++i) {
       trace = time_trace(without, without.options);
       whole_trace = time_trace(whole, whole.options);
       points.add({trace.seconds / trace.result.nodes, whole_trace.seconds / whole_trace.result.nodes});
-      evaluation.add({evaluation_seconds(without), evaluation_seconds(whole)});
     }
     absent += evaluations(without, trace.result, effect);
     present += evaluations(whole, whole_trace.result, effect);

@@ -9,7 +9,7 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double lowest_frequency = 3.0, spacing = 0.1;  ///< rad/s
+constexpr double lowest_frequency = 3.0;  ///< rad/s
 constexpr double movement = 1.5;   ///< standard deviation of the stiffness that moves single modes, 1/s^2
 constexpr double coupling = 0.06;  ///< of the stiffness that couples two modes, 1/s^2
 constexpr double whirl = 0.02;     ///< of the gyroscopic coupling, 1/s
@@ -40,7 +40,7 @@ Matrix skew_symmetric(int n, std::mt19937_64& engine) {
   return G;
 }
 
-Family undamped(int n, std::mt19937_64& engine) {
+Family undamped(int n, double spacing, std::mt19937_64& engine) {
   const Vector frequencies =
       Vector::LinSpaced(n, lowest_frequency, lowest_frequency + spacing * (n - 1)).cwiseAbs2();
   return {{Matrix::Identity(n, n)}, {}, {Matrix(frequencies.asDiagonal()), symmetric_change(n, engine)}};
@@ -82,16 +82,16 @@ std::string chain(int points) {
 
 }  // namespace
 
-Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides) {
+Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides, double spacing) {
   std::mt19937_64 engine(seed);
-  Family family = undamped(n, engine);
+  Family family = undamped(n, spacing, engine);
   family.C = {damping * Matrix::Identity(n, n), skew_symmetric(n, engine)};
   return setting_of(family, overrides);
 }
 
 Setting undamped_family(int n, unsigned seed, const OptionTexts& overrides) {
   std::mt19937_64 engine(seed);
-  return setting_of(undamped(n, engine), overrides);
+  return setting_of(undamped(n, close, engine), overrides);
 }
 
 Setting chain_without(const std::string& effect) {

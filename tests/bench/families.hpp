@@ -7,12 +7,14 @@
 
 namespace eigentrail::test {
 
-/// Undamped frequencies 3, 3.1, 3.2, ... rad/s that a random symmetric stiffness moves across each other for
-/// p from 0 to 1, with skew-symmetric C growing like p and light damping: neighbours veer, at half-widths of
-/// some percent of the range. Local statistics do not depend on n.
-Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides);
+constexpr double close = 0.1, apart = 1.0;  ///< distances of frequencies, rad/s
 
-/// The same without C.
+/// Undamped frequencies from 3 rad/s on, equally spaced, that a random symmetric stiffness moves for p from 0
+/// to 1, with skew-symmetric C growing like p and light damping. Close neighbours veer, at half-widths of
+/// some percent of the range; those that are apart do not meet. Local statistics do not depend on n.
+Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides, double spacing = close);
+
+/// The same without C, neighbours close.
 Setting undamped_family(int n, unsigned seed, const OptionTexts& overrides);
 
 /// A planar chain of rods and points that hangs in gravity while its upper rod grows from 1 to 1.5 m, without

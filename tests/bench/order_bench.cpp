@@ -33,27 +33,31 @@ std::vector<Named> settings(bool smoke) {
   return list;
 }
 
-double seconds_of_trace(const Setting& setting, const TraceOptions& options, int repeats) {
-  std::vector<double> times;
-  for (int i = 0; i < repeats; ++i) times.push_back(time_trace(setting, options).seconds);
-  return median(std::move(times));
+/// Time of a trace; infinite where it would have far too many points or ends early.
+double seconds_of_order(const Setting& setting, TraceOptions options, int order) {
+  // Never the fastest there, and thousands of points.
+  if (std::pow(options.tolerance, -1.0 / (2.0 * order + 2.0)) > 150.0) return INFINITY;
+  options.order = order;
+  try {
+    return time_trace(setting, options).seconds;
+  } catch (const std::runtime_error&) {
+    return INFINITY;
+  }
 }
 
-/// Times of the orders from 1 to 4; infinite where a trace would have far too many points or ends early.
-std::vector<double> times_of_orders(const Setting& setting, TraceOptions options, int repeats,
+/// Times of the orders from 1 to 4.
+std::vector<double> times_of_orders(const Setting& setting, const TraceOptions& options, int repeats,
                                     std::string& text) {
+  Rounds rounds;
+  for (int i = 0; i < repeats; ++i) {
+    std::vector<double> round;
+    for (int order = 1; order <= 4; ++order) round.push_back(seconds_of_order(setting, options, order));
+    rounds.add(round);
+  }
   std::vector<double> times;
-  for (int order = 1; order <= 4; ++order) {
-    options.order = order;
-    // Never the fastest there, and thousands of points.
-    const bool hopeless = std::pow(options.tolerance, -1.0 / (2.0 * order + 2.0)) > 150.0;
-    text += order > 1 ? ", " : "";
-    try {
-      times.push_back(hopeless ? INFINITY : seconds_of_trace(setting, options, repeats));
-    } catch (const std::runtime_error&) {
-      times.push_back(INFINITY);
-    }
-    text += std::isfinite(times.back()) ? time_text(times.back()) : "–";
+  for (std::size_t i = 0; i < 4; ++i) {
+    times.push_back(rounds.seconds(i));
+    text += (i > 0 ? ", " : "") + (std::isfinite(times[i]) ? time_text(times[i]) : "–");
   }
   return times;
 }

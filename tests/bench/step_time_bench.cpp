@@ -53,7 +53,7 @@ std::string percent(double part, double whole) {
   return short_text(std::round(100.0 * part / whole)) + " %";
 }
 
-/// Where the time after the first point went.
+/// Where the time of a run went.
 std::string stages(const TimedTrace& timed) {
   const RunCounts& c = timed.result.counts;
   const double all = timed.result.seconds;
@@ -68,43 +68,32 @@ std::string account(const TimedTrace& timed, double seconds) {
          std::to_string(timed.result.rejections.total()) + " tried again; " + stages(timed);
 }
 
-/// Time of points alone per mode and step: equilibrium, reduction, correction, series; with the certificate
-/// when it is on.
-double point_seconds_per_mode_step(const TimedTrace& timed) {
-  const RunCounts& c = timed.result.counts;
-  const double stages = c.equilibrium_seconds + c.reduction_seconds + c.modes_seconds +
-                        c.differentiation_seconds + c.certificate_seconds;
-  // The engine's own clock is the wall's: only the share counts.
-  return timed.seconds * stages / timed.result.seconds / static_cast<double>(timed.result.mode_steps);
-}
-
-void add_step_figures(int n, int modes, bool certify, std::optional<Target> target,
+/// `spacing` as in families.hpp.
+void add_step_figures(int n, double spacing, bool certify, std::optional<Target> target,
                       const BenchOptions& options, Figures& figures) {
-  const Setting setting = gyroscopic_family(n, seed, {});
+  constexpr int modes = 6;
+  const Setting setting = gyroscopic_family(n, seed, {}, spacing);
   TimedTrace timed;
   Rounds rounds;
-  enum Work : std::size_t { mode_step, points, own_lu, eigen_lu };
+  enum Work : std::size_t { mode_step, own_lu, eigen_lu };
   for (int i = 0; i < options.repeats; ++i) {
     timed = time_trace(setting, few_modes_of(setting, modes, certify));
-    rounds.add({timed.seconds_per_mode_step(), point_seconds_per_mode_step(timed), own_lu_seconds(n),
-                eigen_lu_seconds(n)});
+    rounds.add({timed.seconds_per_mode_step(), own_lu_seconds(n), eigen_lu_seconds(n)});
   }
   const std::string what = " per mode and step / complex LU, n = " + std::to_string(n) + ", certificate " +
-                           (certify ? "on" : "off");
+                           (certify ? "on" : "off") + (spacing == apart ? ", modes apart" : "");
   const auto steps = static_cast<double>(std::max(1L, timed.result.mode_steps));
   const auto per_step = [&](std::uint64_t count) { return short_text(static_cast<double>(count) / steps); };
+  const RunCounts& counts = timed.result.counts;
   figures.push_back({"time" + what, rounds.ratio(mode_step, own_lu), target,
                      std::to_string(timed.result.nodes - 1) + " steps of " + std::to_string(modes) +
-                         " modes, " + std::to_string(timed.result.rejections.total()) + " tried again; LU " +
-                         time_text(rounds.seconds(own_lu)) + "; " + stages(timed)});
+                         " modes, " + std::to_string(timed.result.rejections.total()) + " tried again; " +
+                         per_step(counts.modes.factorizations) + " LU, " + per_step(counts.modes.solves) +
+                         " solves, " + per_step(counts.certificate_factorizations) +
+                         " LU of the certificate; LU " + time_text(rounds.seconds(own_lu)) + "; " +
+                         stages(timed)});
   figures.push_back({"the same in LU by Eigen", rounds.ratio(mode_step, eigen_lu), target,
                      "which takes " + time_text(rounds.seconds(eigen_lu))});
-  const RunCounts& counts = timed.result.counts;
-  figures.push_back({"of that, points" + std::string(certify ? " and certificate" : " alone"),
-                     rounds.ratio(points, own_lu), target,
-                     per_step(counts.modes.factorizations) + " LU, " + per_step(counts.modes.solves) +
-                         " solves, " + per_step(counts.certificate_factorizations) +
-                         " LU of the certificate"});
 }
 
 /// Least-squares slope of log y over log x.
@@ -140,14 +129,11 @@ struct Growth {
 
 Figures step_time(const BenchOptions& options) {
   Figures figures;
-  const int modes = 6;
-  for (const bool certify : {false, true}) {
-    for (const int n : options.smoke ? std::vector<int>{10, 20} : std::vector<int>{50, 200}) {
-      std::optional<Target> target;
-      if (!certify) target = at_most(n <= 50 ? 2.5 : 1.6);
-      add_step_figures(n, modes, certify, target, options, figures);
-    }
-  }
+  const std::vector<int> sizes = options.smoke ? std::vector<int>{10, 20} : std::vector<int>{50, 200};
+  const auto target_of = [](int n) { return at_most(n <= 50 ? 2.5 : 1.6); };
+  for (const int n : sizes) add_step_figures(n, close, false, target_of(n), options, figures);
+  for (const int n : sizes) add_step_figures(n, close, true, {}, options, figures);
+  for (const int n : sizes) add_step_figures(n, apart, false, {}, options, figures);
   return figures;
 }
 
@@ -182,21 +168,13 @@ Figures symmetric(const BenchOptions& options) {
       all.certify = certify;
       return time_trace(setting, all);
     };
-    enum Work : std::size_t {
-      damped_step,
-      undamped_step,
-      damped_points,
-      undamped_points,
-      damped_run,
-      undamped_run
-    };
+    enum Work : std::size_t { damped_step, undamped_step, damped_run, undamped_run };
     TimedTrace symmetric, damped;
     Rounds rounds;
     for (int i = 0; i < options.repeats; ++i) {
       symmetric = time(undamped);
       damped = time(general);
-      rounds.add({damped.seconds_per_mode_step(), symmetric.seconds_per_mode_step(),
-                  point_seconds_per_mode_step(damped), point_seconds_per_mode_step(symmetric), damped.seconds,
+      rounds.add({damped.seconds_per_mode_step(), symmetric.seconds_per_mode_step(), damped.seconds,
                   symmetric.seconds});
     }
     const std::string what = std::string("time per mode and step, certificate ") + (certify ? "on" : "off");
@@ -205,8 +183,6 @@ Figures symmetric(const BenchOptions& options) {
          rounds.ratio(damped_step, undamped_step), certify ? std::nullopt : std::optional(at_least(4.0)),
          "undamped " + account(symmetric, rounds.seconds(undamped_run)) + "; general " +
              account(damped, rounds.seconds(damped_run))});
-    figures.push_back({"of that, points" + std::string(certify ? " and certificate" : " alone"),
-                       rounds.ratio(damped_points, undamped_points)});
   }
   return figures;
 }
