@@ -1,5 +1,4 @@
 // Multibody models with many coordinates and few freedoms: by sparse matrices, and by dense ones.
-#include <cmath>
 #include <memory>
 
 #include "bench/benchmarks.hpp"
@@ -16,10 +15,6 @@ TraceOptions ten_modes_of(const Setting& setting) {
   options.tolerance = 1e-6;
   options.modes = 10;
   return options;
-}
-
-std::string percent(double part, double whole) {
-  return short_text(std::round(100.0 * part / whole)) + " %";
 }
 
 std::string account(const TraceResult& result) {

@@ -49,10 +49,6 @@ double eigen_lu_seconds(int n) {
   });
 }
 
-std::string percent(double part, double whole) {
-  return short_text(std::round(100.0 * part / whole)) + " %";
-}
-
 /// Where the time of a run went.
 std::string stages(const TimedTrace& timed) {
   const RunCounts& c = timed.result.counts;

@@ -1,6 +1,7 @@
 // Numbers for people.
 #pragma once
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -12,6 +13,11 @@ inline std::string short_text(double value) {
   text.precision(3);
   text << value;
   return text.str();
+}
+
+/// "17 %".
+inline std::string percent(double part, double whole) {
+  return short_text(std::round(100.0 * part / whole)) + " %";
 }
 
 /// "0.31 s", "4.2 ms", "17 us".

@@ -1,4 +1,6 @@
 // What a tighter tolerance costs, and what the order of the series saves.
+#include <array>
+
 #include "bench/benchmarks.hpp"
 #include "bench/families.hpp"
 #include "bench/text.hpp"
@@ -29,10 +31,10 @@ struct Way {
 };
 
 /// The time of one way / that of another.
-Figure compare(const std::string& quantity, const Setting& setting, const std::vector<Way>& ways,
+Figure compare(const std::string& quantity, const Setting& setting, const std::array<Way, 2>& ways,
                Target target, const BenchOptions& options) {
   Rounds rounds;
-  std::vector<int> points(ways.size());
+  std::array<int, 2> points{};
   for (int i = 0; i < options.repeats; ++i) {
     std::vector<double> seconds;
     for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -56,7 +58,7 @@ Figure compare(const std::string& quantity, const Setting& setting, const std::v
 Figures tolerance(const BenchOptions& options) {
   Figures figures;
   for (const auto& [name, setting] : settings(options)) {
-    figures.push_back(compare("time at tolerance 1e-10 / 1e-6, " + name, setting, {{1e-10}, {1e-6}},
+    figures.push_back(compare("time at tolerance 1e-10 / 1e-6, " + name, setting, {{{1e-10}, {1e-6}}},
                               at_most(4.0), options));
   }
   return figures;
@@ -67,7 +69,7 @@ Figures order(const BenchOptions& options) {
   const double tolerance = options.smoke ? 1e-6 : 1e-10;
   for (const auto& [name, setting] : settings(options)) {
     figures.push_back(compare("time of order 1 / order 3 at tolerance " + short_text(tolerance) + ", " + name,
-                              setting, {{tolerance, 1}, {tolerance, 3}}, at_least(2.5), options));
+                              setting, {{{tolerance, 1}, {tolerance, 3}}}, at_least(2.5), options));
   }
   return figures;
 }

@@ -9,16 +9,11 @@
 
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
-#include "eigentrail/modes/spectrum.hpp"
-#include "modes/single_modes.hpp"
+#include "modes/pairs_together.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test {
 namespace {
-
-constexpr int order = 5;
-/// Of coefficients of order 5: they sum products of up to five ratios of matrices to gaps.
-constexpr double series_rounding = 1e-10;
 
 /// Undamped with symmetric M > 0 and K, frequencies about 1, 1.7, 2.2 ...
 ReducedPencil symmetric_family(Eigen::Index n, unsigned seed) {
@@ -28,16 +23,6 @@ ReducedPencil symmetric_family(Eigen::Index n, unsigned seed) {
     family.C[k].setZero();
   }
   return family;
-}
-
-/// All modes at the start by LAPACK, each in a track of its own, with vectors and values off by `error`.
-std::vector<InvariantPair> starts_of(const ReducedPencil& family, double error) {
-  std::vector<InvariantPair> starts;
-  for (const StartingMode& mode : compute_spectrum(family.M[0], family.C[0], family.K[0]).modes) {
-    const ComplexVector off = error * ComplexVector::Ones(mode.z.size());
-    starts.push_back(start_at(mode.s * (1.0 + error), mode.z / mode.z.norm() + off));
-  }
-  return starts;
 }
 
 std::shared_ptr<const SymmetricPairs> correct(const ReducedPencil& family,
@@ -102,13 +87,7 @@ class SymmetricFamily : public testing::TestWithParam<unsigned> {
       EXPECT_LT((pairs[i].W - alone.W).norm(), rounding);
       EXPECT_LT(pairs[i].backward_error, rounding);
       EXPECT_NEAR(pairs[i].condition / alone.condition, 1.0, alone.size() == 1 ? 1e-3 : 1.0);
-      const PairSeries expected = differentiate_pair(family, alone, order, counts);
-      for (std::size_t j = 0; j <= order; ++j) {
-        const double of_Z = expected.Z[j].norm(), of_Lambda = expected.Lambda[j].norm();
-        EXPECT_LT((series[i].Z[j] - expected.Z[j]).norm(), series_rounding * (1.0 + of_Z)) << i << " " << j;
-        EXPECT_LT((series[i].Lambda[j] - expected.Lambda[j]).norm(), series_rounding * (1.0 + of_Lambda))
-            << i << " " << j;
-      }
+      expect_same_series(series[i], differentiate_pair(family, alone, order, counts), i);
     }
   }
 
