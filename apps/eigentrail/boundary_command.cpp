@@ -6,7 +6,7 @@
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/events/boundary.hpp"
+#include "eigentrail/stability/boundary.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "output.hpp"

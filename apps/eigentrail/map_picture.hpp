@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/events/stability_map.hpp"
+#include "eigentrail/stability/stability_map.hpp"
 
 namespace eigentrail::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/events/stable_ranges.hpp"
+#include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail::app {
 

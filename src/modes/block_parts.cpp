@@ -70,7 +70,7 @@ ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda) {
   return mean;
 }
 
-ComplexVector gap_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count) {
+ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count) {
   const auto size = static_cast<double>(Lambda[0].rows());
   const auto a = static_cast<double>(count);
   const double weight = size / (4.0 * a * (size - a));
@@ -84,7 +84,7 @@ ComplexVector gap_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index 
   return gap;
 }
 
-ComplexVector gap_series(const ComplexVector& a, const ComplexVector& b) {
+ComplexVector discriminant_series(const ComplexVector& a, const ComplexVector& b) {
   const ComplexVector half = 0.5 * (a - b);
   return multiply_series(half, half);
 }

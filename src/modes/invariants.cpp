@@ -26,7 +26,7 @@ ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda) {
   }
   // delta from Lambda - tau, not from tau^2 - det: the digits that are left where the eigenvalues meet.
   functions.row(0) = mean_series(Lambda).transpose();
-  functions.row(1) = gap_series(Lambda, 1).transpose();
+  functions.row(1) = discriminant_series(Lambda, 1).transpose();
   return functions;
 }
 

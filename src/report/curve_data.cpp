@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "continuation/counted_roots.hpp"
+#include "continuation/step/counted_roots.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "report/file_data.hpp"

@@ -116,7 +116,7 @@ Json excitation_data(const LociFile& loci) {
                                                     values.data(), static_cast<std::size_t>(values.size())))
                                               : (turns ? 2.0 * std::numbers::pi : 1.0) * values[*index]);
     }
-    return {{"parameter", parameters}, {"frequency", frequencies}, {"harmonics", events.harmonics}};
+    return {{"parameter", parameters}, {"frequency", frequencies}, {"harmonics", events.values(EventKind::resonance)}};
   } catch (const InputError&) {
     return nullptr;  // a scene of a program with other rules; the page goes without rays
   }

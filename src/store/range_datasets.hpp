@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/events/stable_ranges.hpp"
+#include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail {
 

@@ -186,7 +186,7 @@ class TraceThatEndsEarly(CommandTest):
         """The spring pendulum's branch reaches its pitchfork at k = mass g / length = 13.08 N/m and runs back."""
         self.run_well("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10", "--quiet")
         events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
-        self.assertIn("pitchfork", [event["kind"] for event in events])
+        self.assertIn("branch_point", [event["kind"] for event in events])
         for event in events:
             self.assertAlmostEqual(float(event["parameter"]), 13.08, places=6)
         k = 20.0
@@ -203,7 +203,7 @@ class TraceThatEndsEarly(CommandTest):
         for text in ("branch 1 is straight on", "branch 2 leaves it (k falls)", "branch 3", "the trace took 2"):
             self.assertIn(text, run.stdout)
         events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
-        self.assertEqual([event["kind"] for event in events], ["pitchfork"])
+        self.assertEqual([event["kind"] for event in events], ["branch_point"])
         self.assertAlmostEqual(float(events[0]["parameter"]), 13.08, places=11)
         stiffness = {20.0: (20.0 - 13.08) * (20.0 + 13.08) / 40.0, 13.09: 0.01 * 26.17 / 26.18,
                      13.07: 0.005, 11.0: 1.04}

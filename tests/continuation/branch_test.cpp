@@ -83,7 +83,7 @@ void expect_squares(const RecordedTrace& trace, double p, const std::vector<doub
 void expect_pitchfork(const RecordedTrace& trace, double p) {
   ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   ASSERT_EQ(trace.result.events.size(), 1U);
-  EXPECT_EQ(trace.result.events[0].kind, EventKind::pitchfork);
+  EXPECT_EQ(trace.result.events[0].kind, EventKind::branch_point);
   EXPECT_NEAR(trace.result.events[0].p, p, 1e-11);
   double nearest = INFINITY;
   for (const PathNode& node : trace.nodes) nearest = std::min(nearest, std::abs(node.p - p));
@@ -271,7 +271,7 @@ TEST(BranchPoint, OfATrussThatGivesWaySideways) {
     ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
     std::vector<double> found;
     for (const Event& event : trace.result.events) {
-      if (event.kind == EventKind::pitchfork) found.push_back(event.p);
+      if (event.kind == EventKind::branch_point) found.push_back(event.p);
     }
     ASSERT_EQ(found.size(), branch == "1" ? 2U : 1U);
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], loads[i], 1e-11);

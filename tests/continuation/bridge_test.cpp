@@ -1,5 +1,5 @@
 // The path between two points from their series, against a path in closed form.
-#include "continuation/bridge.hpp"
+#include "continuation/path/bridge.hpp"
 
 #include <gtest/gtest.h>
 

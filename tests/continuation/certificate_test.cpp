@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "continuation/continued_mode.hpp"
-#include "continuation/modal_certificate.hpp"
+#include "continuation/point/continued_mode.hpp"
+#include "continuation/step/modal_certificate.hpp"
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "support/families.hpp"
@@ -278,7 +278,7 @@ TEST(ModalCertificate, LeavesBlocksAndIncompleteSetsToTheirTubes) {
 
 TEST(ContinuedMode, IsFarMoreAccurateThanTheSeriesOfOnePoint) {
   Step first(smooth_family(), 0.2, 0.3);
-  for (std::size_t i = 0; i < 3; ++i) first.left.tracks[i].strand = first.right.tracks[i].strand = i + 1;
+  for (std::size_t i = 0; i < 3; ++i) first.left.tracks[i].lineage = first.right.tracks[i].lineage = i + 1;
   Step there(smooth_family(), 0.3, 0.4);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto mode = continue_mode(first.left, first.right, i, first.length, 0.1);
@@ -299,7 +299,7 @@ TEST(ContinuedMode, IsRefusedForBlocksPassesAndTracksThatWereNotThere) {
   Step step(smooth_family(), 0.2, 0.3);
   const auto continued = [&] { return continue_mode(step.left, step.right, 0, step.length, 0.1); };
   EXPECT_FALSE(continued()) << "not numbered";
-  step.left.tracks[0].strand = step.right.tracks[0].strand = 7;
+  step.left.tracks[0].lineage = step.right.tracks[0].lineage = 7;
   EXPECT_TRUE(continued());
   step.right.tracks[0].passed = true;
   EXPECT_FALSE(continued()) << "tells nothing new";
@@ -307,10 +307,10 @@ TEST(ContinuedMode, IsRefusedForBlocksPassesAndTracksThatWereNotThere) {
   step.left.tracks[0].passed = true;
   EXPECT_FALSE(continued());
   step.left.tracks[0].passed = false;
-  step.left.tracks[0].strand = 8;
+  step.left.tracks[0].lineage = 8;
   EXPECT_FALSE(continued()) << "another one";
   step.join(0.3);
-  step.left.tracks[0].strand = step.right.tracks[0].strand = 9;
+  step.left.tracks[0].lineage = step.right.tracks[0].lineage = 9;
   EXPECT_FALSE(continued()) << "a block";
 }
 

@@ -1,4 +1,4 @@
-#include "continuation/completeness.hpp"
+#include "continuation/tracks/completeness.hpp"
 
 #include <gtest/gtest.h>
 

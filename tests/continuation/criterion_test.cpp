@@ -1,5 +1,5 @@
 // Functions of eigenvalues whose zeros are events: values against series, series against differences.
-#include "continuation/criterion.hpp"
+#include "continuation/events/criterion.hpp"
 
 #include <gtest/gtest.h>
 

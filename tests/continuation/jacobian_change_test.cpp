@@ -1,5 +1,5 @@
 // The change of the linearized equations along a step, against their definition.
-#include "continuation/jacobian_change.hpp"
+#include "continuation/step/jacobian_change.hpp"
 
 #include <gtest/gtest.h>
 

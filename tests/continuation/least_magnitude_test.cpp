@@ -1,4 +1,4 @@
-#include "continuation/least_magnitude.hpp"
+#include "continuation/step/least_magnitude.hpp"
 
 #include <gtest/gtest.h>
 

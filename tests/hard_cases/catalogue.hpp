@@ -20,10 +20,10 @@ namespace eigentrail::test {
 ///   veering     defective double eigenvalue at parameter + j half_width, or - j half_width, or both
 ///               (veerings that are symmetric about the real axis are listed once)
 ///   fold        the equilibrium path turns back
-///   pitchfork   another equilibrium path crosses
+///   branch_point  another equilibrium path crosses
 ///   infinite    the mass is singular and an eigenvalue infinite; s is not used
 /// A collision at which undamped modes leave the imaginary axis is not repeated as flutter, one at s = 0 not
-/// as divergence, and the zero eigenvalue of a fold or pitchfork not at all. Of conjugates the one with
+/// as divergence, and the zero eigenvalue of a fold or branch point not at all. Of conjugates the one with
 /// Im s >= 0 is listed.
 struct SpecialPoint {
   std::string kind;

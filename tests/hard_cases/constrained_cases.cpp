@@ -65,7 +65,7 @@ HardCase spring_pendulum(const std::string& name, const std::string& to, double 
     spectra[1] = undamped_pairs({spring_pendulum_stiffness(k, 1)});
     return spectra;
   };
-  result.special = {{"pitchfork", critical, 0.0}};
+  result.special = {{"branch_point", critical, 0.0}};
   return result;
 }
 

@@ -55,7 +55,7 @@ std::vector<Complex> with_conjugates(const std::vector<Complex>& modes) {
 }
 
 bool is_coincidence(const std::string& kind) {
-  return kind == "collision" || kind == "crossing" || kind == "fold" || kind == "pitchfork" ||
+  return kind == "collision" || kind == "crossing" || kind == "fold" || kind == "branch_point" ||
          kind == "infinite";
 }
 

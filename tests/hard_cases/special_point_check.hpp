@@ -98,7 +98,7 @@ class SpecialPointCheck {
     } else if (point.kind == "fold") {
       EXPECT_LT(at.values[0], 1e-6);  // half the digits are lost at a fold
       EXPECT_EQ(std::abs(branches_at(case_, before) - branches_at(case_, after)), 2);
-    } else if (point.kind == "pitchfork") {
+    } else if (point.kind == "branch_point") {
       EXPECT_LT(at.values[0], allowed);
       EXPECT_EQ(point.s, 0.0);
     } else {

@@ -54,7 +54,7 @@ TEST(PartSeries, TellsAGapThroughAnExceptionalPointToFullAccuracy) {
   const std::vector<ComplexMatrix> Lambda = with_exceptional_point();
   const std::vector<ComplexMatrix> part = part_series(Lambda, {i, i});
   ASSERT_EQ(part.size(), count);
-  const ComplexVector gap = gap_series(part, 1);
+  const ComplexVector gap = discriminant_series(part, 1);
   ComplexVector exact = ComplexVector::Zero(count);
   exact[1] = 1.0;
   exact[2] = 1e-9;
@@ -94,7 +94,7 @@ TEST(GapSeries, OfAPermanentDoubletAndAThird) {
   std::vector<ComplexMatrix> D(2, ComplexMatrix::Zero(3, 3));
   D[0].diagonal().setConstant(Complex(0.0, 1.0));
   D[1](2, 2) = 1.0;
-  const ComplexVector gap = gap_series(mixed(D, 8), 2);
+  const ComplexVector gap = discriminant_series(mixed(D, 8), 2);
   EXPECT_LT(std::abs(gap[2] - 0.25), 1e-13);
   EXPECT_LT(gap.head(2).norm() + gap.tail(3).norm(), 1e-13);
 }
@@ -103,7 +103,7 @@ TEST(GapSeries, FromBothSeriesIsHalfTheirDifferenceSquared) {
   const ComplexVector a{{3.0, 1.0, 0.0}};
   const ComplexVector b{{1.0, -1.0, 2.0}};
   const ComplexVector exact{{1.0, 2.0, -1.0}};
-  EXPECT_LT((gap_series(a, b) - exact).norm(), 1e-14);
+  EXPECT_LT((discriminant_series(a, b) - exact).norm(), 1e-14);
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ class BeckColumn(RotorTest):
         force = self.scene_text()[self.scene_text().index("[[follower_force]]"):]
         dead = self.scene_text().replace(force, '[[force]]\npoint = "link 8.end"\ncomponents = ["-load", 0, 0]\n')
         file = self.trace_text(dead, "--to", "4", tolerance=1e-8)
-        kinds = [(kind, p) for kind in ("divergence", "pitchfork") for p, _ in self.special_points(file, kind)]
+        kinds = [(kind, p) for kind in ("divergence", "branch_point") for p, _ in self.special_points(file, kind)]
         self.assertTrue(kinds)
         self.assertAlmostEqual(kinds[0][1], math.pi**2 / 4, delta=0.02)
 

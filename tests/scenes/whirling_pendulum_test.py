@@ -72,7 +72,7 @@ class WhirlingPendulum(SceneTest):
 
     def test_the_pitchfork(self):
         for branch in "123":
-            pitchforks = self.event_parameters(self.trace_scene("--branch", branch), "pitchfork")
+            pitchforks = self.event_parameters(self.trace_scene("--branch", branch), "branch_point")
             self.assertEqual(len(pitchforks), 1)
             self.assertAlmostEqual(pitchforks[0], BRANCH_POINT, delta=1e-9)
 

@@ -7,7 +7,7 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
-#include "events/boundaries.hpp"
+#include "stability/boundaries.hpp"
 
 namespace eigentrail::test {
 namespace {

@@ -16,7 +16,7 @@ enum class EventKind {
   crossing,       ///< modes coincide and keep their own vectors
   veering,        ///< exceptional point beside the real parameter axis: modes come close and part again
   fold,           ///< the equilibrium path turns back
-  pitchfork,      ///< another equilibrium path crosses
+  branch_point,   ///< another equilibrium path crosses
   damping_ratio,  ///< the damping ratio of a pair has a value that was asked for
   resonance,      ///< Im s of a pair is a multiple of the excitation frequency
   extremum,       ///< the damping ratio of a pair is least or largest

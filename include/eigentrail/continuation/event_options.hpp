@@ -5,23 +5,27 @@
 #include <optional>
 #include <vector>
 
+#include "eigentrail/continuation/event.hpp"
 #include "eigentrail/scene/scene.hpp"
 
 namespace eigentrail {
 
-struct EventOptions {
-  /// Where the damping ratio -Re s/|s| of a pair is one of these, -1 < . < 1, not 0.
-  std::vector<double> damping_ratios = {};
-  /// Where Im s of a pair is one of these multiples (> 0) of the excitation frequency.
-  std::vector<double> harmonics = {};
-  /// The excitation frequency in rad/s, from the parameters' SI values; there when harmonics are.
-  std::optional<Expression> excitation = {};
-  bool extrema = true;  ///< extrema of the damping ratio
+/// An event that a scene asks for: a kind whose row in event_kinds.hpp has a key, and its number.
+struct WantedEvent {
+  EventKind kind;
+  double value = 0.0;
 };
 
-inline bool is_damping_ratio(double value) {
-  return std::abs(value) < 1.0;
-}
+struct EventOptions {
+  std::vector<WantedEvent> wanted = {};  ///< in the order of the kinds; each once
+  /// The excitation frequency in rad/s, from the parameters' SI values; there when a multiple of it is
+  /// wanted.
+  std::optional<Expression> excitation = {};
+  bool extrema = true;  ///< extrema of the damping ratio
+
+  /// The numbers wanted of one kind.
+  std::vector<double> values(EventKind kind) const;
+};
 
 /// Defaults where the scene has no [events]; the excitation frequency is the traced parameter unless the
 /// scene says another. `used` collects the parameters that it names. Throws InputError with the place of a

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/thresholds.hpp"
 #include "eigentrail/modes/all_pairs.hpp"
 #include "eigentrail/steady/path_plane.hpp"
 
@@ -36,7 +37,7 @@ struct Track {
   std::optional<Departure> departure;
   bool told_apart = true;  ///< its roots were, all the way from the last point
   /// The same number from point to point as long as it is followed as it is; 0: not yet numbered.
-  std::uint64_t strand = 0;
+  std::uint64_t lineage = 0;
   bool passed = false;   ///< stands as it was continued from the last step
   std::vector<int> met;  ///< indices of the roots that meet at the point, or veer closely
 
@@ -74,6 +75,9 @@ struct RunCounts {
   double certificate_seconds = 0.0;
   double events_seconds = 0.0;
   double output_seconds = 0.0;
+
+  /// Adds all work of another run.
+  RunCounts& operator+=(const RunCounts& other);
 };
 
 /// Adds the time between construction and destruction to a counter.
@@ -113,6 +117,7 @@ struct PathProblem {
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
+  Thresholds thresholds = {};
 
   /// Magnitude below which the eigenvalue of a chart counts as zero.
   double reference(Chart chart) const { return chart == Chart::finite ? s_ref : 1.0 / s_max; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "eigentrail/continuation/event_options.hpp"
+#include "eigentrail/continuation/thresholds.hpp"
 #include "eigentrail/model/build.hpp"
 
 namespace eigentrail {
@@ -45,6 +46,8 @@ struct TraceOptions {
 
   /// Threads that share the modes of a point, >= 1. Not an option of a scene: results do not depend on it.
   int threads = 1;
+
+  Thresholds thresholds = {};  ///< not an option of a scene
 
   /// Calls visit(key, help, member) for every option.
   template <class Self, class Visitor>

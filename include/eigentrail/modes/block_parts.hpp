@@ -26,10 +26,10 @@ ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda);
 
 /// ((s_a - s_b) / 2)^2 of a part that consists of two eigenvalues s_a and s_b, `count` times the one and the
 /// other for the rest: delta when there are two. Smooth where they meet.
-ComplexVector gap_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count);
+ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count);
 
 /// The same from the series of both.
-ComplexVector gap_series(const ComplexVector& a, const ComplexVector& b);
+ComplexVector discriminant_series(const ComplexVector& a, const ComplexVector& b);
 
 /// Coefficients of the eigenvalue `root` of a block from those of its functions (invariants.hpp). Empty when
 /// the root is not simple.

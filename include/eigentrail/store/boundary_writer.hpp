@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "eigentrail/events/boundary.hpp"
+#include "eigentrail/stability/boundary.hpp"
 
 namespace eigentrail {
 

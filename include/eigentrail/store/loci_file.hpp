@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "eigentrail/continuation/recorded_path.hpp"
-#include "eigentrail/events/stable_ranges.hpp"
+#include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail {
 

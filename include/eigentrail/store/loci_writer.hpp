@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "eigentrail/continuation/trace.hpp"
-#include "eigentrail/events/stable_ranges.hpp"
+#include "eigentrail/stability/stable_ranges.hpp"
 #include "eigentrail/store/saved_trace.hpp"
 
 namespace eigentrail {

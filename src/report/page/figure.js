@@ -10,7 +10,7 @@ const INK = "#1a1a1a";
 
 const EVENT_SYMBOLS = {
   flutter: "x", divergence: "cross", collision: "star", crossing: "circle-open", veering: "bowtie-open",
-  fold: "triangle-left", pitchfork: "asterisk-open", extremum: "triangle-down-open", damping_ratio: "square-open",
+  fold: "triangle-left", branch_point: "asterisk-open", extremum: "triangle-down-open", damping_ratio: "square-open",
   resonance: "diamond-open",
 };
 

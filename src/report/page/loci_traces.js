@@ -146,7 +146,7 @@ function eventTraces(files, chart, settings, isActive, axes, showLegend) {
 }
 
 /** What changes stability or the path is named; of the others the number must do, their mark tells the kind. */
-const NAMED_EVENTS = ["flutter", "divergence", "collision", "fold", "pitchfork", "resonance"];
+const NAMED_EVENTS = ["flutter", "divergence", "collision", "fold", "branch_point", "resonance"];
 const SIDES = { "top center": [0, -1], "bottom center": [0, 1], "middle right": [1, 0], "middle left": [-1, 0], "top right": [1, -1],
   "top left": [-1, -1], "bottom right": [1, 1], "bottom left": [-1, 1] };
 

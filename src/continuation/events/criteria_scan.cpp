@@ -1,0 +1,198 @@
+#include "continuation/events/criteria_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+/// Samples on a step. The dense output of one mode is a polynomial of degree 2 order + 1, at most 9, whose
+/// values between samples cannot bend twice; blocks have square roots of those, which can near a meeting.
+constexpr int samples_per_step = 24;
+/// Halvings that locate a change of sign on the dense output, and an extremum: guesses for Newton's method.
+constexpr int sign_halvings = 30;
+constexpr int extremum_halvings = 20;
+/// Half the distance in t over which the slope at an extremum is taken.
+constexpr double slope_width = 1e-3;
+/// In t: where eigenvalues coincide at the right end, they are known to half their digits there; the last
+/// sample lies this much before it.
+constexpr double before_meeting = 1e-7;
+
+/// Where the value, of the sign of `before` at t = from, changes sign.
+double sign_change(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double from,
+                   double to, double before) {
+  for (int i = 0; i < sign_halvings; ++i) {
+    const double middle = 0.5 * (from + to);
+    (on_step.value(criterion, member, middle) * before > 0.0 ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+/// Where the value has its extremum, between one sample before `about` and one behind it.
+double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double about) {
+  const auto slope = [&](double t) {
+    return on_step.value(criterion, member, std::min(t + slope_width, 1.0)) -
+           on_step.value(criterion, member, std::max(t - slope_width, on_step.begin()));
+  };
+  double from = std::max(on_step.begin(), about - 1.0 / samples_per_step);
+  double to = std::min(1.0, about + 1.0 / samples_per_step);
+  const double behind = slope(to);
+  for (int i = 0; i < extremum_halvings; ++i) {
+    const double middle = 0.5 * (from + to);
+    (slope(middle) * behind > 0.0 ? to : from) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+/// The scan of one track.
+class TrackScan {
+ public:
+  TrackScan(const EventSearch& search, const Step& step, std::size_t track,
+            const HermiteInterpolant& excitation, CriterionHistories& histories, FoundEvents& found)
+      : search_(search),
+        step_(step),
+        index_(track),
+        on_step_(step, track, excitation),
+        histories_(histories),
+        found_(found) {}
+
+  void run() {
+    const double end = step_.right.tracks[index_].departure ? 1.0 - before_meeting : 1.0;
+    double last = on_step_.begin();
+    for (int k = 0; k <= samples_per_step; ++k) {
+      const double t = std::max(on_step_.begin(), end * k / samples_per_step);
+      if (k > 0 && t <= last) continue;
+      for (std::size_t member = 0; member < track().modes.size(); ++member) {
+        if (track().modes[member] >= 0) look(member, last, t);
+      }
+      last = t;
+    }
+  }
+
+ private:
+  using Seen = CriterionHistory::Seen;
+  using Sought = CriterionTarget::Sought;
+
+  const Track& track() const { return step_.left->tracks[index_]; }
+
+  /// All criteria of a mode at one sample, and what lies between it and the last one.
+  void look(std::size_t member, double last, double t) {
+    const Complex s = on_step_.root(member, t);
+    const bool is_pair = s.imag() != 0.0;
+    for (std::size_t c = 0; c < search_.criteria.size(); ++c) {
+      CriterionHistory& history = histories_[{track().modes[member], c}];
+      // The end of the last step is known; a mode that is new is not.
+      if (t <= last && history.is_known()) continue;
+      if (search_.criteria[c].asks_for_pairs() && !is_pair) {
+        history = {};
+        continue;
+      }
+      take(search_.criteria[c], history, member, s, last, t);
+    }
+  }
+
+  void take(const Criterion& criterion, CriterionHistory& history, std::size_t member, Complex s, double last,
+            double t) {
+    const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
+    const double value = on_step_.value(criterion, s, t);
+    // Undamped modes stay on the axis but for rounding.
+    const double on_axis = std::max(search_.thresholds().criterion.on_axis * size, on_step_.noise());
+    if (!criterion.asks_for_extrema() && std::abs(value) <= on_axis) {
+      history.skip();
+      return;
+    }
+    const double before = history.value();
+    const bool pair = s.imag() != 0.0 && history.is_pair();
+    const Seen seen = history.next(value);
+    history.is_pair(s.imag() != 0.0);
+    // Where eigenvalues meet at the left end, what looks like an extremum is a kink.
+    if (seen == Seen::extremum && track().departure && last <= on_step_.begin()) return;
+    if (seen == Seen::zero && !criterion.asks_for_extrema()) {
+      const double guess = sign_change(on_step_, criterion, member, last, t, before);
+      if (!locate_at(member, {criterion, pair, Sought::zero}, guess) && !criterion.asks_for_pairs())
+        note_unlocated(member, guess);
+    } else if (seen == Seen::extremum && criterion.asks_for_extrema()) {
+      if (is_told(history)) locate_extremum(member, {criterion, pair, Sought::extremum}, last);
+    } else if (seen == Seen::extremum && before * history.bend() > 0.0 && may_touch(history, before, size)) {
+      locate_extremum(member, {criterion, pair, Sought::touch}, last);
+    }
+  }
+
+  /// Whether an extremum is told from the error of the dense output, by what it changes over half a step.
+  bool is_told(const CriterionHistory& history) const {
+    constexpr double half_a_step = 0.125 * samples_per_step * samples_per_step;
+    return half_a_step * std::abs(history.bend()) >
+           search_.thresholds().criterion.extremum * search_.options.tolerance;
+  }
+
+  /// Whether two zeros may hide in a dip towards zero.
+  bool may_touch(const CriterionHistory& history, double before, double size) const {
+    const double doubt = search_.thresholds().criterion.near_axis * search_.options.tolerance * size +
+                         0.5 * std::abs(before - history.top());
+    return history.top() * before <= 0.0 || std::abs(history.top()) <= doubt;
+  }
+
+  bool locate_at(std::size_t member, const CriterionTarget& target, double t) {
+    return locate(search_, step_, on_step_, {index_, member}, target, t, found_);
+  }
+  void locate_extremum(std::size_t member, const CriterionTarget& target, double about) {
+    locate_at(member, target, extremum_near(on_step_, target.criterion, member, about));
+  }
+
+  /// A change of sign that Newton's method does not confirm is no event, but told.
+  void note_unlocated(std::size_t member, double t) {
+    const Vector parameters = evaluate_series(step_.left->path.parameters, t * step_.h);
+    found_.notes.push_back("Re s of mode " + std::to_string(track().modes[member] + 1) +
+                           " changes its sign near " +
+                           place_text(search_.options, parameters[search_.problem().traced]) +
+                           " on the dense output; the place could not be located");
+  }
+
+  const EventSearch& search_;
+  const Step& step_;
+  std::size_t index_;
+  CriteriaOnStep on_step_;
+  CriterionHistories& histories_;
+  FoundEvents& found_;
+};
+
+}  // namespace
+
+CriterionHistory::Seen CriterionHistory::next(double value) {
+  const double change = known_ ? value - value_ : 0.0;
+  Seen seen = Seen::nothing;
+  if (known_ && value_ * value < 0.0) {
+    seen = Seen::zero;
+  } else if (known_ && (skipped_ || change_ * change < 0.0)) {
+    seen = Seen::extremum;
+    bend_ = skipped_ ? value : change - change_;
+    top_ = skipped_ ? 0.0 : value_ - std::pow(change + change_, 2) / (8.0 * bend_);
+  }
+  change_ = change;
+  value_ = value;
+  known_ = true;
+  skipped_ = false;
+  return seen;
+}
+
+void inherit_histories(const std::vector<Birth>& births, const std::vector<Criterion>& criteria,
+                       CriterionHistories& histories) {
+  for (const Birth& birth : births) {
+    for (std::size_t c = 0; c < criteria.size(); ++c) {
+      if (!criteria[c].asks_for_pairs()) histories[{birth.born, c}] = histories[{birth.parent, c}];
+    }
+  }
+}
+
+FoundEvents scan_criteria(const EventSearch& search, const Step& step, CriterionHistories& histories) {
+  const auto row = [&](const PathNode& node) -> ComplexMatrix {
+    return excitation_at(search, node).cast<Complex>().transpose();
+  };
+  const HermiteInterpolant excitation(step.h, row(*step.left), row(step.right));
+  FoundEvents found;
+  for (std::size_t i = 0; i < step.left->tracks.size(); ++i)
+    TrackScan(search, step, i, excitation, histories, found).run();
+  return found;
+}
+
+}  // namespace eigentrail

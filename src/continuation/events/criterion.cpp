@@ -1,0 +1,75 @@
+#include "continuation/events/criterion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/series.hpp"
+
+namespace eigentrail {
+namespace {
+
+using RealSeries = Series<double, max_order>;
+
+/// The function of mu = re + im j and the excitation, all of them numbers or all of them series.
+template <class Scalar>
+Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, Chart chart,
+                const Scalar& excitation) {
+  using std::sqrt;
+  const Scalar square = re * re + im * im;
+  switch (criterion.kind) {
+    case EventKind::damping_ratio:
+      return re + criterion.value * sqrt(square);
+    case EventKind::resonance:
+      return chart == Chart::finite ? im - criterion.value * excitation
+                                    : -im - criterion.value * (excitation * square);
+    case EventKind::extremum:
+      return re / sqrt(square);
+    default:
+      return re;
+  }
+}
+
+RealSeries as_series(const Vector& coefficients) {
+  RealSeries series;
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(coefficients.size(), max_order + 1); ++k)
+    series[static_cast<int>(k)] = coefficients[k];
+  return series;
+}
+
+Vector coefficients_of(const RealSeries& series, Eigen::Index count) {
+  Vector coefficients(count);
+  for (Eigen::Index k = 0; k < count; ++k) coefficients[k] = series[static_cast<int>(k)];
+  return coefficients;
+}
+
+}  // namespace
+
+std::vector<Criterion> criteria_of(const EventOptions& options) {
+  std::vector<Criterion> criteria{{EventKind::flutter, 0.0}};
+  for (const WantedEvent& event : options.wanted) criteria.push_back({event.kind, event.value});
+  if (options.extrema) criteria.push_back({EventKind::extremum, 0.0});
+  return criteria;
+}
+
+Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Chart chart,
+                        const Vector& excitation) {
+  return coefficients_of(
+      evaluate(criterion, as_series(mu.real()), as_series(mu.imag()), chart, as_series(excitation)),
+      mu.size());
+}
+
+double criterion_value(const Criterion& criterion, Complex mu, Chart chart, double excitation) {
+  return evaluate(criterion, mu.real(), mu.imag(), chart, excitation);
+}
+
+Vector excitation_series(const EventOptions& options, const Parameters& parameters,
+                         const VectorSeries& series, int order) {
+  if (!options.excitation) return Vector::Zero(order + 1);
+  std::vector<RealSeries> values(parameters.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = as_series(series.row(static_cast<Eigen::Index>(i)).transpose());
+  parameters.to_si(std::span<RealSeries>(values));
+  return coefficients_of(options.excitation->evaluate(std::span<const RealSeries>(values)), order + 1);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,283 @@
+#include "continuation/events/criterion_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/events/event_record.hpp"
+#include "continuation/events/nearby_mode.hpp"
+#include "continuation/events/static_points.hpp"
+#include "continuation/events/walk.hpp"
+#include "continuation/step/shared_basis.hpp"
+#include "continuation/tracks/members.hpp"
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+using Sought = CriterionTarget::Sought;
+using RealSight = Sight<double>;
+
+/// Of the range: how well zeros and extrema are located. Extrema are known to the root of what zeros are.
+constexpr double zero_resolution = 1e-12;
+constexpr double extremum_resolution = 1e-10;
+/// Steps: how far outside the step a walk may lead on its way, and its end may lie for a zero. What lies
+/// behind the last point was seen from there.
+constexpr double way_outside = 0.5;
+constexpr double end_outside = 0.05;
+/// Of what the eigenvalue moved on the last look: eigenvalues closer than that meet at the place.
+constexpr double meeting_gap = 1e-7;
+/// Of |s|: imaginary parts below this are those of a pair that touches the real axis.
+constexpr double on_real_axis = 1e-6;
+
+Vector derivative(const Vector& series) {
+  Vector result(series.size() - 1);
+  for (Eigen::Index k = 0; k < result.size(); ++k) result[k] = static_cast<double>(k + 1) * series[k + 1];
+  return result;
+}
+
+/// A polynomial's root nearest to zero as Newton's method finds it, and how far its last term moves it.
+struct RootOfSeries {
+  double offset = 0.0;
+  double doubt = INFINITY;
+};
+
+RootOfSeries root_near_zero(const Vector& series) {
+  constexpr int corrections = 20;
+  RootOfSeries root;
+  for (int i = 0; i < corrections; ++i) {
+    double value = 0.0;
+    double slope = 0.0;
+    for (Eigen::Index k = series.size() - 1; k >= 0; --k) {
+      slope = slope * root.offset + value;
+      value = value * root.offset + series[k];
+    }
+    if (slope == 0.0 || !std::isfinite(value / slope)) return {};
+    const double move = value / slope;
+    root.offset -= move;
+    if (std::abs(move) > 1e-15 * std::abs(root.offset) && i + 1 < corrections) continue;
+    const auto last = static_cast<double>(series.size() - 1);
+    root.doubt = std::abs(series[series.size() - 1] * std::pow(root.offset, last) / slope);
+    break;
+  }
+  return root;
+}
+
+int sign_of(double x) {
+  return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
+}
+
+/// A target on its way to be located.
+class CriterionWalk {
+ public:
+  CriterionWalk(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
+                const CriterionTarget& target, FoundEvents& found)
+      : search_(search), step_(step), on_step_(on_step), member_(member), target_(target), found_(found) {}
+
+  bool run(double t);
+
+ private:
+  /// What a look may find that ends the walk without a place that Newton's method has settled on.
+  enum class Ending { none, at_meeting, passed };
+
+  RealSight look(double distance);
+  Ending ending(const ComplexVector& series, int look) const;
+  void finish(double offset, double distance, int looks);
+  void record(double offset, bool located, int looks);
+  int direction(double offset) const;
+  Chart chart() const { return step_.left->tracks[member_.track].pair.chart; }
+
+  const EventSearch& search_;
+  const Step& step_;
+  CriteriaOnStep& on_step_;
+  const Member& member_;
+  const CriterionTarget& target_;
+  FoundEvents& found_;
+  std::optional<NearbyMode> mode_;  ///< at the last look
+  Vector g_;                        ///< series of the criterion there
+  double moved_ = 0.0;              ///< by the eigenvalue, on the last look
+  int looks_ = 0;
+  Ending ending_ = Ending::none;
+};
+
+CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
+  const bool meets = series.size() < 2 || mode_->gap <= meeting_gap * moved_;
+  if (!meets) return Ending::none;
+  // Newton has led to a double root, where derivatives of one eigenvalue end.
+  const double near =
+      search_.thresholds().criterion.double_root_on_axis * search_.problem().reference(chart());
+  const bool on_axis = std::abs(mode_->root.real()) <= near;
+  return target_.criterion.kind == EventKind::flutter && (look > 1 || on_axis) ? Ending::at_meeting
+                                                                               : Ending::passed;
+}
+
+RealSight CriterionWalk::look(double distance) {
+  ++looks_;
+  const Complex expected = on_step_.member_near(member_.index, distance / step_.h);
+  mode_ = look_at_mode(search_.solver, *step_.left, member_.track, expected, distance,
+                       target_.criterion.kind == EventKind::flutter && target_.pair);
+  if (!mode_) return {RealSight::Kind::failed};
+  const ComplexVector& series = mode_->series;
+  ending_ = ending(series, looks_);
+  if (ending_ != Ending::none) return {RealSight::Kind::absent};
+  g_ = criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
+  const bool is_zero = target_.sought == Sought::zero;
+  // A mode that stays on the axis crosses it by rounding only.
+  const double still = search_.thresholds().criterion.on_axis * std::abs(series[1]);
+  if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
+    ending_ = Ending::passed;
+    return {RealSight::Kind::absent};
+  }
+  const RootOfSeries root = root_near_zero(is_zero ? g_ : derivative(g_));
+  const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(step_.h);
+  const double move = useful ? root.offset : is_zero ? -g_[0] / g_[1] : -0.5 * g_[1] / g_[2];
+  moved_ = std::abs(series[1] * move);
+  const double share = (distance + move) / step_.h;
+  if (!(share > -way_outside && share < 1.0 + way_outside)) return {RealSight::Kind::failed};
+  // One correction more would square what is left.
+  const double range = search_.frame().coordinate_range();
+  const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
+  const bool settled = (useful && root.doubt <= resolution) || std::abs(move) <= extremum_resolution * range;
+  return {settled ? RealSight::Kind::settled : RealSight::Kind::seen, move};
+}
+
+bool CriterionWalk::run(double t) {
+  WalkRules rules;
+  rules.free_moves = 0;
+  const Walk<double> found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
+  if (found.end == WalkEnd::absent) {
+    if (ending_ == Ending::at_meeting) record(0.0, false, looks_);
+    return true;
+  }
+  if (found.end != WalkEnd::settled) return false;
+  const double share = (found.position + found.move) / step_.h;
+  const bool outside = !(share > -end_outside && share <= 1.0 + end_outside);
+  if (target_.sought == Sought::zero && outside) return true;
+  finish(found.move, found.position, looks_);
+  return true;
+}
+
+/// What a zero or an extremum that has been located means.
+void CriterionWalk::finish(double offset, double distance, int looks) {
+  if (target_.sought == Sought::zero) return record(offset, true, looks);
+  double value = 0.0;
+  for (Eigen::Index k = g_.size() - 1; k >= 0; --k) value = value * offset + g_[k];
+  const double curvature = derivative(derivative(g_))[0];
+  if (target_.sought == Sought::extremum) {
+    // Where a pair touches the real axis the damping ratio cannot be exceeded.
+    const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
+    const double change = std::abs(curvature) * step_.h * step_.h / 8.0;
+    const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
+    if (oscillates && matters) record(offset, true, looks);
+    return;
+  }
+  const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
+  if (std::abs(value) <= search_.thresholds().criterion.on_axis * scale) {
+    record(offset, true, looks);
+  } else if (value * curvature < 0.0) {
+    const double half = std::sqrt(-2.0 * value / curvature);
+    for (const double side : {-half, half}) {
+      locate(search_, step_, on_step_, member_, {target_.criterion, target_.pair, Sought::zero},
+             (distance + offset + side) / step_.h, found_);
+    }
+  }
+}
+
+int CriterionWalk::direction(double offset) const {
+  double slope = 0.0;
+  for (Eigen::Index k = g_.size() - 1; k > 0; --k) slope = slope * offset + static_cast<double>(k) * g_[k];
+  switch (target_.sought) {
+    case Sought::zero:
+      return sign_of(slope * search_.frame().speed(mode_->solved.node));
+    case Sought::extremum:
+      return -sign_of(g_[2]);  // least damping is where Re mu / |mu| is largest
+    default:
+      return 0;
+  }
+}
+
+/// Records the event `offset` behind the last look. `located`: the criterion's series led there.
+void CriterionWalk::record(double offset, bool located, int looks) {
+  const PathNode& node = mode_->solved.node;
+  const Track& there = node.tracks.front();
+  const EventKind asked = target_.criterion.kind;
+  const Complex root =
+      located ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
+  Event event;
+  event.kind = asked != EventKind::flutter || target_.pair ? asked : EventKind::divergence;
+  event.p = evaluate_series(node.path.parameters, offset)[search_.problem().traced];
+  event.s = chart_value(root, there.pair.chart);
+  if (event.kind == EventKind::flutter) event.s = Complex(0.0, std::abs(event.s.imag()));
+  if (event.kind == EventKind::divergence) event.s = 0.0;
+  event.modes = {step_.left->tracks[member_.track].modes[member_.index]};
+  event.retrackings = looks;
+  event.node = search_.node;
+  if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
+  if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;
+  if (located) event.direction = direction(offset);
+  // Modes that coalesce leave the imaginary axis, or pass it, at their meeting: one point, one event. In the
+  // reciprocal chart zero is infinity.
+  if (asked == EventKind::flutter && search_.log.has_collision_at(event, search_.problem().s_ref)) return;
+  if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
+  Eigen::Index nearest = 0;
+  (there.roots.array() - mode_->root).abs().minCoeff(&nearest);
+  const std::vector<int> members{static_cast<int>(nearest)};
+  keep_shape(node, there, members, offset, event);
+  const auto moves = [&](const Track&, const PathNode& along, const Track& track) {
+    const Complex slope = mean_slope(track, roots_of(there, members));
+    const Vector excitation = excitation_at(search_, along).head(2);
+    const Vector g_q = criterion_series(target_.criterion, ComplexVector{{mode_->root, slope}},
+                                        there.pair.chart, excitation);
+    return located && target_.sought == Sought::zero ? -g_q[1] / g_[1] : NAN;
+  };
+  keep_sensitivities(search_.problem(), mode_->solved.point, node, there, members, moves, event,
+                     search_.solver.counts());
+  append(as_static_event(search_, node, std::move(event)), found_);
+}
+
+}  // namespace
+
+CriteriaOnStep::CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation)
+    : track_(step.left->tracks[track]),
+      roots_(*step.left, step.right, track, step.h),
+      excitation_(excitation) {
+  departing_roots(track_, step.h, departing_);
+  begin_ = std::max(departing_, 0.0);
+}
+
+Complex CriteriaOnStep::member_near(std::size_t member, double t) {
+  return roots_(std::clamp(t, departing_, 1.0))[static_cast<Eigen::Index>(member)];
+}
+
+Complex CriteriaOnStep::root(std::size_t member, double t) {
+  return upper_member(roots_(t)[static_cast<Eigen::Index>(member)], track_.pair.chart);
+}
+
+double CriteriaOnStep::value(const Criterion& criterion, Complex root, double t) const {
+  const bool is_excited = criterion.kind == EventKind::resonance;
+  return criterion_value(criterion, root, track_.pair.chart, is_excited ? excitation_(t)[0].real() : 0.0);
+}
+
+double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, double t) {
+  return value(criterion, root(member, t), t);
+}
+
+double CriteriaOnStep::noise() const {
+  if (track_.size() == 1) return 0.0;
+  constexpr double safety = 10.0;
+  const double level = safety * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
+  return least_gap(track_.roots) <= level ? level : 0.0;
+}
+
+Vector excitation_at(const EventSearch& search, const PathNode& node) {
+  const PathProblem& problem = search.problem();
+  return excitation_series(search.options.events, problem.model.description().parameters,
+                           node.path.parameters, problem.order + 1);
+}
+
+bool locate(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
+            const CriterionTarget& target, double t, FoundEvents& found) {
+  return CriterionWalk(search, step, on_step, member, target, found).run(t);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,114 @@
+#include "eigentrail/continuation/event_kinds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace eigentrail {
+namespace {
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string turns(const EventFacts& facts, const std::string& up, const std::string& down) {
+  return facts.direction > 0 ? up : facts.direction < 0 ? down : "";
+}
+
+std::string no_remark(const EventFacts&) {
+  return "";
+}
+
+std::string stability_remark(const EventFacts& facts) {
+  return turns(facts, "unstable above", "unstable below");
+}
+
+std::string collision_remark(const EventFacts& facts) {
+  const Complex puiseux = facts.puiseux;
+  if (!std::isfinite(puiseux.real()) || puiseux == 0.0) return "";
+  return "Puiseux coefficient " + rounded(puiseux.real()) + (std::signbit(puiseux.imag()) ? " - " : " + ") +
+         rounded(std::abs(puiseux.imag())) + "j";
+}
+
+std::string veering_remark(const EventFacts& facts) {
+  return "half-width " + rounded(facts.half_width);
+}
+
+std::string damping_remark(const EventFacts& facts) {
+  return "ratio " + rounded(facts.value) + turns(facts, ", falling", ", rising");
+}
+
+std::string resonance_remark(const EventFacts& facts) {
+  return "harmonic " + rounded(facts.value) + turns(facts, ", outgrows it", ", falls behind it");
+}
+
+std::string extremum_remark(const EventFacts& facts) {
+  return (facts.direction > 0 ? "least damping ratio " : "largest damping ratio ") + rounded(facts.value);
+}
+
+/// Modes of damping ratio zero are those on the imaginary axis, which are flutter.
+bool is_ratio(double value) {
+  return std::abs(value) < 1.0;
+}
+
+bool is_harmonic(double value) {
+  return value > 0.0 && std::isfinite(value);
+}
+
+constexpr std::array<EventKindInfo, 10> kinds{{
+    {EventKind::flutter, "flutter", "flutter", "x", true, stability_remark},
+    {EventKind::divergence, "divergence", "divergence", "cross", true, stability_remark},
+    {EventKind::collision, "collision", "collision", "star", true, collision_remark},
+    {EventKind::crossing, "crossing", "crossing", "circle-open", false, no_remark},
+    {EventKind::veering, "veering", "veering", "bowtie-open", false, veering_remark},
+    {EventKind::fold, "fold", "fold", "triangle-left", true, no_remark},
+    {EventKind::branch_point, "branch_point", "branch point", "asterisk-open", true, no_remark},
+    {EventKind::damping_ratio,
+     "damping_ratio",
+     "damping ratio",
+     "square-open",
+     false,
+     damping_remark,
+     {"damping_ratio", "where the damping ratio of a pair has this value", "must lie between -1 and 1",
+      is_ratio}},
+    {EventKind::resonance,
+     "resonance",
+     "resonance",
+     "diamond-open",
+     true,
+     resonance_remark,
+     {"harmonics", "where Im s is this multiple of the excitation frequency", "must be positive", is_harmonic,
+      true}},
+    {EventKind::extremum, "extremum", "extremum", "triangle-down-open", false, extremum_remark},
+}};
+
+}  // namespace
+
+std::span<const EventKindInfo> event_kinds() {
+  return kinds;
+}
+
+bool is_event_kind(EventKind kind) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [kind](const EventKindInfo& info) { return info.kind == kind; });
+}
+
+const EventKindInfo& event_kind(EventKind kind) {
+  for (const EventKindInfo& info : kinds) {
+    if (info.kind == kind) return info;
+  }
+  throw std::out_of_range("event_kind: no kind of an event has the number " +
+                          std::to_string(static_cast<int>(kind)));
+}
+
+const EventKindInfo* find_event_kind(std::string_view name) {
+  const auto* const found = std::find_if(kinds.begin(), kinds.end(),
+                                         [name](const EventKindInfo& info) { return info.name == name; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+}  // namespace eigentrail

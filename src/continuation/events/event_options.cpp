@@ -1,0 +1,82 @@
+#include "eigentrail/continuation/event_options.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "eigentrail/continuation/event_kinds.hpp"
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// The numbers that a scene asks for of one kind: without parameters, each once.
+std::vector<double> read_numbers(TableReader& table, const EventRequest& request) {
+  const std::string key(request.key);
+  std::vector<double> values;
+  if (!table.has(key)) return values;
+  for (const Expression& expression : table.list(key)) {
+    if (!expression.is_constant()) table.fail(key, "expected numbers without parameters");
+    const double value = expression.evaluate(std::span<const double>());
+    if (!request.accepts(value))
+      table.fail(key, std::string(request.expected) + "; found " + exact_text(value));
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+/// The traced parameter as the excitation frequency, if it is one. Turns are counted in Hz, too.
+Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
+  constexpr std::array<std::string_view, 9> angular{"",    "rad/s", "rad s^-1", "1/s",   "s^-1",
+                                                    "rpm", "rev/s", "deg/s",    "mrad/s"};
+  constexpr std::array<std::string_view, 2> turns{"Hz", "kHz"};
+  const auto index = scene.parameters.index(traced);
+  const std::string unit = index ? scene.parameters[static_cast<std::size_t>(*index)].unit : "";
+  const auto is_one_of = [&](const auto& units) {
+    return std::find(units.begin(), units.end(), unit) != units.end();
+  };
+  if (!is_one_of(angular) && !is_one_of(turns)) {
+    table.fail("harmonics", "of what frequency? '" + traced + "' is in " + unit +
+                                "; give `excitation`, in rad/s, as an expression of the parameters");
+  }
+  return Expression::parse((is_one_of(turns) ? "2 * pi * " : "") + traced, scene.parameters.names());
+}
+
+}  // namespace
+
+std::vector<double> EventOptions::values(EventKind kind) const {
+  std::vector<double> all;
+  for (const WantedEvent& event : wanted) {
+    if (event.kind == kind) all.push_back(event.value);
+  }
+  return all;
+}
+
+EventOptions read_event_options(const Scene& scene, const std::string& traced, std::set<int>& used) {
+  const auto found = tables(scene, "events");
+  EventOptions options;
+  if (found.empty()) return options;
+  if (found.size() > 1)
+    throw scene_error(scene, found[1]->where, "[events]: a scene has one of these at most");
+  TableReader table(scene, *found.front(), "[events]", used);
+  bool is_excited = false;
+  for (const EventKindInfo& kind : event_kinds()) {
+    if (kind.request.key.empty()) continue;
+    for (const double value : read_numbers(table, kind.request)) {
+      // Modes of no damping are those on the imaginary axis: flutter.
+      if (value != 0.0) options.wanted.push_back({kind.kind, value});
+      is_excited = is_excited || kind.request.of_excitation;
+    }
+  }
+  if (table.has("excitation")) {
+    if (!is_excited) table.fail("excitation", "is of no use without `harmonics`");
+    options.excitation = table.expression("excitation");
+  } else if (is_excited && scene.parameters.index(traced)) {
+    // A parameter that does not exist is reported with the other options.
+    options.excitation = traced_frequency(scene, traced, table);
+  }
+  if (table.has("extrema")) options.extrema = table.flag("extrema");
+  table.finish();
+  return options;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,118 @@
+#include "continuation/events/event_record.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "continuation/tracks/members.hpp"
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/normalization.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// ds/dh from that of the chart's eigenvalue.
+Complex slope_of_s(Complex slope, Complex mu, Chart chart) {
+  return chart == Chart::finite ? slope : -slope / (mu * mu);
+}
+
+/// All series of a point along one parameter at first order only.
+std::optional<PathNode> slopes_along(PathProblem problem, const PathPoint& point, int parameter,
+                                     RunCounts& counts) {
+  problem.order = 0;
+  return differentiate_point(problem, point, parameter, counts);
+}
+
+/// Every sensitivity is unknown.
+void leave_unknown(std::size_t n_parameters, Event& event) {
+  const auto count = static_cast<Eigen::Index>(n_parameters);
+  event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
+  event.shift = Vector::Constant(count, nan);
+}
+
+}  // namespace
+
+Complex mean_slope(const Track& track, const std::vector<Complex>& roots) {
+  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
+  return part.size() < 2 ? Complex(nan, nan) : mean_series(part)[1];
+}
+
+void keep_shape(const PathNode& node, const Track& track, const std::vector<int>& members, double offset,
+                Event& event) {
+  const ComplexMatrix Lambda = evaluate_series(track.series.Lambda, offset);
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(Lambda);
+  Eigen::Index nearest = 0;
+  (solver.eigenvalues().array() - track.roots[members.front()]).abs().minCoeff(&nearest);
+  const ComplexVector shape = evaluate_series(track.series.Z, offset) * solver.eigenvectors().col(nearest);
+  event.shape = normalize_shape(shape, node.linearization.M[0], {});
+}
+
+PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts) {
+  PathPoint point;
+  point.p = node.p;
+  point.equilibrium = keep_equilibrium(problem.model, node.path.parameters.col(0), node.path.x.col(0),
+                                       node.path.lambda.col(0), counts.evaluations);
+  point.basis = {{node.basis.T[0]}, node.basis.is_identity};
+  return point;
+}
+
+void keep_sensitivities(const PathProblem& problem, const PathPoint& point, const PathNode& node,
+                        const Track& track, const std::vector<int>& members, const Movement& moves,
+                        Event& event, RunCounts& counts) {
+  const auto& parameters = problem.model.description().parameters;
+  leave_unknown(parameters.size(), event);
+  const std::vector<Complex> roots = roots_of(track, members);
+  const Complex mu = ComplexVector::Map(roots.data(), static_cast<Eigen::Index>(roots.size())).mean();
+  const double speed = coefficient(node.path.parameters, problem.traced, 1);
+  PathPoint of_track = point;
+  of_track.pairs = {track.pair};
+  for (int q = 0; q < static_cast<int>(parameters.size()); ++q) {
+    if (parameters[static_cast<std::size_t>(q)].definition) continue;
+    if (q == problem.traced) {
+      event.sensitivity[q] = slope_of_s(mean_slope(track, roots) / speed, mu, track.pair.chart);
+      continue;
+    }
+    const std::optional<PathNode> along = slopes_along(problem, of_track, q, counts);
+    if (!along) continue;
+    const Track& along_q = along->tracks.front();
+    event.sensitivity[q] = slope_of_s(mean_slope(along_q, roots), mu, track.pair.chart);
+    const double shift = moves(track, *along, along_q) * speed;
+    if (std::isfinite(shift)) event.shift[q] = shift;
+  }
+}
+
+double shift_of_meeting(const Track& along_path, const Track& along_q, EventKind kind,
+                        const std::vector<int>& members) {
+  if (members.size() != 2) return nan;
+  const std::vector<Complex> roots = roots_of(along_path, members);
+  const std::vector<ComplexMatrix> path = part_series(along_path.series.Lambda, roots);
+  const std::vector<ComplexMatrix> q = part_series(along_q.series.Lambda, roots);
+  if (path.size() < 2 || q.size() < 2) return nan;
+  if (kind == EventKind::collision)
+    return -(discriminant_series(q, 1)[1] / discriminant_series(path, 1)[1]).real();
+  if (kind != EventKind::crossing) return nan;
+  // Semisimple: to first order each eigenvalue goes on along its own vector.
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(path[1]);
+  const ComplexMatrix along = solver.eigenvectors().inverse() * q[1] * solver.eigenvectors();
+  return -((along(0, 0) - along(1, 1)) / (solver.eigenvalues()[0] - solver.eigenvalues()[1])).real();
+}
+
+void keep_fold_sensitivities(const PathProblem& problem, const PathNode& node, Event& event,
+                             RunCounts& counts) {
+  const auto& parameters = problem.model.description().parameters;
+  std::vector<int> all(parameters.size());
+  for (std::size_t q = 0; q < all.size(); ++q) all[q] = static_cast<int>(q);
+  const std::vector<KernelLoad> loads =
+      kernel_loads(problem.model, node.path, all, node.linearization, node.basis.T[0], counts.evaluations);
+  leave_unknown(parameters.size(), event);
+  for (const int q : all) {
+    const auto i = static_cast<std::size_t>(q);
+    if (q == problem.traced || parameters[i].definition) continue;
+    event.shift[q] = -loads[i].along_kernel / loads[static_cast<std::size_t>(problem.traced)].along_kernel;
+  }
+}
+
+}  // namespace eigentrail

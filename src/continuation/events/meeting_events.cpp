@@ -1,0 +1,98 @@
+#include "continuation/events/meeting_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/events/event_record.hpp"
+#include "continuation/events/static_points.hpp"
+#include "continuation/tracks/members.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// The mean of the eigenvalues that meet; of conjugates that meet on the real axis it is real.
+Complex place_of(const Track& track, const Meeting& meeting, bool is_pair) {
+  Complex mean = 0.0;
+  for (const int i : meeting.members) mean += track.roots[i];
+  const Complex s = chart_value(mean / static_cast<double>(meeting.members.size()), track.pair.chart);
+  if (is_pair) return s.real();
+  return s.imag() < 0.0 ? std::conj(s) : s;
+}
+
+/// Nothing where the meeting is none of modes.
+std::optional<Event> event_of(const EventSearch& search, const PathNode& node, const MeetingOnEnd& found) {
+  const Track& track = node.tracks[found.track];
+  const Meeting& meeting = found.meeting;
+  std::vector<int> modes;
+  for (const int i : meeting.members) modes.push_back(track.modes[static_cast<std::size_t>(i)]);
+  modes = sorted_modes(modes);
+  if (modes.empty()) return std::nullopt;
+  // One mode alone: a pair and its conjugate. They touch the real axis, or merely come near it.
+  const bool is_pair = modes.size() == 1 && track.pair.is_real;
+  if (is_pair && meeting.kind == EventKind::veering) return std::nullopt;
+  // Eigenvalues that meet at infinity, where the mass is singular, are no coincidence of modes.
+  if (track.pair.chart == Chart::reciprocal && std::abs(track.roots.mean()) * search.problem().s_max <= 1.0)
+    return std::nullopt;
+  const double speed = search.frame().speed(node);
+  Event event;
+  event.kind = meeting.kind;
+  event.p = node.p + meeting.offset * speed;
+  event.s = place_of(track, meeting, is_pair);
+  event.modes = modes;
+  if (event.kind == EventKind::veering) event.half_width = std::abs(speed) * meeting.half_width;
+  if (event.kind == EventKind::collision) {
+    const double exponent = 1.0 / static_cast<double>(meeting.members.size());
+    event.puiseux = meeting.puiseux / std::pow(Complex(speed), exponent);
+    if (track.pair.chart == Chart::reciprocal) event.puiseux *= -event.s * event.s;
+  }
+  event.retrackings = found.looks;
+  event.node = search.node;
+  keep_shape(node, track, meeting.members, meeting.offset, event);
+  RunCounts& counts = search.solver.counts();
+  const auto moves = [&](const Track& along_path, const PathNode&, const Track& along_q) {
+    return shift_of_meeting(along_path, along_q, meeting.kind, meeting.members);
+  };
+  keep_sensitivities(search.problem(), solved_point(search.problem(), node, counts), node, track,
+                     meeting.members, moves, event, counts);
+  return event;
+}
+
+}  // namespace
+
+FoundEvents meeting_events(const EventSearch& search, const PathNode& node,
+                           const std::vector<MeetingOnEnd>& meetings) {
+  FoundEvents all;
+  for (const MeetingOnEnd& meeting : meetings) {
+    std::optional<Event> event = event_of(search, node, meeting);
+    if (event) append(as_static_event(search, node, std::move(*event)), all);
+  }
+  return all;
+}
+
+void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
+  for (const MeetingOnEnd& found : meetings) {
+    std::vector<int>& met = node.tracks[found.track].met;
+    met = united(met, found.meeting.members);
+  }
+}
+
+void name_births(const std::vector<Birth>& births, FoundEvents& found) {
+  for (const Birth& birth : births) {
+    for (Event& event : found.events) {
+      const bool takes_part =
+          std::find(event.modes.begin(), event.modes.end(), birth.parent) != event.modes.end();
+      if (event.kind == EventKind::collision && takes_part)
+        event.modes = sorted_modes(united(event.modes, {birth.born}));
+    }
+  }
+}
+
+std::vector<bool> coinciding_tracks(const PathNode& node, const std::vector<MeetingOnEnd>& meetings) {
+  std::vector<bool> coincide(node.tracks.size(), false);
+  for (const MeetingOnEnd& meeting : meetings) {
+    if (meeting.meeting.kind != EventKind::veering) coincide[meeting.track] = true;
+  }
+  return coincide;
+}
+
+}  // namespace eigentrail

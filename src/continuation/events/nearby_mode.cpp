@@ -1,0 +1,81 @@
+#include "continuation/events/nearby_mode.hpp"
+
+#include <cmath>
+
+#include "continuation/tracks/regrouping.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Of its size: an eigenvalue of a block is found alone where the others are no nearer. Single modes cost
+/// less and are more accurate; nearer ones spoil each other's vectors.
+constexpr double apart = 1e-3;
+/// Of the distance to the next one: a mode found alone that has moved by more may be the other.
+constexpr double moved_too_far = 0.1;
+
+Eigen::Index nearest_root(const ComplexVector& roots, Complex expected) {
+  Eigen::Index nearest = 0;
+  (roots.array() - expected).abs().minCoeff(&nearest);
+  return nearest;
+}
+
+/// One eigenvalue of a block without the others, where it is far enough from them to be found alone.
+std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt& base, Complex expected,
+                                       double h) {
+  if (base.tracks.front()->size() == 1) return std::nullopt;
+  Prediction prediction = solver.predict(base, h);
+  const ComplexVector roots = pair_eigenvalues(prediction.pairs.front());
+  const Eigen::Index nearest = nearest_root(roots, expected);
+  const Complex root = roots[nearest];
+  double gap = INFINITY;
+  for (Eigen::Index j = 0; j < roots.size(); ++j) {
+    if (j != nearest) gap = std::min(gap, std::abs(roots[j] - root));
+  }
+  if (!(gap > apart * std::abs(root))) return std::nullopt;
+  prediction.pairs.front() = part_of(prediction.pairs.front(), roots, {static_cast<int>(nearest)});
+  std::optional<SolvedPoint> there = solver.solve(prediction, base.node.basis.T[0]);
+  if (there && !(std::abs(there->node.tracks.front().roots[0] - root) <= moved_too_far * gap)) there.reset();
+  return there;
+}
+
+}  // namespace
+
+Complex upper_member(Complex mu, Chart chart) {
+  const bool lower = chart == Chart::finite ? mu.imag() < 0.0 : mu.imag() > 0.0;
+  return lower ? std::conj(mu) : mu;
+}
+
+std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode& left, std::size_t track,
+                                       Complex expected, double h, bool of_pair) {
+  const TracksAt base = one_track(left, track);
+  std::optional<SolvedPoint> beside = solve_alone(solver, base, expected, h);
+  if (!beside) beside = solver.follow(base, h);
+  if (!beside) return std::nullopt;
+  const Track& there = beside->node.tracks.front();
+  const Chart chart = there.pair.chart;
+  const Eigen::Index nearest = nearest_root(there.roots, expected);
+  Complex s = there.roots[nearest];
+  ComplexVector series = root_series(there.functions, s);
+  if (const auto single =
+          separate(solver.problem(), beside->node, there, {static_cast<int>(nearest)}, solver.counts())) {
+    series = single->functions.row(0).transpose();
+    series[0] += eigenvalue_remainder(PencilAtPoint(beside->node.pencil, chart), single->pair);
+    s = series[0];
+  }
+  if (of_pair && there.pair.is_real && there.size() == 2) {
+    // The real part of a conjugate pair is its mean, smooth also where the pair is defective.
+    series = mean_series(there.series.Lambda);
+    s.real(series[0].real());
+  }
+  if (upper_member(s, chart) != s) {
+    s = std::conj(s);
+    series = series.conjugate().eval();
+  }
+  const double gap = there.roots.size() > 1 ? least_gap(there.roots) : INFINITY;
+  return NearbyMode{std::move(*beside), s, std::move(series), gap};
+}
+
+}  // namespace eigentrail

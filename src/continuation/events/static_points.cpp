@@ -1,0 +1,97 @@
+#include "continuation/events/static_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/events/event_record.hpp"
+#include "continuation/tracks/members.hpp"
+#include "eigentrail/continuation/path_step.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Of the range: an event this close to the branch point on the bridge is it.
+constexpr double at_branch_point = 1e-8;
+
+std::string note_on_branch_point(const EventSearch& search, double p) {
+  return "another equilibrium path crosses at " + place_text(search.options, p) +
+         "; the trace stays on its own";
+}
+
+/// Share of the traced parameter's force in the kernel of the singular stiffness: zero where another path
+/// crosses.
+double kernel_share(const EventSearch& search, const PathNode& node) {
+  const PathProblem& problem = search.problem();
+  return kernel_share_of_parameter(problem.model, node.path, problem.traced, node.linearization,
+                                   node.basis.T[0], search.solver.counts().evaluations);
+}
+
+/// The modes and the shape of the eigenvalue that vanishes with the tangent stiffness.
+void keep_vanishing_mode(const PathNode& node, Event& event) {
+  double least = INFINITY;
+  for (const Track& track : node.tracks) {
+    const double size = std::abs(chart_value(track.roots.mean(), track.pair.chart));
+    if (size >= least) continue;
+    least = size;
+    event.modes = sorted_modes(track.arriving);
+    Eigen::Index member = 0;
+    track.roots.cwiseAbs().minCoeff(&member);
+    keep_shape(node, track, {static_cast<int>(member)}, 0.0, event);
+  }
+}
+
+}  // namespace
+
+FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h) {
+  const PathFrame& frame = search.frame();
+  if (!frame.plane || !(heading(frame, node, -h) * heading(frame, node, h) < 0.0)) return {};
+  if (frame.on_branch_point(node)) return {};
+  FoundEvents found;
+  Event event;
+  const bool is_fold = kernel_share(search, node) > search.thresholds().statics.branch_point_share;
+  event.kind = is_fold ? EventKind::fold : EventKind::branch_point;
+  if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
+  // p(h) is a parabola there, of which the slope at the point leads to the top.
+  event.p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node);
+  event.retrackings = 1;
+  event.node = search.node;
+  keep_vanishing_mode(node, event);
+  if (is_fold) keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
+  found.events.push_back(std::move(event));
+  return found;
+}
+
+FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
+  if (!search.frame().on_branch_point(node)) return {};
+  Event event;
+  event.kind = EventKind::branch_point;
+  event.p = search.frame().branch_point.p;
+  event.retrackings = 1;
+  event.node = search.node;
+  keep_vanishing_mode(node, event);
+  event.modes.clear();  // of this path; the other one has them, too
+  return {{std::move(event)}};
+}
+
+FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Event event) {
+  const PathProblem& problem = search.problem();
+  const PathFrame& frame = search.frame();
+  const StaticThresholds& thresholds = search.thresholds().statics;
+  const bool is_zero = std::abs(event.s) <= thresholds.zero * std::max(problem.s_ref, 1e-300);
+  const bool of_one = event.kind == EventKind::crossing && event.modes.size() == 1;
+  const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::divergence || of_one;
+  if (problem.structure.known_equilibrium || !is_zero || !may_be) return {{std::move(event)}};
+  if (frame.bridge && std::abs(event.p - frame.branch_point.p) <= at_branch_point * frame.range.length())
+    return {};
+  if (kernel_share(search, node) > thresholds.branch_point_share) return {};
+  event.kind = EventKind::branch_point;
+  event.puiseux = 0.0;
+  event.s = 0.0;
+  event.modes.clear();
+  FoundEvents found;
+  found.notes.push_back(note_on_branch_point(search, event.p));
+  found.events.push_back(std::move(event));
+  return found;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,314 @@
+#include "continuation/events/veerings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "continuation/events/complex_interpolant.hpp"
+#include "continuation/events/event_record.hpp"
+#include "continuation/events/expected_meetings.hpp"
+#include "continuation/events/walk.hpp"
+#include "continuation/tracks/members.hpp"
+#include "continuation/tracks/regrouping.hpp"
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+using ComplexSight = Sight<Complex>;
+
+/// Of the range: how well exceptional points beside the axis are located.
+constexpr double resolution_share = 1e-10;
+/// In units of the resolution: a walk that no longer comes nearer ends within this; narrower points are
+/// always walked to, since the two roots above and below the axis spoil each other's series.
+constexpr double loose = 100.0;
+/// Rounding of the widest half-width, so that a veering on the limit is one.
+constexpr double limit_rounding = 1e-9;
+/// In units of the widest half-width: how far a walk may lead, and what counts as too wide at once.
+constexpr double walks_as_far = 3.0;
+constexpr int most_rounds = 6;
+/// dp/dsigma near a fold, where a width in p becomes wide along the path, is taken no smaller than this.
+constexpr double least_speed = 1e-3;
+
+/// Half-width up to which veerings are looked for, in the coordinate along the path.
+double search_width(const EventSearch& search, const PathNode& node) {
+  const PathFrame& frame = search.frame();
+  const double range = frame.range.length();
+  const double speed = frame.plane ? std::abs(frame.speed(node)) : 1.0;
+  const double widest = search.thresholds().veering.widest * (1.0 + limit_rounding);
+  return std::min(widest * range / std::max(speed, least_speed), 2.0 * range);
+}
+
+/// Whether a series, too, has its root about where the interpolant has: its terms still fall there, and
+/// cancel.
+bool confirms_root(const ComplexVector& series, Complex root, double trusted_share) {
+  double largest = 0.0;
+  Complex term = 0.0;
+  Complex sum = 0.0;
+  Complex power = 1.0;
+  for (const Complex coefficient : series) {
+    term = coefficient * power;
+    sum += term;
+    largest = std::max(largest, std::abs(term));
+    power *= root;
+  }
+  return std::abs(term) <= trusted_share * largest && std::abs(sum) <= trusted_share * largest;
+}
+
+/// The discriminant as seen from both ends of a step of length h; an end next to where the root is expected
+/// is left out, since points will follow there.
+ComplexInterpolant discriminant_from_ends(const ExpectedMeeting& expected, double h) {
+  constexpr double next_to = 0.02;  // of the step
+  ComplexInterpolant discriminant;
+  const auto add = [&](double position, const ComplexVector& series) {
+    const bool far = std::abs(position - expected.position.real()) > next_to * std::abs(h);
+    if (series.size() > 0 && far) discriminant.add(position, series);
+  };
+  add(0.0, expected.discriminant_at_left);
+  add(h, expected.discriminant_at_right);
+  return discriminant;
+}
+
+ComplexVector sum_of_roots(const Track& track) {
+  return static_cast<double>(track.size()) * mean_series(track.series.Lambda);
+}
+
+/// Whether a block has jumped to other modes than the ones it began with: its trace does not fit their
+/// series.
+bool has_jumped(const PathProblem& problem, const std::vector<const Track*>& from, const Track& to,
+                double distance) {
+  constexpr double safety = 10.0;
+  constexpr double no_drift = 1e-6;
+  ComplexVector trace = sum_of_roots(*from.front());
+  for (std::size_t i = 1; i < from.size(); ++i) trace += sum_of_roots(*from[i]);
+  const double step = std::abs(distance);
+  if (step == 0.0) return false;
+  const Complex expected = evaluate_series(ComplexMatrix(trace.transpose()), distance)[0];
+  const Eigen::Index last = trace.size() - 1;
+  // One of the last terms alone may happen to be small.
+  const double uncertain = std::pow(step, static_cast<double>(last)) *
+                           std::max(std::abs(trace[last]), std::abs(trace[last - 1]) / step);
+  const double drift = std::abs(sum_of_roots(to)[0] - expected);
+  return drift > safety * uncertain + no_drift * std::max(std::abs(expected), problem.s_ref);
+}
+
+/// One expected veering: the two eigenvalues as one block below it, and a walk to the exceptional point.
+class VeeringWalk {
+ public:
+  VeeringWalk(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+              std::vector<int> modes)
+      : search_(search), step_(step), expected_(expected), modes_(std::move(modes)) {}
+
+  FoundEvents run();
+
+ private:
+  std::optional<PathNode> as_one_block() const;
+  std::optional<PathNode> in_its_block(const PathNode& nearer, double distance) const;
+  std::optional<PathNode> joined(const TracksAt& apart, double distance) const;
+  std::optional<PathNode> follow(const TracksAt& base, double distance) const;
+  bool look_from(double where, ComplexInterpolant& discriminant);
+  ComplexSight look(Complex root);
+  Event event_at(Complex root) const;
+  bool counts(const Event& event, Complex root) const;
+  ComplexVector discriminant_at(const PathNode& node) const {
+    return discriminant_series(node.tracks.front().series.Lambda,
+                               static_cast<Eigen::Index>(expected_.a.members.size()));
+  }
+
+  const EventSearch& search_;
+  const Step& step_;
+  const ExpectedMeeting& expected_;
+  std::vector<int> modes_;
+  std::optional<PathNode> base_;   ///< the block below where the point is expected
+  std::optional<PathNode> below_;  ///< at the last look
+  double position_ = 0.0;          ///< of that, in the coordinate along the path
+  ComplexInterpolant discriminant_;
+  double widest_ = 0.0, resolution_ = 0.0;  ///< in the coordinate along the path
+  int looks_ = 0, rounds_ = 0;
+};
+
+/// The tracks at a distance, unless one has jumped.
+std::optional<PathNode> VeeringWalk::follow(const TracksAt& base, double distance) const {
+  std::optional<SolvedPoint> there = search_.solver.follow(base, distance);
+  if (!there || has_jumped(search_.problem(), base.tracks, there->node.tracks.front(), distance))
+    return std::nullopt;
+  return std::move(there->node);
+}
+
+/// Two tracks as one block at a distance.
+std::optional<PathNode> VeeringWalk::joined(const TracksAt& apart, double distance) const {
+  Prediction prediction = search_.solver.predict(apart, distance);
+  const InvariantPair& a = prediction.pairs[0];
+  const InvariantPair& b = prediction.pairs[1];
+  InvariantPair pair = join_pairs({&a, &b}, a.is_real || b.is_real);
+  // A real one beside a pair brings the conjugate along: these do not veer.
+  if (pair.size() != a.size() + b.size()) return std::nullopt;
+  prediction.pairs = {std::move(pair)};
+  std::optional<SolvedPoint> there = search_.solver.solve(prediction, apart.node.basis.T[0]);
+  if (!there || has_jumped(search_.problem(), apart.tracks, there->node.tracks.front(), distance))
+    return std::nullopt;
+  return std::move(there->node);
+}
+
+/// Both strands belong to one block, which may have more members.
+std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double distance) const {
+  const std::size_t index = expected_.a.track;
+  std::optional<PathNode> point = follow(one_track(nearer, index), distance);
+  if (!point) return std::nullopt;
+  const std::vector<int> members = united(expected_.a.members, expected_.b.members);
+  Track& block = point->tracks.front();
+  if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
+  // In a larger block the two are told from the others where they are close to each other.
+  StrandSampler strands(*step_.left, step_.right, index, step_.h);
+  const double share = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0);
+  block.roots = in_order_of(strands(share), block.roots);
+  std::optional<Track> pair = separate(search_.problem(), *point, block, members, search_.solver.counts());
+  if (!pair) return std::nullopt;
+  point->tracks = {std::move(*pair)};
+  return point;
+}
+
+/// A point below the expected place, whose only track is the two strands as one block.
+std::optional<PathNode> VeeringWalk::as_one_block() const {
+  const Strand& a = expected_.a;
+  const Strand& b = expected_.b;
+  const bool right = expected_.position.real() / step_.h > 0.5;
+  const PathNode& nearer = right ? step_.right : *step_.left;
+  const double distance = expected_.position.real() - (right ? step_.h : 0.0);
+  if (a.track == b.track) return in_its_block(nearer, distance);
+  std::vector<Track> apart;
+  for (const Strand* strand : {&a, &b}) {
+    std::optional<Track> track = separate(search_.problem(), nearer, nearer.tracks[strand->track],
+                                          strand->members, search_.solver.counts());
+    if (!track) return std::nullopt;
+    apart.push_back(std::move(*track));
+  }
+  return joined({nearer, {&apart[0], &apart[1]}}, distance);
+}
+
+/// Solves the block at a place, and adds its discriminant to an interpolant.
+bool VeeringWalk::look_from(double where, ComplexInterpolant& discriminant) {
+  const double distance = where - expected_.position.real();
+  position_ = where;
+  below_ = distance == 0.0 ? base_ : follow(all_tracks(*base_), distance);
+  ++looks_;
+  if (!below_) return false;
+  discriminant.add(where, discriminant_at(*below_));
+  return true;
+}
+
+/// The exceptional point as seen from the point below `root` and, from the second round on, from points on
+/// both sides as far away as the root is off the axis.
+ComplexSight VeeringWalk::look(Complex root) {
+  const double width = std::max(std::abs(root.imag()), 1e-6 * widest_);
+  ComplexInterpolant around;
+  const auto look_beside = [&](double offset) {
+    return look_from(root.real() + offset, around) || look_from(root.real() + 0.5 * offset, around);
+  };
+  const bool seen = rounds_ > 0 && look_beside(-width) && look_beside(width);
+  ++rounds_;
+  discriminant_ = seen ? around : discriminant_from_ends(expected_, step_.h);
+  if (!look_from(root.real(), discriminant_)) return {ComplexSight::Kind::failed};
+  const Complex refined = discriminant_.root_near(root, width);
+  const Complex move = refined - root;
+  if (!(std::abs(refined.imag()) < widest_ && std::abs(move) < walks_as_far * widest_))
+    return {ComplexSight::Kind::failed};
+  const double error = discriminant_.error_of_root(refined, resolution_);
+  const double speed = search_.frame().speed(*step_.left);
+  const Complex p(step_.left->p + refined.real() * speed, refined.imag() * speed);
+  // Another way to one that is recorded, or one that is too wide.
+  if (search_.log.knows_veering(p, modes_)) return {ComplexSight::Kind::absent};
+  if (std::abs(refined.imag()) - error > 0.5 * widest_) return {ComplexSight::Kind::absent};
+  const bool narrow = std::abs(refined.imag()) <= loose * resolution_;
+  const bool settled = !narrow && error <= resolution_;
+  return {settled ? ComplexSight::Kind::settled : ComplexSight::Kind::seen, move};
+}
+
+Event VeeringWalk::event_at(Complex root) const {
+  const double offset = root.real() - position_;
+  const double speed = search_.frame().speed(*below_);
+  const Track& there = below_->tracks.front();
+  Event event;
+  event.kind = EventKind::veering;
+  event.half_width = std::abs(root.imag() * speed);
+  event.p = below_->p + offset * speed;
+  const ComplexMatrix mean = mean_series(there.series.Lambda).transpose();
+  event.s = chart_value(evaluate_series(mean, offset)[0], there.pair.chart);
+  event.modes = modes_;
+  event.node = search_.node;
+  event.retrackings = looks_;
+  return event;
+}
+
+/// Another exceptional point as near as this one spoils the series: then nothing can be told.
+bool VeeringWalk::counts(const Event& event, Complex root) const {
+  const VeeringThresholds& thresholds = search_.thresholds().veering;
+  const double widest = thresholds.widest * (1.0 + limit_rounding) * search_.frame().range.length();
+  return !discriminant_.is_double_root(root, thresholds.trusted_share) &&
+         confirms_root(discriminant_at(*below_), root - position_, thresholds.trusted_share) &&
+         event.half_width <= widest && event.half_width >= resolution_;
+}
+
+FoundEvents VeeringWalk::run() {
+  base_ = as_one_block();
+  if (!base_) return {};
+  const double range = search_.frame().range.length();
+  const double speed = std::abs(search_.frame().speed(*base_));
+  widest_ = 2.0 * search_.thresholds().veering.widest * (1.0 + limit_rounding) * range / speed;
+  resolution_ = resolution_share * range / speed;
+  WalkRules rules;
+  rules.resolution = resolution_;
+  rules.rounding = loose * resolution_;
+  rules.free_moves = 2;
+  rules.looks = most_rounds;
+  const auto found = walk(expected_.position, rules, [this](Complex root) { return look(root); });
+  if (found.end != WalkEnd::settled) return {};
+  const Complex root = found.position + found.move;
+  Event event = event_at(root);
+  if (!counts(event, root)) return {{}, {std::move(event)}};
+  const Track& there = below_->tracks.front();
+  std::vector<int> members(there.modes.size());
+  std::iota(members.begin(), members.end(), 0);
+  keep_shape(*below_, there, members, root.real() - position_, event);
+  RunCounts& counts = search_.solver.counts();
+  const auto stays = [](const Track&, const PathNode&, const Track&) {
+    return std::numeric_limits<double>::quiet_NaN();  // the point itself is complex
+  };
+  keep_sensitivities(search_.problem(), solved_point(search_.problem(), *below_, counts), *below_, there,
+                     members, stays, event, counts);
+  return {{std::move(event)}};
+}
+
+/// The modes of both strands of an expected meeting.
+std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected) {
+  std::vector<int> modes;
+  for (const Strand* strand : {&expected.a, &expected.b}) {
+    for (const int i : strand->members)
+      modes.push_back(node.tracks[strand->track].modes[static_cast<std::size_t>(i)]);
+  }
+  return sorted_modes(modes);
+}
+
+}  // namespace
+
+FoundEvents find_veerings(const EventSearch& search, const Step& step) {
+  const double speed = search.frame().speed(*step.left);
+  FoundEvents found;
+  const EventLog log{search.log.events, search.log.dismissed, search.log.range, search.log.thresholds,
+                     &found};
+  const EventSearch own{search.solver, search.options, search.criteria, log, search.node};
+  for (const ExpectedMeeting& expected :
+       expected_beside(*step.left, step.right, step.h, search_width(search, *step.left))) {
+    const std::vector<int> modes = modes_of(*step.left, expected);
+    const Complex p(step.left->p + expected.position.real() * speed, expected.position.imag() * speed);
+    if (modes.size() < 2 || log.knows_veering(p, modes)) continue;
+    append(VeeringWalk(own, step, expected, modes).run(), found);
+  }
+  return found;
+}
+
+}  // namespace eigentrail

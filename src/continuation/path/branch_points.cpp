@@ -1,0 +1,244 @@
+#include "continuation/path/branch_points.hpp"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+
+#include "core/matrix_series.hpp"
+#include "core/positive_or_one.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Share of a step inside its ends at which the test function is looked at: on the end itself it may be zero.
+constexpr double within_step = 1e-3;
+/// Share of a step behind its end up to which a branch point is bridged, too: the equilibrium's equations are
+/// nearly singular there already.
+constexpr double look_ahead = 0.3;
+/// A stiffness whose reciprocal condition is smaller than this has a determinant without a sign: rounding in
+/// the factorization, with a margin for the projection.
+constexpr double regular = 1e-11;
+/// Half the length of the first bridge that is tried, as a share of the step. It shrinks until the bridge is
+/// good; a longer one is more accurate at its ends, a shorter one in the middle.
+constexpr double first_bridge = 0.25;
+constexpr double shrinking = 0.6;  ///< of the length of a bridge from one try to the next
+constexpr int most_lengths = 8;    ///< the last one is 0.03 of the first
+constexpr int most_tries = 3;      ///< of bridges from one point
+/// A bridge that has been found is replaced only by one so much better: shorter ones follow at once.
+constexpr double much_better = 0.3;
+/// The root may move by this many half lengths of a bridge; farther away another point was meant.
+constexpr double farthest_root = 10.0;
+
+/// Sign and logarithm of a determinant; of large matrices the number itself may overflow.
+struct Determinant {
+  double sign = 0.0;  ///< 0: singular up to rounding
+  double logarithm = 0.0;
+
+  /// `scale` is the magnitude of what the matrix is the projection of.
+  Determinant(const Matrix& matrix, double scale) {
+    const Eigen::PartialPivLU<Matrix> lu(matrix);
+    const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
+    if (!(lu.rcond() * norm > regular * scale)) return;
+    sign = lu.permutationP().determinant();
+    for (const double pivot : lu.matrixLU().diagonal()) {
+      sign *= pivot > 0.0 ? 1.0 : -1.0;
+      logarithm += std::log(std::abs(pivot));
+    }
+  }
+  double relative_to(const Determinant& other) const { return sign * std::exp(logarithm - other.logarithm); }
+};
+
+double slope(const VectorSeries& series, Eigen::Index row, double h) {
+  double value = 0.0;
+  for (Eigen::Index k = series.cols() - 1; k > 0; --k)
+    value = value * h + static_cast<double>(k) * series(row, k);
+  return value;
+}
+
+/// Where a function that is a at 0 and b at 1 is zero, if it is straight.
+double straight_root(double a, double b) {
+  return a / (a - b);
+}
+
+/// Where a branch point is expected between `node` and a little behind `next`, as a distance from the node.
+std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode& node, double h,
+                                          const PathNode* next) {
+  const int traced = frame.range.traced;
+  const auto test = [&](const PathNode& there, double distance, double& divisor) {
+    divisor = frame.plane ? slope(there.path.parameters, traced, distance) : 1.0;
+    return Determinant(evaluate_series(there.pencil.K, distance), there.linearization.K[0].one_norm());
+  };
+  double heading = 1.0;
+  const Determinant begin = test(node, within_step * h, heading);
+  if (begin.sign == 0.0) return std::nullopt;
+  std::array<std::pair<const PathNode*, double>, 4> places{
+      {{&node, 0.4}, {&node, 0.7}, {&node, 1.0}, {&node, 1.0 + look_ahead}}};
+  if (next != nullptr) places = {{{next, -within_step}, {next, look_ahead}}};
+  double left = within_step;
+  double at_left = 1.0 / heading;
+  for (const auto& [there, distance] : places) {
+    if (there == nullptr) break;
+    double divisor = 1.0;
+    const Determinant value = test(*there, distance * h, divisor);
+    const double at_right = value.relative_to(begin) * begin.sign / divisor;
+    const double right = there == &node ? distance : 1.0 + distance;
+    if (at_left * at_right < 0.0) return h * (left + (right - left) * straight_root(at_left, at_right));
+    left = right;
+    at_left = at_right;
+  }
+  return std::nullopt;
+}
+
+/// Where p turns on a bridge, by halving dp/dsigma between its ends.
+double turning_point(const Bridge& bridge, int traced, const SidePoint& left, const SidePoint& right) {
+  constexpr int halvings = 80;  // more than a double has digits
+  double a = left.coordinate;
+  double b = right.coordinate;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (a + b);
+    (bridge.path(middle, 1).parameters(traced, 1) * left.heading > 0.0 ? a : b) = middle;
+  }
+  return a;
+}
+
+/// The branch point on a bridge. Where p turns on it dp/dsigma has a simple root there and det K a double
+/// one; elsewhere det K has a simple one.
+double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& bridge, const SidePoint& left,
+                 const SidePoint& right, double guess) {
+  constexpr int most_secants = 20;
+  constexpr double same_turn = 0.2;  // of the bridge: a turn farther away is no pitchfork
+  if (solver.frame().plane && left.heading * right.heading < 0.0) {
+    const double turn = turning_point(bridge, solver.problem().traced, left, right);
+    if (std::abs(turn - guess) < same_turn * std::abs(bridge.end() - bridge.begin())) return turn;
+  }
+  const auto stiffness = [&](double at) {
+    const PathPoint point = reduce_on(solver.problem(), bridge.path(at, 1), basis, solver.counts());
+    if (point.status != PointStatus::computed) return 0.0;
+    const Determinant there(point.pencil.K[0], 0.0);
+    return there.sign * std::exp(there.logarithm - left.logarithm);
+  };
+  double a = left.coordinate;
+  double at_a = left.sign;
+  double b = guess;
+  double at_b = stiffness(b);
+  for (int i = 0; i < most_secants && at_b != 0.0 && at_b != at_a; ++i) {
+    const double next = b - at_b * (b - a) / (at_b - at_a);
+    a = b;
+    at_a = at_b;
+    b = next;
+    if (!bridge.covers(b) || std::abs(b - a) <= 1e-15 * std::abs(b)) break;
+    at_b = stiffness(b);
+  }
+  return b;
+}
+
+/// The path at a distance from a point.
+std::optional<SidePoint> side_point_at(const PointSolver& solver, const PathNode& node, double distance) {
+  return side_point(solver, solver.reduce(node, distance), node.pencil.size());
+}
+
+/// A path that begins or ends in its branch point does so there, not beside it by a rounding.
+void settle_on_ends(PathFrame& frame) {
+  for (const double end : {frame.range.from, frame.range.to}) {
+    const double scale = std::max(frame.range.length(), std::abs(end));
+    if (std::abs(frame.branch_point.p - end) > same_coordinate * scale) continue;
+    frame.branch_point.p = end;
+    if (!frame.plane) frame.branch_point.coordinate = end;
+  }
+}
+
+/// Builds a bridge in the frame over the branch point that is expected at a distance from `node`. Bridges
+/// become shorter until one is good, or none gets better.
+bool build_bridge(const PointSolver& solver, PathFrame& frame, const PathNode& node, double guess, double h) {
+  const int traced = frame.range.traced;
+  const double origin = frame.coordinate(node);
+  double half = first_bridge * h;
+  double best = fair_bridge;
+  std::optional<Bridge> found;
+  double located = 0.0;
+  for (int i = 0; i < most_lengths && best > good_bridge; ++i, half *= shrinking) {
+    const std::optional<SidePoint> left = side_point_at(solver, node, guess - half);
+    const std::optional<SidePoint> right = side_point_at(solver, node, guess + half);
+    if (!left || !right) continue;
+    const double ratio = right->sign * std::exp(right->logarithm - left->logarithm) / left->sign *
+                         left->heading / right->heading;
+    const double root = guess + half * (2.0 * straight_root(1.0, ratio) - 1.0);
+    if (!std::isfinite(root) || std::abs(root - guess) > farthest_root * std::abs(half)) break;
+    guess = root;
+    if (!(ratio < 0.0)) continue;
+    const Bridge bridge(left->coordinate, right->coordinate, left->path, right->path, traced,
+                        frame.plane.has_value());
+    const double error = bridge.error(bridge_sizes(frame, node));
+    if (error > best || (found && error > much_better * best)) continue;
+    const double place = locate_on(solver, node.basis.T[0], bridge, *left, *right, origin + guess);
+    if (!bridge.covers(place)) continue;
+    found = bridge;
+    located = place;
+    best = error;
+    guess = located - origin;
+  }
+  if (!found) return false;
+  frame.bridge = found;
+  frame.branch_point = {located, found->path(located, 1).parameters(traced, 0)};
+  settle_on_ends(frame);
+  return true;
+}
+
+}  // namespace
+
+bool equilibrium_moves(const PathProblem& problem) {
+  return !problem.structure.fixed_equilibrium && !problem.structure.known_equilibrium;
+}
+
+Bridge::Sizes bridge_sizes(const PathFrame& frame, const PathNode& node) {
+  const PathScales scales = frame.scales();
+  const double force = positive_or_one(node.linearization.K[0].largest_entry() * scales.x);
+  const Vector rows = node.linearization.A[0].row_norms();
+  return {scales.x, rows.size() > 0 ? force / positive_or_one(rows.maxCoeff()) : 1.0, scales.p};
+}
+
+std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& point,
+                                    Eigen::Index n_freedoms) {
+  if (point.status != PointStatus::computed || point.pencil.size() != n_freedoms) return std::nullopt;
+  SidePoint side;
+  if (equilibrium_series(solver.problem(), point, max_order, side.path, solver.counts())) return std::nullopt;
+  if (!side.path.x.allFinite() || !side.path.lambda.allFinite()) return std::nullopt;
+  side.coordinate = point.plane ? (*point.plane)(point.equilibrium.x, point.p) : point.p;
+  side.heading = coefficient(side.path.parameters, solver.problem().traced, 1);
+  const Determinant stiffness(point.pencil.K[0], point.equilibrium.linearization.K[0].one_norm());
+  side.sign = stiffness.sign;
+  side.logarithm = stiffness.logarithm;
+  return side;
+}
+
+bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const PathNode& node, double h,
+                         const PathNode* next, int& tries) {
+  if (!equilibrium_moves(solver.problem()) || node.pencil.size() == 0 || tries >= most_tries) return false;
+  // On a bridge nothing has to be looked for.
+  const double here = frame.coordinate(node);
+  if (frame.bridge && (frame.bridge->covers(here) || frame.bridge->covers(here + h))) return false;
+  const StageTimer timer(solver.counts().events_seconds);
+  const std::optional<double> expected = expect_branch_point(frame, node, h, next);
+  if (!expected) return false;
+  ++tries;
+  return build_bridge(solver, frame, node, *expected, h);
+}
+
+std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point) {
+  const PathProblem& problem = solver.problem();
+  if (!equilibrium_moves(problem) || point.pencil.size() == 0) return std::nullopt;
+  const double scale = point.equilibrium.linearization.K[0].one_norm();
+  if (Determinant(point.pencil.K[0], scale).sign != 0.0) return std::nullopt;
+  const std::optional<PathNode> node = differentiate_point(problem, point, solver.counts());
+  if (!node) return std::nullopt;
+  frame.largest_position = std::max(frame.largest_position, node->path.x.col(0).norm());
+  const double from = frame.range.from;
+  const double first = first_bridge * frame.direction * frame.range.length();
+  if (!build_bridge(solver, frame, *node, 0.0, first) || !frame.on_branch_point(from)) {
+    frame.bridge.reset();
+    return std::nullopt;
+  }
+  return reduce_on(problem, frame.bridge->path(from, problem.order + 1), point.basis.T[0], solver.counts());
+}
+
+}  // namespace eigentrail

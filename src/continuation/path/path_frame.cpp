@@ -1,0 +1,77 @@
+#include "continuation/path/path_frame.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace eigentrail {
+namespace {
+
+/// Cosine between plane and path below which the plane is renewed: at 45 degrees a step along the normal is
+/// still 0.7 of one along the path, while a plane that is kept costs nothing.
+constexpr double least_cosine = 0.7;
+
+}  // namespace
+
+bool PathFrame::on_branch_point(double at) const {
+  return bridge && std::abs(at - branch_point.coordinate) <= same_coordinate * coordinate_range();
+}
+
+Path PathFrame::path_on_bridge(double at, int order) const {
+  const bool at_branch_point = on_branch_point(at);
+  Path path = bridge->path(at_branch_point ? branch_point.coordinate : at, order);
+  if (at_branch_point) path.parameters(range.traced, 0) = branch_point.p;
+  return path;
+}
+
+double remaining(const PathFrame& frame, const PathNode& node) {
+  double length = std::numeric_limits<double>::max();
+  if (frame.bridge && !frame.on_branch_point(node)) {
+    const double ahead = frame.direction * (frame.branch_point.coordinate - frame.coordinate(node));
+    if (ahead >= 0.0) length = ahead;
+  }
+  return frame.plane ? length : std::min(length, std::abs(frame.range.to - node.p));
+}
+
+bool reached_end(const PathFrame& frame, const PathNode& node) {
+  const PathRange& range = frame.range;
+  if (!frame.plane) return node.p == range.to;
+  const bool outward = heading(frame, node, 1.0) * (range.to - range.from) > 0.0;
+  return node.p == range.to || (node.p == range.from && !outward);
+}
+
+double fold_distance(const PathFrame& frame, const PathNode& node) {
+  const auto& p = node.path.parameters;
+  return -coefficient(p, frame.range.traced, 1) / (2.0 * coefficient(p, frame.range.traced, 2));
+}
+
+double heading(const PathFrame& frame, const PathNode& node, double towards) {
+  const bool on_it = std::abs(fold_distance(frame, node)) <= on_fold;
+  return on_it ? 2.0 * coefficient(node.path.parameters, frame.range.traced, 2) * towards : frame.speed(node);
+}
+
+std::optional<double> turn_to_plane(const PathProblem& problem, PathFrame& frame, PathNode& node, double h) {
+  if (frame.plane || problem.structure.fixed_equilibrium || problem.structure.known_equilibrium)
+    return std::nullopt;
+  if (frame.on_bridge(node)) return std::nullopt;
+  const PathPlane plane = plane_along(node.path, problem.traced, frame.scales(), frame.direction);
+  Path turned = node.path;
+  reparametrize(turned, plane, problem.traced);
+  if (!falls_faster(turned, node.path, problem.traced, frame.scales(), h)) return std::nullopt;
+  frame.plane = plane;
+  frame.bridge.reset();
+  frame.direction = 1.0;
+  reparametrize(node, plane, problem.traced);
+  return std::abs(h / coefficient(turned.parameters, problem.traced, 1));
+}
+
+bool renew_plane(PathFrame& frame, PathNode& node) {
+  const int traced = frame.range.traced;
+  if (!frame.plane || slant(*frame.plane, node.path, traced, frame.scales()) > least_cosine) return false;
+  if (frame.on_bridge(node)) return false;
+  frame.bridge.reset();
+  frame.plane = plane_along(node.path, traced, frame.scales(), 1.0);
+  reparametrize(node, *frame.plane, traced);
+  return true;
+}
+
+}  // namespace eigentrail

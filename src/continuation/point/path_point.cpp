@@ -1,0 +1,236 @@
+#include "eigentrail/continuation/path_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "continuation/point/point_modes.hpp"
+
+namespace eigentrail {
+namespace {
+
+void add(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part) {
+  sum.resize(std::max(sum.size(), part.size()), 0);
+  for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
+}
+
+void size_counters(const PathProblem& problem, RunCounts& counts) {
+  if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
+}
+
+Equilibrium equilibrium_at(const PathProblem& problem, double& p, const EquilibriumGuess& guess,
+                           const std::optional<PathPlane>& plane, RunCounts& counts) {
+  const StageTimer timer(counts.equilibrium_seconds);
+  const Vector parameters = parameters_at(problem, p);
+  // A fixed equilibrium is solved once, at the start, and kept.
+  if (problem.structure.known_equilibrium || (problem.structure.fixed_equilibrium && guess.solved)) {
+    const Eigen::Index m = problem.model.n_constraints();
+    const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
+    return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
+  }
+  // On the path a failure tells of a fold or a branch point; what hangs at rest there may be another path.
+  SteadyOptions steady = problem.steady;
+  steady.relax = steady.relax && !guess.solved;
+  Equilibrium result =
+      plane ? solve_equilibrium_on(*plane, problem.model, parameters, problem.traced, guess.x, guess.lambda,
+                                   problem.steady, p, counts.evaluations)
+            : solve_equilibrium(problem.model, parameters, guess.x, guess.lambda, steady, counts.evaluations);
+  counts.equilibrium_iterations += static_cast<std::uint64_t>(result.report.iterations);
+  counts.equilibrium_factorizations += static_cast<std::uint64_t>(result.report.factorizations);
+  return result;
+}
+
+/// All parameters when one of them moves away from its value at the point.
+VectorSeries straight_series(const PathProblem& problem, const PathPoint& point, int parameter) {
+  VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
+  parameters.col(0) = parameters_at(problem, point.p);
+  parameters(parameter, 1) = 1.0;
+  return parameters;
+}
+
+/// Whether the equilibrium stays where it is along a series of parameters.
+bool keeps_equilibrium(const Model& model, const VectorSeries& parameters) {
+  for (Eigen::Index i = 0; i < parameters.rows(); ++i) {
+    const bool moves = !parameters.row(i).tail(parameters.cols() - 1).isZero(0.0);
+    if (moves && !model.structure(static_cast<int>(i)).fixed_equilibrium) return false;
+  }
+  return true;
+}
+
+/// Series of the equilibrium along `parameters`.
+EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
+                             const VectorSeries& parameters, int order, Path& path, RunCounts& counts) {
+  if (keeps_equilibrium(problem.model, parameters)) {
+    path = {parameters, point.equilibrium.x, point.equilibrium.lambda};
+    return {};
+  }
+  return differentiate_equilibrium(problem.model, point.equilibrium, parameters, order, path,
+                                   counts.evaluations);
+}
+
+/// Basis and pencil at the point's equilibrium, if there is one.
+void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
+                  RunCounts& counts) {
+  if (point.equilibrium.status != SteadyStatus::converged) {
+    point.status = PointStatus::no_equilibrium;
+    point.message = point.equilibrium.report.message;
+    return;
+  }
+  const StageTimer timer(counts.reduction_seconds);
+  point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
+  if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
+  point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
+}
+
+bool is_finite(const Track& track) {
+  return track.functions.allFinite() && std::all_of(track.series.Z.begin(), track.series.Z.end(),
+                                                    [](const auto& Z) { return Z.allFinite(); });
+}
+
+}  // namespace
+
+RunCounts& RunCounts::operator+=(const RunCounts& other) {
+  // Taken apart, so that a member that is added and forgotten here does not compile.
+  const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases,
+               equilibrium, reduction, correction, differentiation, matching, certificate, event, output] =
+      other;
+  add(evaluations.residual, evaluations_.residual);
+  add(evaluations.linearization, evaluations_.linearization);
+  modes += modes_;
+  equilibrium_iterations += iterations;
+  equilibrium_factorizations += factorizations;
+  spectra += spectra_;
+  event_factorizations += events;
+  certificate_factorizations += certificates;
+  certificate_bases += bases;
+  equilibrium_seconds += equilibrium;
+  reduction_seconds += reduction;
+  modes_seconds += correction;
+  differentiation_seconds += differentiation;
+  matching_seconds += matching;
+  certificate_seconds += certificate;
+  events_seconds += event;
+  output_seconds += output;
+  return *this;
+}
+
+ComplexMatrix PathPoint::shapes(std::size_t pair) const {
+  return basis.is_identity ? pairs[pair].Z : ComplexMatrix(basis.T[0].cast<Complex>() * pairs[pair].Z);
+}
+
+PathProblem problem_along(const Model& model, const std::string& parameter) {
+  PathProblem problem{model, model.description().parameters.index(parameter).value()};
+  problem.parameters = model.description().parameters.declared_values();
+  problem.structure = model.structure(problem.traced);
+  return problem;
+}
+
+Vector parameters_at(const PathProblem& problem, double p) {
+  Vector parameters = problem.parameters;
+  parameters[problem.traced] = p;
+  return parameters;
+}
+
+PathPoint reduce_at(const PathProblem& problem, double p, const EquilibriumGuess& guess,
+                    const Matrix& previous_basis, RunCounts& counts, const std::optional<PathPlane>& plane) {
+  size_counters(problem, counts);
+  PathPoint point;
+  point.plane = plane;
+  point.equilibrium = equilibrium_at(problem, p, guess, plane, counts);
+  point.p = p;
+  reduce_point(problem, previous_basis, point, counts);
+  return point;
+}
+
+PathPoint reduce_on(const PathProblem& problem, const Path& known, const Matrix& previous_basis,
+                    RunCounts& counts) {
+  size_counters(problem, counts);
+  PathPoint point;
+  point.known = known;
+  point.p = known.parameters(problem.traced, 0);
+  point.equilibrium = keep_equilibrium(problem.model, known.parameters.col(0), known.x.col(0),
+                                       known.lambda.col(0), counts.evaluations);
+  reduce_point(problem, previous_basis, point, counts);
+  return point;
+}
+
+EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& point, int order, Path& path,
+                                   RunCounts& counts) {
+  if (point.known) {
+    path = *point.known;
+    return {};
+  }
+  if (!point.plane) {
+    const VectorSeries parameters = straight_series(problem, point, problem.traced);
+    return series_along(problem, point, parameters, order, path, counts);
+  }
+  return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
+                                      parameters_at(problem, point.p), problem.traced, order, path,
+                                      counts.evaluations);
+}
+
+PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
+                        const Matrix& previous_basis, RunCounts& counts) {
+  PathPoint point = prediction.known ? reduce_on(problem, *prediction.known, previous_basis, counts)
+                                     : reduce_at(problem, prediction.p, prediction.equilibrium,
+                                                 previous_basis, counts, prediction.plane);
+  if (point.status != PointStatus::computed) return point;
+  if (point.pencil.size() != previous_basis.cols()) {
+    point.status = PointStatus::no_equilibrium;
+    point.message = "the number of independent constraints changed";
+    return point;
+  }
+  correct_modes(problem, prediction, point, counts);
+  return point;
+}
+
+namespace {
+
+/// What follows from the path of a node that has one.
+std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
+                                            RunCounts& counts) {
+  const int order = problem.order + 1;
+  node.p = point.p;
+  if (problem.model.linearize(node.path, order, node.linearization, counts.evaluations)) return std::nullopt;
+  node.basis = point.basis;
+  differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
+  node.pencil = reduce(node.linearization, node.basis, order);
+  node.tracks = tracks_of(problem, point, node, counts);
+  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
+  return node;
+}
+
+}  // namespace
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            RunCounts& counts) {
+  size_counters(problem, counts);
+  const StageTimer timer(counts.differentiation_seconds);
+  PathNode node;
+  if (equilibrium_series(problem, point, problem.order + 1, node.path, counts)) return std::nullopt;
+  return differentiate_along(problem, point, std::move(node), counts);
+}
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
+                                            const VectorSeries& parameters, RunCounts& counts) {
+  size_counters(problem, counts);
+  const StageTimer timer(counts.differentiation_seconds);
+  PathNode node;
+  if (series_along(problem, point, parameters, problem.order + 1, node.path, counts)) return std::nullopt;
+  return differentiate_along(problem, point, std::move(node), counts);
+}
+
+std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,
+                                            RunCounts& counts) {
+  const auto& parameters = problem.model.description().parameters;
+  if (parameters[static_cast<std::size_t>(parameter)].definition) {
+    throw std::invalid_argument("differentiate_point: '" +
+                                parameters.names()[static_cast<std::size_t>(parameter)] +
+                                "' is defined by other parameters; differentiate along one of those");
+  }
+  if (parameter == problem.traced) return differentiate_point(problem, point, counts);
+  return differentiate_point(problem, point, straight_series(problem, point, parameter), counts);
+}
+
+}  // namespace eigentrail

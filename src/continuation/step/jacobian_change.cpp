@@ -1,0 +1,137 @@
+#include "continuation/step/jacobian_change.hpp"
+
+#include "core/products.hpp"
+
+namespace eigentrail {
+namespace {
+
+ComplexMatrix slope_of(const PairAtPlace& place, const ComplexMatrix& MZ) {
+  return MZ.lazyProduct(place.Lambda) + multiply(place.pencil.C, place.Z);
+}
+
+}  // namespace
+
+/// Block (i, j) of size n x n belongs to columns i of the residual and j of Z: it is Lambda^2(j, i) M +
+/// Lambda(j, i) C, and K where i is j; the others likewise.
+ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale) {
+  const auto& [pencil, Z, Lambda] = at;
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  const ComplexMatrix L2 = Lambda * Lambda;
+  const ComplexMatrix MZ = multiply(pencil.M, Z);
+  const ComplexMatrix slope = slope_of(at, MZ);
+  const ComplexMatrix W0 = W.topRows(n).adjoint();
+  const ComplexMatrix W1 = W.bottomRows(n).adjoint();
+  const ComplexMatrix W1Z = W1 * Z;
+  ComplexMatrix J(n * k + k * k, n * k + k * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Complex l = Lambda(j, i);
+      const double own = i == j ? 1.0 : 0.0;
+      auto P = J.block(i * n, j * n, n, n);
+      P.real() = L2(j, i).real() * pencil.M + l.real() * pencil.C + own * pencil.K;
+      P.imag() = L2(j, i).imag() * pencil.M + l.imag() * pencil.C;
+      J.block(i * n, n * k + j * k, n, k) = scale * (l * MZ + own * slope);
+      J.block(n * k + i * k, j * n, k, n) = own * W0 + l * W1;
+      J.block(n * k + i * k, n * k + j * k, k, k) = scale * own * W1Z;
+    }
+  }
+  return J;
+}
+
+JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1,
+                               double scale)
+    : from_(from),
+      to_(to),
+      W1_(W1),
+      scale_(scale),
+      MZ_from_(multiply(from.pencil.M, from.Z)),
+      MZ_to_(multiply(to.pencil.M, to.Z)),
+      Z_(to.Z - from.Z),
+      Lambda_(to.Lambda - from.Lambda),
+      slope_(slope_of(to, MZ_to_) - slope_of(from, MZ_from_)) {
+  if (Z_.cols() == 1) {
+    set_pencil();
+  } else {
+    set_terms();
+  }
+}
+
+void JacobianChange::set_pencil() {
+  const PencilAtPoint& a = from_.pencil;
+  const PencilAtPoint& b = to_.pencil;
+  const Complex s_a = from_.Lambda(0, 0);
+  const Complex s_b = to_.Lambda(0, 0);
+  const Complex square_a = s_a * s_a;
+  const Complex square_b = s_b * s_b;
+  P_.resize(Z_.rows(), Z_.rows());
+  P_.real() = square_b.real() * b.M - square_a.real() * a.M + s_b.real() * b.C - s_a.real() * a.C + b.K - a.K;
+  P_.imag() = square_b.imag() * b.M - square_a.imag() * a.M + s_b.imag() * b.C - s_a.imag() * a.C;
+}
+
+void JacobianChange::set_terms() {
+  std::vector<const Matrix*> terms;
+  const auto add = [&](const Matrix& B, ComplexMatrix L) {
+    terms.push_back(&B);
+    L_.push_back(std::move(L));
+  };
+  const auto add_change = [&](const Matrix& from, const ComplexMatrix& L_from, const Matrix& to,
+                              const ComplexMatrix& L_to) {
+    if (from == to) return add(to, L_to - L_from);
+    add(to, L_to);
+    add(from, -L_from);
+  };
+  add_change(from_.pencil.M, from_.Lambda * from_.Lambda, to_.pencil.M, to_.Lambda * to_.Lambda);
+  add_change(from_.pencil.C, from_.Lambda, to_.pencil.C, to_.Lambda);
+  const Matrix K = to_.pencil.K - from_.pencil.K;
+  add(K, ComplexMatrix::Identity(Z_.cols(), Z_.cols()));
+  const Eigen::Index n = Z_.rows();
+  B_.resize(n * static_cast<Eigen::Index>(terms.size()), n);
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    B_.middleRows(static_cast<Eigen::Index>(i) * n, n) = *terms[i];
+}
+
+ComplexVector JacobianChange::times(const ComplexVector& v) const {
+  const Eigen::Index n = Z_.rows();
+  const Eigen::Index k = Z_.cols();
+  const ComplexMatrix X = v.head(n * k).reshaped(n, k);
+  const ComplexMatrix Y = scale_ * v.tail(k * k).reshaped(k, k);
+  ComplexMatrix R =
+      MZ_to_.lazyProduct(Y * to_.Lambda) - MZ_from_.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
+  ComplexMatrix N = ComplexMatrix::Zero(k, k);
+  if (k == 1) {  // W1 = 0
+    R += product(P_, ComplexVector(X));
+  } else {
+    const ComplexMatrix BX = multiply(B_, X);
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      R += BX.middleRows(static_cast<Eigen::Index>(i) * n, n).lazyProduct(L_[i]);
+    N = W1_.adjoint() * (X.lazyProduct(Lambda_) + Z_.lazyProduct(Y));
+  }
+  ComplexVector result(v.size());
+  result << R.reshaped(), N.reshaped();
+  return result;
+}
+
+ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
+  const Eigen::Index n = Z_.rows();
+  const Eigen::Index k = Z_.cols();
+  const ComplexMatrix R = v.head(n * k).reshaped(n, k);
+  ComplexMatrix Y = (MZ_to_.adjoint() * R) * to_.Lambda.adjoint() -
+                    (MZ_from_.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R;
+  ComplexMatrix X;
+  if (k == 1) {
+    X = adjoint_product(P_, ComplexVector(R));
+  } else {
+    const ComplexMatrix W1N = W1_.lazyProduct(v.tail(k * k).reshaped(k, k));
+    ComplexMatrix RL(B_.rows(), k);
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      RL.middleRows(static_cast<Eigen::Index>(i) * n, n) = R.lazyProduct(L_[i].adjoint());
+    X = transposed_multiply(B_, RL) + W1N.lazyProduct(Lambda_.adjoint());
+    Y += Z_.adjoint() * W1N;
+  }
+  ComplexVector result(v.size());
+  result << X.reshaped(), scale_ * Y.reshaped();
+  return result;
+}
+
+}  // namespace eigentrail

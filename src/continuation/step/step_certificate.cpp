@@ -1,0 +1,61 @@
+#include "continuation/step/step_certificate.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "continuation/step/modal_certificate.hpp"
+#include "core/parallel.hpp"
+#include "eigentrail/continuation/certificate.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Distance of a track from the nearest other known eigenvalue of its chart.
+double gap_of(const PathNode& node, std::size_t index) {
+  const Track& track = node.tracks[index];
+  double gap = INFINITY;
+  for (const Complex root : track.roots) {
+    if (!track.pair.is_real) gap = std::min(gap, 2.0 * std::abs(root.imag()));
+    for (std::size_t j = 0; j < node.tracks.size(); ++j) {
+      const Track& other = node.tracks[j];
+      if (j == index || other.pair.chart != track.pair.chart) continue;
+      for (const Complex s : other.roots) gap = std::min(gap, std::abs(s - root));
+    }
+  }
+  return gap;
+}
+
+}  // namespace
+
+std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all_count, RunCounts& counts) {
+  const StageTimer timer(counts.certificate_seconds);
+  const PathNode& left = *step.left;
+  const std::size_t count = left.tracks.size();
+  const StepPencil pencil(left, step.right, step.h);
+  std::vector<bool> certified(count, false);
+  if (problem.route != ModeRoute::one_by_one) certified = certify_all(pencil, step.right, counts);
+  // With several threads, tracks behind the first open one may have been looked at in vain: neither their
+  // certificates nor their work count, so that results do not depend on the number of threads.
+  std::vector<RunCounts> own(count);
+  std::vector<char> closed(certified.begin(), certified.end());
+  std::atomic<std::size_t> first_open{count};
+  const auto look = [&](std::size_t i) {
+    if (closed[i] != 0 || (!all_count && i > first_open)) return;
+    closed[i] = certify_step(pencil, left.tracks[i], step.right.tracks[i], gap_of(left, i), own[i]) ? 1 : 0;
+    if (closed[i] != 0) return;
+    for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {
+    }
+  };
+  // Blocks stand behind single modes and take longer: shared, they come first.
+  const int threads = is_worth_sharing(count, left.pencil.size()) ? problem.threads : 1;
+  in_parallel(count, threads, [&](std::size_t i) { look(threads > 1 ? count - 1 - i : i); });
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool counts_here = all_count || i <= first_open;
+    certified[i] = closed[i] != 0 && counts_here;
+    if (counts_here) counts.certificate_factorizations += own[i].certificate_factorizations;
+  }
+  return certified;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,64 @@
+#include "continuation/step/step_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/step/least_magnitude.hpp"
+#include "continuation/step/shared_basis.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Accepted error of p along the path, in units of tolerance times range. Near a fold eigenvalues vary like
+/// the root of the distance in p, so p must be known better than they are.
+constexpr double parameter_accuracy = 1e-5;
+
+double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
+  const auto row = [&](const PathNode& node) {
+    return ComplexMatrix(node.path.parameters.row(frame.range.traced).cast<Complex>());
+  };
+  return HermiteInterpolant(step.h, row(*step.left), row(step.right)).error_without_last()[0] /
+         (parameter_accuracy * tolerance * frame.range.length());
+}
+
+}  // namespace
+
+double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t i) {
+  const Track& track = step.left->tracks[i];
+  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  const Vector errors = (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
+  const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
+  const double smallest = place_of_least_magnitude(dense.series(0.0, degree));
+  double worst = 0.0;
+  for (const double t : {0.0, 0.5, 1.0, smallest}) {
+    const ComplexVector functions = dense(t);
+    // The smallest member has its error relative to itself.
+    const double size = block_roots(functions).cwiseAbs().minCoeff();
+    const double scale = std::max(size, problem.reference(track.pair.chart));
+    const double error =
+        root_error(functions, errors, least_relative_gap * scale) / (accepted_share * tolerance * scale);
+    worst = std::isfinite(error) ? std::max(worst, error) : INFINITY;
+  }
+  return worst;
+}
+
+Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step) {
+  Verdict worst{Verdict::Kind::inaccurate, -1, 0.0,
+                "the error of the dense output stays above the tolerance"};
+  for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
+    const double error = track_error(problem, tolerance, step, i);
+    if (error <= worst.error) continue;
+    worst.error = error;
+    worst.track = static_cast<int>(i);
+  }
+  if (frame.plane) {
+    const double error = parameter_error(frame, tolerance, step);
+    if (error > worst.error)
+      worst = {Verdict::Kind::inaccurate, -1, error, "the parameter along the path is inaccurate"};
+  }
+  if (!(worst.error > 1.0)) return {Verdict::Kind::accepted, -1, worst.error};
+  return worst;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,79 @@
+#include "continuation/step/step_solver.hpp"
+
+#include <cmath>
+
+#include "continuation/point/continued_mode.hpp"
+#include "continuation/tracks/mode_order.hpp"
+#include "continuation/tracks/regrouping.hpp"
+#include "core/parallel.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A mode passes without correction where |Re s| and |s| are this many times what the error of its
+/// prediction, and the reference, come to: an event, which wants eigenvalues to their own digits, is then out
+/// of reach.
+constexpr double far_from_axis = 100.0;
+/// The same for meetings with other modes, in units of the distance at which blocks part.
+constexpr double far_from_others = 2.0;
+
+}  // namespace
+
+bool StepSolver::is_far_from_events(const ContinuedMode& mode, std::size_t track, double h) const {
+  const PathProblem& problem = solver_.problem();
+  const Complex mu = mode.pair.Lambda(0, 0);
+  const double error = problem.corrector.passing_error * std::abs(mu);
+  return std::abs(mu.real()) > far_from_axis * error &&
+         std::abs(mu) > far_from_axis * problem.reference(mode.pair.chart) &&
+         find_partners(origin_.node, track, h, far_from_others * parting_reach_).empty();
+}
+
+void StepSolver::continue_modes(double h, Prediction& prediction) const {
+  const PathProblem& problem = solver_.problem();
+  // Where all modes are corrected at once none of them is spared.
+  if (problem.route != ModeRoute::one_by_one || solver_.frame().plane || origin_.last_step == 0.0) return;
+  const std::size_t count = origin_.node.tracks.size();
+  prediction.continued.resize(count);
+  const int threads = is_worth_sharing(count, origin_.node.pencil.size()) ? problem.threads : 1;
+  in_parallel(count, threads, [&](std::size_t i) {
+    if (prediction.ready[i] != nullptr) return;
+    prediction.continued[i] = continue_mode(origin_.previous, origin_.node, i, origin_.last_step, h);
+  });
+  prediction.may_pass = [this, h](const ContinuedMode& mode, std::size_t i) {
+    return is_far_from_events(mode, i, h);
+  };
+}
+
+Prediction StepSolver::predict(double h) {
+  PathNode& node = origin_.node;
+  for (Track& track : node.tracks) {
+    if (track.lineage == 0) track.lineage = ++origin_.lineages;
+  }
+  Prediction prediction = solver_.predict(all_tracks(node), h);
+  prediction.ready.assign(node.tracks.size(), nullptr);
+  for (std::size_t i = 0; origin_.tried && origin_.tried_step == h && i < node.tracks.size(); ++i) {
+    for (const Track& other : origin_.tried->tracks) {
+      if (other.lineage == node.tracks[i].lineage) prediction.ready[i] = &other;
+    }
+  }
+  continue_modes(h, prediction);
+  return prediction;
+}
+
+AttemptedStep StepSolver::attempt(double h) {
+  const PathProblem& problem = solver_.problem();
+  const PathNode& node = origin_.node;
+  const PathPoint point = compute_point(problem, predict(h), node.basis.T[0], solver_.counts());
+  if (point.status == PointStatus::no_equilibrium)
+    return {{}, {Verdict::Kind::no_equilibrium, -1, INFINITY, point.message}};
+  if (point.status == PointStatus::mode_lost)
+    return {{}, {Verdict::Kind::mode_lost, point.lost_track, INFINITY, point.message}};
+  std::optional<PathNode> next = differentiate_point(problem, point, solver_.counts());
+  if (!next) return {{}, {Verdict::Kind::mode_lost, -1, INFINITY, "a series is not finite"}};
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) next->tracks[i].lineage = node.tracks[i].lineage;
+  AttemptedStep attempted{Step{&node, std::move(*next), h}, {}};
+  order_arrival(*attempted.step);
+  return attempted;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,54 @@
+#include "continuation/step/stored_step.hpp"
+
+#include "continuation/step/shared_basis.hpp"
+#include "continuation/tracks/strands.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues closer than this, relatively, cannot be told apart in a defective block: the root of rounding.
+constexpr double same = 1e-8;
+
+/// Whether the dense output leads from the modes at one end to those at the other, in both directions. The
+/// order of the modes comes from series with one coefficient more; where the tolerance is wider than a
+/// veering, the dense output may go another way.
+bool keeps_order(const DenseBlock& block, double h, const Track& left, const Track& right) {
+  if (left.size() == 1 || right.departure) return true;
+  double from = 0.0;
+  const ComplexVector start = departing_roots(left, h, from);
+  const auto leads = [&](const ComplexVector& a, double at_a, const ComplexVector& b, double at_b) {
+    const ComplexVector found = in_order_of(follow_roots(block, h, a, at_a, at_b), b);
+    return (found - b).cwiseAbs().maxCoeff() <= same * b.cwiseAbs().maxCoeff();
+  };
+  return leads(start, from, right.roots, 1.0) && leads(right.roots, 1.0, start, from);
+}
+
+}  // namespace
+
+PathStep stored_step(const PathProblem& problem, const Step& step, const std::vector<bool>& certified) {
+  PathStep stored;
+  stored.length = step.h;
+  const Eigen::Index count = problem.order + 1;
+  stored.parameter = Matrix::Zero(2, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    stored.parameter(0, k) = coefficient(step.left->path.parameters, problem.traced, k);
+    stored.parameter(1, k) = coefficient(step.right.path.parameters, problem.traced, k);
+  }
+  for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
+    const Track& left = step.left->tracks[i];
+    const Track& right = step.right.tracks[i];
+    DenseBlock block = block_on_step(*step.left, step.right, i);
+    block.left = block.left.leftCols(count).eval();
+    block.right = block.right.leftCols(count).eval();
+    block.certified =
+        i < certified.size() && certified[i] && right.told_apart && keeps_order(block, step.h, left, right);
+    for (const int mode : left.modes) {
+      if (mode >= 0) block.modes.push_back(mode);
+    }
+    stored.blocks.push_back(std::move(block));
+  }
+  return stored;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,64 @@
+#include "continuation/trace/stop_remarks.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "continuation/events/event_search.hpp"
+#include "eigentrail/core/constraint_factorization.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// rad: constraints this close to each other explain why a path ends.
+constexpr double singular_angle = 1e-3;
+/// An eigenvalue is beside zero up to this many references.
+constexpr double beside_zero = 100.0;
+
+/// Links that come to lie in one line take a mechanism to where its freedoms change, and the path ends.
+std::string remark_on_constraints(const PathNode& node) {
+  const double angle = ConstraintFactorization(node.linearization.A[0]).independence();
+  if (angle > singular_angle) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "; the constraints come to depend on each other (least angle " << angle
+       << " rad), as where links of a mechanism lie in one line";
+  return text.str();
+}
+
+/// Where next to nothing counts as zero, as when all modes are slow at the start, the tolerance asks for more
+/// beside zero than rounding leaves.
+std::string remark_on_zero(const Track& track, double reference) {
+  const bool is_beside = track.roots.cwiseAbs().minCoeff() < beside_zero * reference;
+  if (track.pair.chart != Chart::finite || !is_beside) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "; beside zero rounding exceeds tolerance * reference: give a larger `reference`, now " << reference
+       << " 1/s";
+  return text.str();
+}
+
+/// "mode 3, 4: "
+std::string names_of(const Track& track) {
+  std::string who;
+  for (const int mode : track.modes) {
+    if (mode >= 0) who += (who.empty() ? "mode " : ", ") + std::to_string(mode + 1);
+  }
+  return who.empty() ? who : who + ": ";
+}
+
+}  // namespace
+
+std::string too_small_message(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
+                              const Verdict& verdict) {
+  std::string who;
+  std::string remarks = remark_on_constraints(node);
+  if (verdict.track >= 0) {
+    const Track& track = node.tracks[static_cast<std::size_t>(verdict.track)];
+    who = names_of(track);
+    if (verdict.kind == Verdict::Kind::inaccurate) remarks += remark_on_zero(track, problem.s_ref);
+  }
+  return "the step became too small after " + place_text(options, node.p) + ": " + who + verdict.reason +
+         remarks;
+}
+
+}  // namespace eigentrail

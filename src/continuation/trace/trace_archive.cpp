@@ -1,0 +1,309 @@
+// Leaving a trace between two points, and going on with it.
+//
+// The state is all that changes from one point to the next; models and options are not part of it. The lists
+// below take structs apart by structured bindings, so that a member that is added and forgotten here does not
+// compile.
+#include "continuation/trace/trace_state.hpp"
+#include "core/archive.hpp"
+#include "eigentrail/continuation/event_kinds.hpp"
+#include "eigentrail/core/errors.hpp"
+
+namespace eigentrail {
+
+// In this namespace, where the archive finds them by their argument.
+
+template <SameAs<Path> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [parameters, x, lambda] = self;
+  visit(parameters, x, lambda);
+}
+
+template <SameAs<PairSeries> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [Z, Lambda] = self;
+  visit(Z, Lambda);
+}
+
+/// Without its factors, which no point needs once it is left.
+template <SameAs<InvariantPair> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [status, chart, is_real, Z, Lambda, W, backward_error, condition, factors] = self;
+  visit(status, chart, is_real, Z, Lambda, W, backward_error, condition);
+}
+
+template <SameAs<Track::Departure> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [distance, roots] = self;
+  visit(distance, roots);
+}
+
+template <SameAs<Track> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, passed, met] = self;
+  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, passed, met);
+}
+
+template <SameAs<Linearization> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [M, C, K, A] = self;
+  visit(M, C, K, A);
+}
+
+template <SameAs<TangentBasis> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [T, is_identity] = self;
+  visit(T, is_identity);
+}
+
+template <SameAs<ReducedPencil> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [M, C, K] = self;
+  visit(M, C, K);
+}
+
+template <SameAs<PathNode> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [p, path, tracks, linearization, basis, pencil] = self;
+  visit(p, path, tracks, linearization, basis, pencil);
+}
+
+template <SameAs<PathPlane> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [x, p] = self;
+  visit(x, p);
+}
+
+template <SameAs<Event> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
+         node] = self;
+  visit(kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
+        node);
+}
+
+template <SameAs<EvaluationCounts> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [residual, linearization] = self;
+  visit(residual, linearization);
+}
+
+template <SameAs<ModeCounts> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [factorizations, iterations, solves, passed, modal_bases, modal_solves] = self;
+  visit(factorizations, iterations, solves, passed, modal_bases, modal_solves);
+}
+
+template <SameAs<RunCounts> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [evaluations, modes, iterations, factorizations, spectra, event_factorizations,
+         certificate_factorizations, certificate_bases, equilibrium, reduction, correction, differentiation,
+         matching, certificate, events, output] = self;
+  visit(evaluations, modes, iterations, factorizations, spectra, event_factorizations,
+        certificate_factorizations, certificate_bases, equilibrium, reduction, correction, differentiation,
+        matching, certificate, events, output);
+}
+
+template <SameAs<Rejections> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [inaccurate, no_equilibrium, mode_lost, mismatch, merged, uncertified] = self;
+  visit(inaccurate, no_equilibrium, mode_lost, mismatch, merged, uncertified);
+}
+
+template <SameAs<Regroupings> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [joined, parted, charts, repaired, planes] = self;
+  visit(joined, parted, charts, repaired, planes);
+}
+
+template <SameAs<TraceResult> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [status, message, notes, nodes, n_modes, n_columns, n_available, n_infinite, n_independent, order,
+         reached, s_ref, events, mode_steps, certified_steps, rejections, regroupings, counts, seconds] =
+      self;
+  visit(status, message, notes, nodes, n_modes, n_columns, n_available, n_infinite, n_independent, order,
+        reached, s_ref, events, mode_steps, certified_steps, rejections, regroupings, counts, seconds);
+}
+
+template <SameAs<PathFrame::BranchPoint> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [coordinate, p] = self;
+  visit(coordinate, p);
+}
+
+/// Without its range, which the options say.
+template <SameAs<PathFrame> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [range, plane, direction, largest_position, bridge, branch_point] = self;
+  visit(plane, direction, largest_position, bridge, branch_point);
+}
+
+template <SameAs<StepOrigin> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [node, previous, last_step, tried, tried_step, lineages] = self;
+  visit(node, previous, last_step, tried, tried_step, lineages);
+}
+
+template <SameAs<TraceSettings> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [order, s_ref, s_max, route, follows_all] = self;
+  visit(order, s_ref, s_max, route, follows_all);
+}
+
+/// Without the other path, which is left or forgotten before a trace is saved.
+template <SameAs<BranchPassage> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [passed, tries, other] = self;
+  visit(passed, tries);
+}
+
+template <SameAs<StepMemory> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [joins, longest_step, turned_step] = self;
+  visit(joins, longest_step, turned_step);
+}
+
+template <SameAs<ModeNumbers> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [count, partners] = self;
+  visit(count, partners);
+}
+
+template <SameAs<TraceState> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps] = self;
+  visit(settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps);
+}
+
+std::string save_state(const TraceState& state) {
+  ArchiveWriter archive;
+  archive(state);
+  return archive.bytes();
+}
+
+namespace {
+
+/// Sizes that everything at a point must have.
+struct PointSizes {
+  Eigen::Index parameters = 0, coordinates = 0, constraints = 0, freedoms = 0;
+  int columns = 0;  ///< modes
+};
+
+/// At least one coefficient, each of that size.
+template <class Coefficients>
+bool all_are(const Coefficients& series, Eigen::Index rows, Eigen::Index columns) {
+  for (const auto& coefficient : series) {
+    if (coefficient.rows() != rows || coefficient.cols() != columns) return false;
+  }
+  return !series.empty();
+}
+
+bool fits(const std::vector<int>& modes, Eigen::Index size, int columns) {
+  for (const int mode : modes) {
+    if (mode < Track::guest || mode >= columns) return false;
+  }
+  return static_cast<Eigen::Index>(modes.size()) == size;
+}
+
+bool fits(const Track& track, const PointSizes& sizes) {
+  const Eigen::Index k = track.pair.Lambda.rows();
+  const Eigen::Index n = sizes.freedoms;
+  const Eigen::Index functions = k <= 2 ? k : k * k;
+  for (const int root : track.met) {
+    if (root < 0 || root >= k) return false;
+  }
+  return k >= 1 && k <= 2 * n && track.pair.Lambda.cols() == k && track.pair.Z.rows() == n &&
+         track.pair.Z.cols() == k && track.pair.W.rows() == 2 * n && track.pair.W.cols() == k &&
+         all_are(track.series.Z, sizes.coordinates, k) && all_are(track.series.Lambda, k, k) &&
+         track.functions.rows() == functions && track.functions.cols() >= 2 && track.roots.size() == k &&
+         fits(track.modes, k, sizes.columns) &&
+         (track.arriving.empty() || fits(track.arriving, k, sizes.columns)) &&
+         (!track.departure || track.departure->roots.size() == k);
+}
+
+bool fits(const PathNode& node, const PointSizes& sizes) {
+  const Eigen::Index n = sizes.coordinates;
+  const auto series = [](const VectorSeries& columns, Eigen::Index rows) {
+    return columns.rows() == rows && columns.cols() >= 1 && columns.cols() <= max_order + 1;
+  };
+  for (const Track& track : node.tracks) {
+    if (!fits(track, sizes)) return false;
+  }
+  const Linearization& full = node.linearization;
+  return series(node.path.parameters, sizes.parameters) && series(node.path.x, n) &&
+         series(node.path.lambda, sizes.constraints) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
+         all_are(full.K, n, n) && all_are(full.A, sizes.constraints, n) &&
+         all_are(node.basis.T, n, sizes.freedoms) && all_are(node.pencil.M, sizes.freedoms, sizes.freedoms) &&
+         all_are(node.pencil.C, sizes.freedoms, sizes.freedoms) &&
+         all_are(node.pencil.K, sizes.freedoms, sizes.freedoms);
+}
+
+/// The same up to rounding, whatever the scene reads them from.
+bool same_matrices(const PathProblem& problem, const PathNode& node) {
+  const Model& model = problem.model;
+  const Path here{parameters_at(problem, node.p), node.path.x.col(0), node.path.lambda.col(0)};
+  EvaluationCounts counts = model.new_counts();
+  Linearization now;
+  if (model.linearize(here, 0, now, counts)) return false;
+  const auto same = [](const SystemMatrix& a, const SystemMatrix& b) {
+    return (a.dense() - b.dense()).norm() <= 1e-9 * b.norm();
+  };
+  const Linearization& before = node.linearization;
+  return same(now.M[0], before.M[0]) && same(now.C[0], before.C[0]) && same(now.K[0], before.K[0]) &&
+         same(now.A[0], before.A[0]);
+}
+
+/// What of a state does not fit the problem; empty when all of it does.
+std::string misfit(const TraceState& state, const PathProblem& problem, const TraceOptions& options) {
+  const Model& model = problem.model;
+  const TraceResult& result = state.result;
+  const StepOrigin& origin = state.origin;
+  const PointSizes sizes{static_cast<Eigen::Index>(model.description().parameters.size()),
+                         model.n_coordinates(), model.n_constraints(), result.n_independent,
+                         result.n_columns};
+  const std::size_t effects = model.description().effects.size();
+  const EvaluationCounts& counts = result.counts.evaluations;
+  if (counts.residual.size() != effects || counts.linearization.size() != effects) return "other effects";
+  const int order = state.settings.order;
+  if (order < 1 || order >= max_order || result.order != order) return "no order of a series";
+  if (sizes.freedoms < 1 || sizes.freedoms > sizes.coordinates || sizes.columns < 1) return "other freedoms";
+  if (state.numbers.count != sizes.columns) return "another number of modes";
+  if (!fits(origin.node, sizes)) return "another size of the last point";
+  if (origin.last_step != 0.0 && !fits(origin.previous, sizes)) return "another size of the point before it";
+  if (origin.tried && !fits(*origin.tried, sizes)) return "another size of a point that was tried";
+  if (state.frame.plane && state.frame.plane->x.size() != sizes.coordinates) return "another size of a plane";
+  const std::size_t criteria = criteria_of(options.events).size();
+  for (const auto& [key, history] : state.histories) {
+    if (key.first < 0 || key.second >= criteria) return "other events";
+  }
+  for (const auto* list : {&result.events, &state.dismissed}) {
+    for (const Event& event : *list) {
+      if (!is_event_kind(event.kind)) return "no kind of an event";
+      for (const int mode : event.modes) {
+        if (mode < 0 || mode >= sizes.columns) return "an event of a mode that is not there";
+      }
+    }
+  }
+  if (!same_matrices(problem, origin.node))
+    return "other matrices at " + place_text(options, origin.node.p) +
+           "; has a file of matrices changed since?";
+  return "";
+}
+
+}  // namespace
+
+TraceState restore_state(std::string_view bytes, const PathProblem& problem, const TraceOptions& options) {
+  TraceState state;
+  try {
+    ArchiveReader archive(bytes);
+    archive(state);
+    archive.finish();
+  } catch (const ArchiveError& error) {
+    throw InputError(std::string("the state of the trace is damaged: ") + error.what());
+  }
+  state.frame.range = {problem.traced, options.from, options.to};
+  if (const std::string fault = misfit(state, problem, options); !fault.empty())
+    throw InputError("the state of the trace does not fit the scene: " + fault);
+  return state;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,395 @@
+#include "continuation/trace/trace_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/events/criteria_scan.hpp"
+#include "continuation/events/meeting_events.hpp"
+#include "continuation/events/static_points.hpp"
+#include "continuation/events/veerings.hpp"
+#include "continuation/step/step_error.hpp"
+#include "continuation/step/step_judgement.hpp"
+#include "continuation/step/stored_step.hpp"
+#include "continuation/trace/stop_remarks.hpp"
+#include "continuation/trace/trace_start.hpp"
+#include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/mode_states.hpp"
+#include "continuation/tracks/remedy.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Shortest step, as a share of the range: eigenvalues that vary like the root of the distance change by
+/// 3e-6 over it.
+constexpr double shortest_step = 1e-11;
+/// A step moves p by at least this many units in its last place.
+constexpr double units_in_last_place = 8.0;
+/// Longest step, as a share of the range, where the options say nothing; and with a block of three or more,
+/// where more than one meeting may hide in a step.
+constexpr double longest_step = 0.25;
+constexpr double longest_step_of_large_blocks = 0.05;
+/// A step without certificate is shortened as much as one with this error.
+constexpr double uncertified_error = 30.0;
+/// Blocks that may be joined at one point: so many steps are refused there at most before one is shortened.
+constexpr int most_joins = 12;
+/// What the memory of the longest step loses from step to step: it spans some ten of them.
+constexpr double forgetting = 0.85;
+constexpr std::size_t most_notes = 20;  ///< on doubtful tracks, which may come at every point
+
+void count(const Verdict& verdict, Rejections& rejections) {
+  switch (verdict.kind) {
+    case Verdict::Kind::no_equilibrium:
+      ++rejections.no_equilibrium;
+      break;
+    case Verdict::Kind::mode_lost:
+      ++rejections.mode_lost;
+      break;
+    case Verdict::Kind::inaccurate:
+      ++rejections.inaccurate;
+      break;
+    case Verdict::Kind::mismatch:
+      ++rejections.mismatch;
+      break;
+    case Verdict::Kind::merged:
+      ++rejections.merged;
+      break;
+    case Verdict::Kind::uncertified:
+      ++rejections.uncertified;
+      break;
+    case Verdict::Kind::accepted:
+      break;
+  }
+}
+
+void add(const Regroupings& changes, Regroupings& all) {
+  all.joined += changes.joined;
+  all.charts += changes.charts;
+  all.planes += changes.planes;
+}
+
+}  // namespace
+
+TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+                     BasisChoice basis)
+    : options_(options),
+      observer_(observer),
+      criteria_(criteria_of(options.events)),
+      problem_(trace_problem(model, options, basis)),
+      points_(problem_, state_.frame, state_.result.counts),
+      log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds.event},
+      search_{points_, options_, criteria_, log_} {
+  state_.result.counts.evaluations = model.new_counts();
+  state_.frame.range = {problem_.traced, options.from, options.to};
+  state_.frame.direction = options.to > options.from ? 1.0 : -1.0;
+}
+
+TraceResult TraceLoop::run() {
+  if (start()) {
+    prepare_to_follow();
+    follow();
+  }
+  state_.result.seconds = seconds_so_far();
+  return std::move(state_.result);
+}
+
+TraceResult TraceLoop::resume(std::string_view bytes) {
+  state_ = restore_state(bytes, problem_, options_);
+  apply(state_.settings, problem_);
+  reach_ = parting_reach(options_, problem_.order);
+  seconds_before_ = state_.result.seconds;
+  begin_ = std::chrono::steady_clock::now();
+  follow();
+  state_.result.seconds = seconds_so_far();
+  return std::move(state_.result);
+}
+
+bool TraceLoop::start() {
+  TraceResult& result = state_.result;
+  if (const auto failure = compute_start(points_, options_, problem_, state_))
+    return stop(failure->status, failure->message);
+  reach_ = parting_reach(options_, problem_.order);
+  observer_.started({problem_.s_ref, result.n_available, result.n_modes, result.order});
+  PathNode& node = state_.origin.node;
+  state_.frame.largest_position = std::max(state_.frame.largest_position, node.path.x.col(0).norm());
+  log_branch_point(node);
+  const std::vector<MeetingOnEnd> meetings = meetings_at(problem_, state_.frame, node);
+  mark_meetings(meetings, node);
+  FoundEvents met = meeting_events(search_, node, meetings);
+  const std::vector<bool> meets = coinciding_tracks(node, meetings);
+  const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
+  inherit_histories(births, criteria_, state_.histories);
+  name_births(births, met);
+  log(std::move(met));
+  result.n_columns = state_.numbers.count;
+  if (!emit(node, nullptr)) return false;
+  if (!state_.frame.on_branch_point(options_.from)) return true;
+  const bool leaves = leaves_path_at(node);
+  const bool goes_on = !leaves || leave_path();
+  ++state_.branches.passed;
+  return goes_on;
+}
+
+void TraceLoop::prepare_to_follow() {
+  const double range = state_.frame.range.length();
+  const double rounding = units_in_last_place * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(options_.from), std::abs(options_.to));
+  const double min_step = std::max(shortest_step * range, rounding);
+  const double max_step = std::max(options_.max_step.value_or(longest_step * range), min_step);
+  PathNode& node = state_.origin.node;
+  state_.control = StepControl(problem_.order, first_step(node, problem_, options_), max_step, min_step);
+  part(problem_, nullptr, node, state_.control.step(), 0.0, reach_, 0.0, state_.result.counts);
+}
+
+void TraceLoop::follow() {
+  TraceResult& result = state_.result;
+  while (!reached_end(state_.frame, state_.origin.node)) {
+    const std::string here = place_text(options_, state_.origin.node.p);
+    if (result.nodes >= options_.max_nodes) {
+      stop(TraceStatus::too_many_nodes, "stopped after " + std::to_string(result.nodes) + " points at " +
+                                            here + "; raise max_nodes or the tolerance");
+      return;
+    }
+    // They served the point; what follows begins from series.
+    for (Track& track : state_.origin.node.tracks) track.pair.factors.reset();
+    result.seconds = seconds_so_far();
+    if (!observer_.checkpoint(*this)) {
+      stop(TraceStatus::stopped, "stopped on request at " + here);
+      return;
+    }
+    if (!advance()) return;
+    if (state_.steps.turned_step > 0.0) {
+      // In the path's own coordinate the range has length one.
+      const double longest =
+          options_.max_step ? *options_.max_step / state_.frame.range.length() : longest_step;
+      state_.control = StepControl(problem_.order, state_.steps.turned_step, std::max(longest, shortest_step),
+                                   shortest_step);
+      state_.steps.turned_step = 0.0;
+    }
+  }
+}
+
+/// Proposes, solves, judges, lands and commits one step, or tries again with a shorter one or after a remedy.
+/// Returns whether the trace goes on.
+bool TraceLoop::advance() {
+  const double ahead = remaining(state_.frame, state_.origin.node);
+  const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
+  const double h = state_.frame.direction * length;
+  AttemptedStep attempted = steps().attempt(h);
+  const PathNode* next = attempted.step ? &attempted.step->right : nullptr;
+  if (bridge_branch_point(points_, state_.frame, state_.origin.node, h, next, state_.branches.tries))
+    return true;
+  const auto is_taken = [this](const Verdict& verdict, double of_length) {
+    return verdict.accepted() ||
+           (verdict.kind == Verdict::Kind::uncertified && may_stay_uncertified(state_.frame, of_length));
+  };
+  const Verdict verdict = attempted.step ? judge(*attempted.step) : attempted.verdict;
+  if (!verdict.accepted()) {
+    const bool may_be_taken = is_taken(verdict, h);
+    if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
+    if (!may_be_taken) return shorten(verdict, length);
+  }
+  StepSolver solver = steps();
+  std::optional<LandedStep> landed =
+      land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
+  if (!landed) {
+    return shorten(
+        {verdict.kind, verdict.track, INFINITY, "a place where the step has to end was not reached"}, length);
+  }
+  if (landed->step.h == h) {
+    state_.control.accept(length, verdict.error);
+    return commit(std::move(*landed), verdict.certified);
+  }
+  const double cut = landed->step.h;
+  const Verdict anew = judge(landed->step);
+  if (!is_taken(anew, cut)) {
+    if (find_remedy(anew, cut, std::move(landed->step))) return true;
+    return shorten(anew, std::abs(cut));
+  }
+  state_.control.accept(length, verdict.error);
+  return commit(std::move(*landed), anew.certified);
+}
+
+Verdict TraceLoop::judge(const Step& step) {
+  return eigentrail::judge(problem_, state_.frame, options_, step, state_.result.counts);
+}
+
+bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {
+  count(verdict, state_.result.rejections);
+  StepMemory& memory = state_.steps;
+  const Remedy remedy =
+      eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step ? &*step : nullptr,
+                              memory.joins < most_joins, state_.origin.node, state_.result.counts);
+  if (remedy.tried_to_join) ++memory.joins;
+  if (!remedy.helps()) return false;
+  if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
+  add(remedy.changes, state_.result.regroupings);
+  state_.origin.tried.reset();
+  if (step) state_.origin.tried = std::move(step->right);
+  state_.origin.tried_step = state_.frame.plane ? 0.0 : h;
+  return true;
+}
+
+bool TraceLoop::shorten(const Verdict& verdict, double length) {
+  const bool open = verdict.kind == Verdict::Kind::uncertified;
+  state_.control.reject(length, open ? uncertified_error : verdict.error);
+  if (!state_.control.exhausted()) return true;
+  return stop(TraceStatus::step_too_small,
+              too_small_message(problem_, options_, state_.origin.node, verdict));
+}
+
+/// A step that is taken: its events, what is stored of it, and the point at its end as the next origin.
+bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
+  settle_events(landed);
+  Step& step = landed.step;
+  TraceResult& result = state_.result;
+  const PathStep stored = stored_step(problem_, step, certified);
+  const Completion found =
+      complete(problem_, state_.settings.follows_all, step.right, state_.numbers, result.counts);
+  const std::string where = "at " + place_text(options_, step.right.p);
+  if (found.doubtful && result.notes.size() < most_notes)
+    result.notes.push_back(where +
+                           " two tracks share an eigenvalue, or one has left the spectrum; see verify");
+  for (int i = 0; i < found.added; ++i) result.notes.push_back("a mode that was missing was added " + where);
+  result.regroupings.repaired += found.added;
+  result.n_columns = state_.numbers.count;
+  for (const DenseBlock& block : stored.blocks) {
+    result.mode_steps += static_cast<long>(block.modes.size());
+    if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
+  }
+  const bool go_on = emit(step.right, &stored);
+  for (Track& track : step.right.tracks) track.arriving = track.modes;
+  const bool leaves = leaves_path_at(step.right);
+  const bool passes = state_.frame.on_branch_point(step.right);
+  if (!leaves) regroup(step);
+  move_on(std::move(step));
+  const bool goes_on = go_on && (!leaves || leave_path());
+  if (passes) ++state_.branches.passed;
+  return goes_on;
+}
+
+/// The events of a step, in the order in which they are recorded: meetings at its end, zeros and extrema,
+/// veerings, branch point, fold. In between, the modes behind its end are ordered.
+void TraceLoop::settle_events(LandedStep& landed) {
+  const EventWork work(state_.result.counts);
+  search_.node = state_.result.nodes;
+  Step& step = landed.step;
+  mark_meetings(landed.meetings, step.right);
+  FoundEvents met = meeting_events(search_, step.right, landed.meetings);
+  // The other path at a branch point has an order of its own.
+  std::vector<Birth> births;
+  if (!leaves_path_at(step.right))
+    births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
+  name_births(births, met);
+  inherit_histories(births, criteria_, state_.histories);
+  log(std::move(met));
+  log(scan_criteria(search_, step, state_.histories));
+  log(find_veerings(search_, step));
+  log_branch_point(step.right);
+  log(find_fold(search_, step.right, step.h));
+}
+
+/// The branch point that a point lies on, if it does, and what paths there are to choose from.
+void TraceLoop::log_branch_point(const PathNode& node) {
+  FoundEvents found = find_branch_point(search_, node);
+  if (found.events.empty()) return;
+  const int choice = choice_at(options_.branch, state_.branches.passed);
+  BranchSurvey survey = survey_branch_point(points_, node, choice, place_text(options_, node.p));
+  state_.branches.other = std::move(survey.other);
+  found.notes.push_back(std::move(survey.note));
+  log(std::move(found));
+}
+
+/// What is followed together from the end of a step on.
+void TraceLoop::regroup(Step& step) {
+  TraceResult& result = state_.result;
+  const double next_step = state_.control.step();
+  const std::size_t before = step.right.tracks.size();
+  part(problem_, step.left, step.right, next_step, step.h, reach_, accepted_share * options_.tolerance,
+       result.counts);
+  const std::size_t after = step.right.tracks.size();
+  result.regroupings.parted += static_cast<int>(after - std::min(before, after));
+  if (after != before) return;
+  add(regroup_limiting_modes(problem_, joining_rules(), step, state_.frame.direction * next_step,
+                             result.counts),
+      result.regroupings);
+}
+
+/// The end of a step becomes the origin of the next one.
+void TraceLoop::move_on(Step step) {
+  StepMemory& memory = state_.steps;
+  StepOrigin& origin = state_.origin;
+  PathFrame& frame = state_.frame;
+  memory.longest_step = std::max(std::abs(step.h), forgetting * memory.longest_step);
+  memory.joins = 0;
+  state_.branches.tries = 0;
+  origin.previous = std::move(origin.node);
+  origin.node = std::move(step.right);
+  origin.last_step = frame.plane ? 0.0 : step.h;
+  origin.tried.reset();
+  frame.largest_position = std::max(frame.largest_position, origin.node.path.x.col(0).norm());
+  if (leaves_path_at(origin.node)) return;
+  if (renew_plane(frame, origin.node)) ++state_.result.regroupings.planes;
+  if (const auto turned =
+          turn_to_plane(problem_, frame, origin.node, frame.direction * state_.control.step())) {
+    memory.turned_step = *turned;
+    ++state_.result.regroupings.planes;
+  }
+}
+
+/// Goes on from the branch point that was just reached along the other path.
+bool TraceLoop::leave_path() {
+  const PathNode& arrived = state_.origin.node;
+  const int choice = choice_at(options_.branch, state_.branches.passed);
+  std::optional<OtherStart> start;
+  if (state_.branches.other) start = start_on_other_path(points_, arrived, *state_.branches.other, choice);
+  if (!start) {
+    return stop(TraceStatus::no_branch,
+                "the branch asked for at " + place_text(options_, arrived.p) + " was not found");
+  }
+  const auto births = order_on_other_path(arrived, start->next_step, start->node, state_.numbers);
+  inherit_histories(births, criteria_, state_.histories);
+  state_.result.n_columns = state_.numbers.count;
+  state_.frame = std::move(start->frame);
+  state_.origin.node = std::move(start->node);
+  state_.origin.last_step = 0.0;
+  state_.steps.turned_step = start->next_step;
+  ++state_.result.regroupings.planes;
+  return true;
+}
+
+double TraceLoop::longest_allowed_step() const {
+  const std::vector<Track>& tracks = state_.origin.node.tracks;
+  const bool large = std::any_of(tracks.begin(), tracks.end(), [](const Track& t) { return t.size() > 2; });
+  return large ? longest_step_of_large_blocks * state_.frame.coordinate_range()
+               : std::numeric_limits<double>::max();
+}
+
+bool TraceLoop::leaves_path_at(const PathNode& node) const {
+  return state_.frame.on_branch_point(node) && choice_at(options_.branch, state_.branches.passed) != 1;
+}
+
+void TraceLoop::log(FoundEvents found) {
+  record(log_, std::move(found), state_.result.events, state_.dismissed, state_.result.notes);
+}
+
+bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
+  TraceResult& result = state_.result;
+  result.reached = node.p;
+  ++result.nodes;
+  const StageTimer timer(result.counts.output_seconds);
+  if (observer_.point({node, mode_states(node, problem_.traced), step})) return true;
+  return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
+}
+
+bool TraceLoop::stop(TraceStatus status, const std::string& message) {
+  state_.result.status = status;
+  state_.result.message = message;
+  return false;
+}
+
+double TraceLoop::seconds_so_far() const {
+  return seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+}  // namespace eigentrail

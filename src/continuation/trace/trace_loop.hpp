@@ -1,0 +1,65 @@
+// The loop of a trace: propose a step, solve it, judge it, land it on what it passes, judge that, commit.
+#pragma once
+
+#include <chrono>
+
+#include "continuation/events/landing.hpp"
+#include "continuation/trace/trace_state.hpp"
+#include "continuation/tracks/joining.hpp"
+
+namespace eigentrail {
+
+// Nothing derives from it. NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor)
+class TraceLoop final : private Checkpoint {
+ public:
+  TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
+            BasisChoice basis);
+
+  TraceResult run();
+
+  /// Goes on from a saved state. Throws InputError when the bytes are no state of a trace of this model.
+  TraceResult resume(std::string_view bytes);
+
+ private:
+  const TraceResult& so_far() const override { return state_.result; }
+  std::string save() const override { return save_state(state_); }
+
+  bool start();
+  void prepare_to_follow();
+  void follow();
+  bool advance();
+
+  Verdict judge(const Step& step);
+  /// Whether something else than a shorter step may help; then it has been done, and the step is tried again.
+  bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
+  bool shorten(const Verdict& verdict, double length);
+  bool commit(LandedStep landed, const std::vector<bool>& certified);
+  void settle_events(LandedStep& landed);
+  void log_branch_point(const PathNode& node);
+  void regroup(Step& step);
+  void move_on(Step step);
+  bool leave_path();
+
+  StepSolver steps() { return {points_, state_.origin, reach_}; }
+  JoiningRules joining_rules() const { return {options_.tolerance, reach_, state_.steps.longest_step}; }
+  double longest_allowed_step() const;
+  bool leaves_path_at(const PathNode& node) const;
+  void log(FoundEvents found);
+  bool emit(const PathNode& node, const PathStep* step);
+  bool stop(TraceStatus status, const std::string& message);
+  double seconds_so_far() const;
+
+  const TraceOptions& options_;
+  const TraceObserver& observer_;
+  const std::vector<Criterion> criteria_;
+  PathProblem problem_;
+  TraceState state_;
+  PointSolver points_;
+  EventLog log_;
+  EventSearch search_;
+  double reach_ = 3.0;  ///< see parting_reach
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double seconds_before_ = 0.0;  ///< of the runs that this one goes on from
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,246 @@
+#include "continuation/trace/trace_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "continuation/events/event_search.hpp"
+#include "continuation/point/idle_freedom.hpp"
+#include "continuation/tracks/starting_tracks.hpp"
+#include "eigentrail/continuation/order_choice.hpp"
+#include "eigentrail/continuation/route_choice.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// s_ref / median |s| of the followed modes at the start: what is a thousand times slower than most modes is
+/// wanted to the accuracy of a zero.
+constexpr double reference_share = 1e-3;
+/// Of the pencil's scale: a smaller median is rounding, as where most modes are rigid-body motions.
+constexpr double rigid_share = 1e-6;
+/// s_max / largest |s| at the start.
+constexpr double infinity_share = 1e4;
+/// Freedoms per mode above which modes are few: their vectors cost less one by one than by the full spectrum.
+constexpr double few_share = 4.0;
+/// 1/s^2: stiffness per mass that is rounding.
+constexpr double no_force = 1e-16;
+/// A start that moves by more than this, relatively, while it is corrected was no eigenvalue of its own.
+constexpr double largest_drift = 1e-2;
+/// First steps, as shares of the range: at most, and at least.
+constexpr double longest_first = 0.05;
+constexpr double shortest_first = 1e-6;
+/// Of the range: how far behind a first point on which eigenvalues meet the modes are told apart.
+constexpr double beside_start = 1e-6;
+
+double largest_entry(const Matrix& matrix) {
+  return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
+}
+
+std::string text_of(const ComplexVector& roots) {
+  std::ostringstream text;
+  for (const Complex s : roots)
+    text << ' ' << s.real() << (s.imag() < 0 ? " - " : " + ") << std::abs(s.imag()) << 'j';
+  return text.str();
+}
+
+/// The start of one trace.
+class Start {
+ public:
+  Start(const PointSolver& solver, const TraceOptions& options, PathProblem& problem, TraceState& state)
+      : solver_(solver), options_(options), problem_(problem), state_(state), result_(state.result) {}
+
+  std::optional<StartFailure> compute();
+
+ private:
+  using Failure = std::optional<StartFailure>;
+
+  void settle_order();
+  Failure find_modes();
+  Failure check_spectrum(const Spectrum& spectrum) const;
+  void settle_magnitudes(const Spectrum& spectrum);
+  Failure correct_groups(const std::vector<StartingGroup>& groups);
+  Failure make_node(const std::vector<StartingGroup>& groups);
+  std::optional<Spectrum> spectrum_beside_branch_point() const;
+  std::string where() const { return " at " + place_text(options_, options_.from); }
+
+  const PointSolver& solver_;
+  const TraceOptions& options_;
+  PathProblem& problem_;
+  TraceState& state_;
+  TraceResult& result_;
+  PathPoint point_;
+  std::vector<StartingMode> modes_;  ///< of the whole spectrum, by ascending |s|
+};
+
+std::optional<StartFailure> Start::compute() {
+  const Vector guess = problem_.model.initial_guess(parameters_at(problem_, options_.from));
+  point_ = reduce_at(problem_, options_.from, {guess, Vector()}, Matrix(), solver_.counts());
+  if (point_.status != PointStatus::computed)
+    return StartFailure{TraceStatus::no_equilibrium, point_.message};
+  result_.n_independent = point_.pencil.size();
+  settle_order();
+  if (auto on_branch_point = bridge_start(solver_, state_.frame, point_))
+    point_ = std::move(*on_branch_point);
+  if (auto failure = find_modes()) return failure;
+  const bool bridged = state_.frame.bridge.has_value();
+  const double least_scale = bridged ? problem_.s_ref / reference_share : 0.0;
+  const auto groups = starting_groups(point_.pencil, modes_, result_.n_modes, problem_.s_ref, least_scale);
+  if (auto failure = correct_groups(groups)) return failure;
+  return make_node(groups);
+}
+
+void Start::settle_order() {
+  const int cheapest = cheapest_order({result_.n_independent, options_.certify}, options_.tolerance);
+  result_.order = state_.settings.order = options_.order.value_or(cheapest);
+  apply(state_.settings, problem_);
+}
+
+/// Why the spectrum at the start cannot be followed.
+std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) const {
+  const ReducedPencil& pencil = point_.pencil;
+  const std::string idle = idle_coordinate(problem_.model, point_);
+  if (spectrum.status == SpectrumStatus::singular_pencil || !idle.empty()) {
+    const std::string advice =
+        idle.empty() ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
+                     : "A freedom that moves '" + idle +
+                           "' has no mass or inertia, no damping and no stiffness; give it inertia, or "
+                           "constrain it";
+    return StartFailure{TraceStatus::singular_pencil,
+                        "the pencil is singular" + where() + ": every number is an eigenvalue. " + advice};
+  }
+  // On a branch point the stiffness of a single freedom vanishes, and there alone.
+  const double mass = largest_entry(pencil.M[0]);
+  const double force = std::max(largest_entry(pencil.K[0]), largest_entry(pencil.C[0]));
+  if (!state_.frame.bridge && mass > 0.0 && force <= no_force * mass) {
+    return StartFailure{TraceStatus::no_modes,
+                        "no force acts on the freedoms" + where() +
+                            ": all eigenvalues are zero, and there is nothing to follow"};
+  }
+  if (spectrum.status != SpectrumStatus::complete)
+    return StartFailure{TraceStatus::no_modes, "LAPACK's QZ did not converge" + where()};
+  if (!spectrum.modes.empty()) return std::nullopt;
+  return StartFailure{TraceStatus::no_modes,
+                      "there are no modes to follow" + where() +
+                          (result_.n_independent == 0 ? ": the constraints leave no freedom" : "")};
+}
+
+/// All modes, how many of them are followed, and how.
+std::optional<StartFailure> Start::find_modes() {
+  const ReducedPencil& pencil = point_.pencil;
+  const StageTimer timer(result_.counts.modes_seconds);
+  const bool few = options_.modes && few_share * *options_.modes < static_cast<double>(pencil.size());
+  Spectrum spectrum = few ? compute_eigenvalues(pencil.M[0], pencil.C[0], pencil.K[0])
+                          : compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  ++result_.counts.spectra;
+  result_.n_infinite = spectrum.n_infinite;
+  result_.n_available = static_cast<int>(spectrum.modes.size());
+  if (auto failure = check_spectrum(spectrum)) return failure;
+  result_.n_modes = std::min(options_.modes.value_or(result_.n_available), result_.n_available);
+  result_.n_columns = state_.numbers.count = result_.n_modes;
+  // Infinite eigenvalues are not followed: the checksum would miss them.
+  TraceSettings& settings = state_.settings;
+  settings.follows_all = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
+  settings.route = cheapest_route(problem_.structure,
+                                  {pencil.size(), result_.n_modes, settings.follows_all, settings.order});
+  settle_magnitudes(spectrum);
+  modes_ = std::move(spectrum.modes);
+  return std::nullopt;
+}
+
+/// The magnitudes that count as zero and as infinite.
+void Start::settle_magnitudes(const Spectrum& spectrum) {
+  // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
+  const auto beside = state_.frame.bridge ? spectrum_beside_branch_point() : std::nullopt;
+  const std::vector<StartingMode>& typical = beside ? beside->modes : spectrum.modes;
+  const auto middle = std::min(static_cast<std::size_t>(result_.n_modes) / 2, typical.size() - 1);
+  const double median = std::max(std::abs(typical[middle].s), rigid_share * spectrum.scale);
+  TraceSettings& settings = state_.settings;
+  settings.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
+  settings.s_max = infinity_share * std::max(std::abs(typical.back().s), settings.s_ref);
+  apply(settings, problem_);
+}
+
+/// The spectrum where the bridge ends; nothing when it has no modes.
+std::optional<Spectrum> Start::spectrum_beside_branch_point() const {
+  const Bridge& bridge = *state_.frame.bridge;
+  const PathPoint point =
+      reduce_on(problem_, bridge.path(bridge.end(), 1), point_.basis.T[0], solver_.counts());
+  if (point.status != PointStatus::computed) return std::nullopt;
+  ++result_.counts.spectra;
+  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) return std::nullopt;
+  return spectrum;
+}
+
+std::optional<StartFailure> Start::correct_groups(const std::vector<StartingGroup>& groups) {
+  const StageTimer timer(result_.counts.modes_seconds);
+  for (const StartingGroup& group : groups) {
+    point_.pairs.push_back(correct_pair(PencilAtPoint(point_.pencil), group.pair, problem_.s_ref,
+                                        problem_.corrector, result_.counts.modes));
+    const InvariantPair& pair = point_.pairs.back();
+    const double moved = std::abs(pair.Lambda.trace() - group.roots.sum()) / static_cast<double>(pair.size());
+    const double scale = std::max(group.roots.cwiseAbs().maxCoeff(), problem_.s_ref);
+    if (pair.status == PairStatus::converged && moved < largest_drift * scale) continue;
+    return StartFailure{TraceStatus::multiple_mode, "the corrector did not converge to the mode" +
+                                                        std::string(group.roots.size() > 1 ? "s" : "") +
+                                                        " at s =" + text_of(group.roots) + where() +
+                                                        "; begin the trace elsewhere, or follow fewer modes"};
+  }
+  return std::nullopt;
+}
+
+std::optional<StartFailure> Start::make_node(const std::vector<StartingGroup>& groups) {
+  std::optional<PathNode> node = differentiate_point(problem_, point_, result_.counts);
+  if (!node) return StartFailure{TraceStatus::multiple_mode, "a series at the start is not finite"};
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Track& track = node->tracks[i];
+    track.modes = groups[i].modes;
+    track.roots = in_order_of(groups[i].roots, track.roots);
+    if (track.pair.is_real && track.size() > 1) settle_real_block(track, state_.numbers);
+    track.arriving = track.modes;
+  }
+  state_.origin.node = std::move(*node);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<StartFailure> compute_start(const PointSolver& solver, const TraceOptions& options,
+                                          PathProblem& problem, TraceState& state) {
+  return Start(solver, options, problem, state).compute();
+}
+
+double first_step(const PathNode& node, const PathProblem& problem, const TraceOptions& options) {
+  const double range = std::abs(options.to - options.from);
+  if (options.first_step) return *options.first_step;
+  const int q = problem.order;
+  double step = longest_first * range;
+  for (const Track& track : node.tracks) {
+    // The term of power q stays small: the interpolant's error has about a factor of 4^(q+1) in its favour.
+    const double allowed = options.tolerance * std::pow(4.0, q + 1) *
+                           std::max(std::abs(track.functions(0, 0)), problem.reference(track.pair.chart));
+    const double last = std::abs(track.functions(0, q));
+    if (last > 0.0) step = std::min(step, std::pow(allowed / last, 1.0 / q));
+  }
+  return std::max(step, shortest_first * range);
+}
+
+std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const PathFrame& frame,
+                                         PathNode& node, ModeNumbers& numbers) {
+  const double distance = frame.direction * beside_start * frame.range.length();
+  std::vector<Birth> births;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    Track& track = node.tracks[i];
+    if (!meets[i]) continue;
+    track.departure = Track::Departure{distance, block_roots(evaluate_series(track.functions, distance))};
+    if (track.pair.is_real) {
+      const std::vector<Birth> born = settle_real_block(track, numbers);
+      births.insert(births.end(), born.begin(), born.end());
+    }
+    track.arriving = track.modes;
+  }
+  return births;
+}
+
+}  // namespace eigentrail

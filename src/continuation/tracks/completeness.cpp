@@ -1,0 +1,187 @@
+#include "continuation/tracks/completeness.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/tracks/starting_tracks.hpp"
+#include "core/reciprocal_condition.hpp"
+#include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/matching.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double checksum_tolerance = 1e-7;  ///< of the sum of magnitudes
+constexpr double singular = 1e-9;            ///< reciprocal condition below which M or K is left out
+constexpr double same = 1e-4;                ///< relative distance of a track from its eigenvalue
+constexpr double largest_backward_error = 1e-8;
+constexpr double shared_distance = 1e-8;  ///< relative, of eigenvalues that two tracks have in common
+constexpr double shared_angle = 0.03;     ///< of a vector with the space of the other track
+
+/// All eigenvalues that the tracks stand for, conjugates included.
+std::vector<Complex> all_eigenvalues(const PathNode& node) {
+  std::vector<Complex> all;
+  for (const Track& track : node.tracks) {
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      const Complex s = chart_value(track.roots[i], track.pair.chart);
+      all.push_back(s);
+      if (!track.pair.is_real) all.push_back(std::conj(s));
+    }
+  }
+  return all;
+}
+
+bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::vector<Complex>& all,
+                Chart chart, double reference) {
+  const Eigen::PartialPivLU<Matrix> lu(M);
+  if (!(reciprocal_condition(lu) > singular)) return true;
+  Complex sum = 0.0;
+  Complex squares = 0.0;
+  double magnitude = reference;
+  double square_magnitude = reference * reference;
+  for (const Complex s : all) {
+    const Complex mu = chart_value(s, chart);
+    sum += mu;
+    squares += mu * mu;
+    magnitude += std::abs(mu);
+    square_magnitude += std::norm(mu);
+  }
+  if (static_cast<Eigen::Index>(all.size()) != 2 * M.rows()) return false;
+  const Matrix G = lu.solve(C);
+  const double trace = -G.trace();
+  const double square_trace = G.cwiseProduct(G.transpose()).sum() - 2.0 * lu.solve(K).trace();
+  return std::abs(sum - trace) <= checksum_tolerance * magnitude &&
+         std::abs(squares - square_trace) <= checksum_tolerance * square_magnitude;
+}
+
+}  // namespace
+
+bool checksum_holds(const PathNode& node, const PathProblem& problem) {
+  const std::vector<Complex> all = all_eigenvalues(node);
+  const ReducedPencil& pencil = node.pencil;
+  return sums_agree(pencil.M[0], pencil.C[0], pencil.K[0], all, Chart::finite,
+                    problem.reference(Chart::finite)) &&
+         sums_agree(pencil.K[0], pencil.C[0], pencil.M[0], all, Chart::reciprocal,
+                    problem.reference(Chart::reciprocal));
+}
+
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref) {
+  std::vector<Complex> tracked;
+  for (const Track& track : node.tracks) {
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      const Complex s = chart_value(track.roots[i], track.pair.chart);
+      // Members of a real block below the axis stand for the same mode as their conjugates.
+      if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) tracked.push_back(s);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(std::max(tracked.size(), spectrum.modes.size()));
+  constexpr double nobody = 1e6;
+  Matrix cost = Matrix::Constant(n, n, nobody);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
+      const Complex s = spectrum.modes[j].s;
+      const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          std::min(distance / std::max(std::abs(s), s_ref), nobody);
+    }
+  }
+  std::vector<bool> taken(spectrum.modes.size(), false);
+  const std::vector<int> assignment = optimal_assignment(cost);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const int j = assignment[i];
+    if (j < static_cast<int>(taken.size()) && cost(static_cast<Eigen::Index>(i), j) <= same)
+      taken[static_cast<std::size_t>(j)] = true;
+  }
+  std::vector<StartingMode> missing;
+  for (std::size_t j = 0; j < taken.size(); ++j) {
+    if (!taken[j]) missing.push_back(spectrum.modes[j]);
+  }
+  return missing;
+}
+
+namespace {
+
+/// Vector of a root of a track, of unit length.
+ComplexVector vector_of(const Track& track, Eigen::Index root) {
+  if (track.size() == 1) return track.pair.Z.col(0).normalized();
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
+  Eigen::Index nearest = 0;
+  (solver.eigenvalues().array() - track.roots[root]).abs().minCoeff(&nearest);
+  return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
+}
+
+bool share_eigenpair(const Track& a, const Track& b, double reference) {
+  if (a.pair.chart != b.pair.chart) return false;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    const double scale = std::max(std::abs(a.roots[i]), reference);
+    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > shared_distance * scale) continue;
+    const ComplexVector z = vector_of(a, i);
+    const ComplexVector outside = z - b.pair.Z * b.pair.Z.colPivHouseholderQr().solve(z);
+    if (outside.norm() < shared_angle) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& track = node.tracks[i];
+    if (track.pair.backward_error > largest_backward_error) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (share_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart))) return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+/// Eigenvalues on their way in from infinity are added when they have arrived: below this share of what
+/// counts as infinite.
+constexpr double arrived = 0.1;
+
+/// The modes that a full spectrum has and the tracks lack, as groups to be followed.
+std::vector<StartingGroup> missing_groups(const PathProblem& problem, const PathNode& node,
+                                          RunCounts& counts) {
+  const ReducedPencil& pencil = node.pencil;
+  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  ++counts.spectra;
+  if (spectrum.status != SpectrumStatus::complete) return {};
+  std::vector<StartingMode> missing = missing_modes(node, spectrum, problem.s_ref);
+  std::erase_if(missing,
+                [&](const StartingMode& mode) { return std::abs(mode.s) > arrived * problem.s_max; });
+  return starting_groups(pencil, missing, static_cast<int>(missing.size()), problem.s_ref);
+}
+
+}  // namespace
+
+Completion complete(const PathProblem& problem, bool follows_all, PathNode& node, ModeNumbers& numbers,
+                    RunCounts& counts) {
+  const StageTimer timer(counts.matching_seconds);
+  Completion found;
+  const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
+                                   [](const Track& track) { return track.departure.has_value(); });
+  if (meeting) return found;
+  found.doubtful = has_doubtful_track(node, problem);
+  if (!follows_all || checksum_holds(node, problem)) return found;
+  for (const StartingGroup& group : missing_groups(problem, node, counts)) {
+    InvariantPair pair =
+        correct_pair(PencilAtPoint(node.pencil), group.pair, problem.s_ref, problem.corrector, counts.modes);
+    if (pair.status != PairStatus::converged) continue;
+    Track track = differentiate_track(problem, node, std::move(pair), counts);
+    track.roots = in_order_of(group.roots, track.roots);
+    track.modes.clear();
+    for (const int mode : group.modes) track.modes.push_back(mode >= 0 ? numbers.count++ : mode);
+    track.arriving = track.modes;
+    node.tracks.push_back(std::move(track));
+    ++found.added;
+  }
+  return found;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,105 @@
+#include "continuation/tracks/joining.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/step/step_error.hpp"
+#include "continuation/tracks/grouping_errors.hpp"
+
+namespace eigentrail {
+namespace {
+
+// The values below trade time against time: a block costs about its size more than its members one by one,
+// and lets the steps grow. They were chosen by the benchmarks of sweeps; results do not depend on them.
+
+/// Error of a block, as a share of its member's, from which on the block is worth its cost: with order 3 the
+/// step grows by the eighth root, here to 1.45 times.
+constexpr double worthwhile = 0.05;
+/// Single modes whose error is this share of what is accepted limit the step.
+constexpr double limiting_error = 0.1;
+/// The same for the other chart, which costs nothing more.
+constexpr double better_chart = 0.3;
+/// Steps shorter than this share of the longest one of late keep shrinking: then blocks of more than two are
+/// tried, which tell their members less well and hold more events at once.
+constexpr double shrinking = 0.25;
+/// Meetings farther away than this, in units of the nearest one's distance, hardly matter.
+constexpr double as_near = 1.5;
+constexpr std::size_t most_partners = 5;  ///< of one track: the largest block has six eigenvalues
+
+/// A track to be joined, with its partners. All are chosen before any is joined, which reorders the tracks:
+/// they are found again by their lineages.
+struct Choice {
+  std::uint64_t lineage = 0;
+  std::vector<Partner> partners;
+  std::vector<std::uint64_t> partner_lineages;
+};
+
+std::size_t index_of(const PathNode& node, std::uint64_t lineage) {
+  const auto found = std::find_if(node.tracks.begin(), node.tracks.end(),
+                                  [&](const Track& track) { return track.lineage == lineage; });
+  return static_cast<std::size_t>(found - node.tracks.begin());
+}
+
+bool join_choice(const PathProblem& problem, Choice& choice, PathNode& node, RunCounts& counts) {
+  const std::size_t track = index_of(node, choice.lineage);
+  bool all_there = choice.lineage != 0 && track < node.tracks.size();
+  for (std::size_t i = 0; i < choice.partners.size(); ++i) {
+    choice.partners[i].track = index_of(node, choice.partner_lineages[i]);
+    all_there = all_there && choice.partners[i].track < node.tracks.size();
+  }
+  return all_there && join(problem, node, track, choice.partners, counts);
+}
+
+}  // namespace
+
+std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningRules& rules, const Step& step,
+                                      std::size_t track, double error,
+                                      const std::vector<Partner>& candidates) {
+  const std::vector<Track>& tracks = step.right.tracks;
+  const Track& there = tracks[track];
+  const double scale = std::max(there.roots.cwiseAbs().mean(), problem.reference(there.pair.chart));
+  const double accepted = accepted_share * rules.tolerance * scale;
+  const bool may_be_large = std::abs(step.h) < shrinking * rules.longest_step;
+  std::vector<Partner> chosen;
+  Eigen::Index size = there.size();
+  for (const Partner& candidate : candidates) {
+    if (candidate.track >= tracks.size() || chosen.size() >= most_partners) break;
+    size += tracks[candidate.track].size();
+    if (size > 2 && !may_be_large) break;
+    if (candidate.distance > as_near * candidates.front().distance) break;
+    chosen.push_back(candidate);
+    const double together =
+        error_as_block(*step.left, step.right, track, chosen, step.h, least_relative_gap * scale);
+    if (together <= worthwhile * error * accepted) return chosen;
+  }
+  return {};
+}
+
+Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRules& rules, Step& step,
+                                   double next_step, RunCounts& counts) {
+  Regroupings done;
+  std::vector<Choice> choices;
+  std::vector<Track>& tracks = step.right.tracks;
+  for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
+    if (tracks[i].size() > 1 || step.left->tracks[i].size() > 1) continue;
+    const double error = track_error(problem, rules.tolerance, step, i);
+    if (error < limiting_error) continue;
+    const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
+    if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
+      if (change_chart(problem, step.right, i, counts)) ++done.charts;
+      return done;
+    }
+    Choice choice{tracks[i].lineage, {}, {}};
+    choice.partners = helpful_partners(problem, rules, step, i, error,
+                                       find_partners(step.right, i, next_step, rules.parting_reach));
+    for (const Partner& partner : choice.partners)
+      choice.partner_lineages.push_back(tracks[partner.track].lineage);
+    if (!choice.partners.empty()) choices.push_back(std::move(choice));
+  }
+  for (Choice& choice : choices) {
+    if (join_choice(problem, choice, step.right, counts)) ++done.joined;
+  }
+  return done;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,30 @@
+#include "continuation/tracks/members.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace eigentrail {
+
+std::vector<int> sorted_modes(const std::vector<int>& modes) {
+  std::vector<int> result;
+  for (const int mode : modes) {
+    if (mode >= 0 && std::find(result.begin(), result.end(), mode) == result.end()) result.push_back(mode);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> result;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  return result;
+}
+
+std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members) {
+  std::vector<Complex> roots;
+  roots.reserve(members.size());
+  for (const int i : members) roots.push_back(track.roots[i]);
+  return roots;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,143 @@
+#include "continuation/tracks/mode_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/step/shared_basis.hpp"
+#include "continuation/tracks/strands.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Share of a step beside a meeting at which its modes are told apart: the eigenvalues differ there by
+/// sqrt(1e-5) of what they do over the step at an exceptional point, far above the root of rounding.
+constexpr double beside_meeting = 1e-5;
+
+ComplexVector roots_beside(const Track& track, double distance) {
+  return block_roots(evaluate_series(track.functions, distance));
+}
+
+/// Puts complex pairs of a real block in order: the upper member is the mode.
+void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
+    if (roots[i].imag() == 0.0) continue;
+    Eigen::Index j = 0;
+    (roots.array() - std::conj(roots[i])).abs().minCoeff(&j);
+    if (j <= i) continue;
+    int& a = track.modes[static_cast<std::size_t>(i)];
+    int& b = track.modes[static_cast<std::size_t>(j)];
+    const bool followed = a >= 0 || b >= 0;
+    const int upper = a >= 0 && b >= 0 ? std::min(a, b) : std::max(a, b);
+    if (a >= 0 && b >= 0) {
+      numbers.partners[a] = b;
+      numbers.partners[b] = a;
+    }
+    a = upper;
+    b = followed ? Track::no_mode : Track::guest;
+    if (roots[i].imag() < 0.0) std::swap(a, b);
+  }
+}
+
+/// The real mode from which the lower member of a pair has come apart: the nearest one that has no partner
+/// in the block.
+int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root, const ModeNumbers& numbers) {
+  int parent = 0;
+  double nearest = INFINITY;
+  for (Eigen::Index j = 0; j < roots.size(); ++j) {
+    const int other = track.modes[static_cast<std::size_t>(j)];
+    if (j == root || other < 0 || roots[j].imag() != 0.0) continue;
+    const double distance = std::abs(roots[j] - roots[root]);
+    const auto known = numbers.partners.find(other);
+    const bool taken = known != numbers.partners.end() &&
+                       std::find(track.modes.begin(), track.modes.end(), known->second) != track.modes.end();
+    if (taken || distance >= nearest) continue;
+    nearest = distance;
+    parent = other;
+  }
+  return parent;
+}
+
+int partner_of(int mode, ModeNumbers& numbers) {
+  const auto found = numbers.partners.find(mode);
+  if (found != numbers.partners.end()) return found->second;
+  const int born = numbers.count++;
+  numbers.partners[mode] = born;
+  numbers.partners[born] = mode;
+  return born;
+}
+
+}  // namespace
+
+void order_arrival(Step& step) {
+  for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
+    const Track& left = step.left->tracks[i];
+    Track& right = step.right.tracks[i];
+    right.modes = right.arriving = left.modes;
+    if (right.size() == 1) continue;
+    double from = 0.0;
+    const ComplexVector start = departing_roots(left, step.h, from);
+    const HermiteInterpolant functions = functions_on_step(*step.left, step.right, i, step.h);
+    right.roots = in_order_of(follow_roots(functions, start, from, 1.0, &right.told_apart), right.roots);
+  }
+}
+
+std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers) {
+  std::vector<Birth> births;
+  for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
+    Track& track = step.right.tracks[i];
+    track.departure.reset();
+    if (!meets[i]) continue;
+    const HermiteInterpolant functions = functions_on_step(*step.left, step.right, i, step.h);
+    const double distance = beside_meeting * step.h;
+    double from = 0.0;
+    const ComplexVector start = departing_roots(step.left->tracks[i], step.h, from);
+    const double near = 1.0 - beside_meeting;
+    const ComplexVector before = follow_roots(functions, start, from, near, &track.told_apart);
+    const ComplexVector earlier = follow_roots(functions, before, near, 1.0 - 2.0 * beside_meeting);
+    // Straight on through a crossing. At an exceptional point no order is the right one; this one is as good.
+    const ComplexVector expected = before + 2.0 * (before - earlier);
+    track.roots = in_order_of(before, track.roots);
+    track.departure = Track::Departure{distance, in_order_of(expected, roots_beside(track, distance))};
+    if (!track.pair.is_real) continue;
+    const std::vector<Birth> born = settle_real_block(track, numbers);
+    births.insert(births.end(), born.begin(), born.end());
+  }
+  return births;
+}
+
+std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step, PathNode& node,
+                                       ModeNumbers& numbers) {
+  constexpr double beside_branch_point = 1e-3;  // of the first step
+  std::vector<Birth> births;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    Track& track = node.tracks[i];
+    track.roots = in_order_of(arrived.tracks[i].roots, track.roots);
+    track.modes = track.arriving = arrived.tracks[i].arriving;
+    if (track.size() == 1) continue;
+    // Where eigenvalues meet, their order a little behind the point is the one that counts.
+    const double distance = beside_branch_point * next_step;
+    track.departure = Track::Departure{distance, in_order_of(track.roots, roots_beside(track, distance))};
+    if (!track.pair.is_real) continue;
+    const std::vector<Birth> born = settle_real_block(track, numbers);
+    births.insert(births.end(), born.begin(), born.end());
+  }
+  return births;
+}
+
+std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers) {
+  ComplexVector& roots = track.departure ? track.departure->roots : track.roots;
+  settle_pairs(track, roots, numbers);
+  std::vector<Birth> births;
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
+    int& mode = track.modes[static_cast<std::size_t>(i)];
+    if (roots[i].imag() != 0.0 || mode != Track::no_mode) continue;
+    // The lower member of a pair that has come apart is a mode of its own from here on.
+    const int parent = parent_of(track, roots, i, numbers);
+    mode = partner_of(parent, numbers);
+    births.push_back({parent, mode});
+  }
+  return births;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,82 @@
+#include "continuation/tracks/mode_states.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Two eigenvalues of a block closer than this, relatively to the block, have no derivatives of their own: of
+/// a defective pair the slope, 1 / (2 gap), would be known to less than a digit for half of all digits lost.
+constexpr double coinciding = 1e-6;
+
+/// Eigenvectors of a block in its own coordinates, in the order of its roots.
+ComplexMatrix vectors_of(const Track& track) {
+  if (track.size() == 1) return ComplexMatrix::Identity(1, 1);
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
+  const ComplexVector values = in_order_of(track.roots, solver.eigenvalues());
+  ComplexMatrix ordered(track.size(), track.size());
+  for (Eigen::Index i = 0; i < track.size(); ++i) {
+    Eigen::Index at = 0;
+    (solver.eigenvalues().array() - values[i]).abs().minCoeff(&at);
+    ordered.col(i) = solver.eigenvectors().col(at);
+  }
+  return ordered;
+}
+
+/// ds/dp of a root of a track, `speed` = dp / d(coordinate); not a number where another root is too near.
+Complex slope_of(const Track& track, Complex root, Eigen::Index index, double speed) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const double scale = std::max(track.pair.Lambda.norm(), 1e-300);
+  double nearest = INFINITY;
+  for (Eigen::Index j = 0; j < track.size(); ++j) {
+    if (j != index) nearest = std::min(nearest, std::abs(track.roots[j] - root));
+  }
+  if (!(nearest > coinciding * scale)) return {nan, nan};
+  const ComplexVector series = root_series(track.functions, root);
+  return series.size() > 1 ? series[1] / speed : Complex(nan, nan);
+}
+
+ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors, double speed) {
+  ModeState state;
+  state.mode = mode;
+  const Complex root = track.roots[i];
+  const Complex slope = slope_of(track, root, i, speed);
+  state.s = chart_value(root, track.pair.chart);
+  state.slope = track.pair.chart == Chart::finite ? slope : -slope * state.s * state.s;
+  state.shape = track.series.Z[0] * vectors.col(i);
+  if (state.s.imag() < 0.0) {
+    state.s = std::conj(state.s);
+    state.slope = std::conj(state.slope);
+    state.shape = state.shape.conjugate();
+  }
+  state.backward_error = track.pair.backward_error;
+  state.condition = track.pair.condition;
+  return state;
+}
+
+}  // namespace
+
+std::vector<ModeState> mode_states(const PathNode& node, int traced) {
+  std::vector<ModeState> states;
+  const double speed = coefficient(node.path.parameters, traced, 1);
+  for (const Track& track : node.tracks) {
+    const ComplexMatrix vectors = vectors_of(track);
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      for (const std::vector<int>* modes : {&track.arriving, &track.modes}) {
+        const int mode = (*modes)[static_cast<std::size_t>(i)];
+        const bool seen = std::any_of(states.begin(), states.end(),
+                                      [mode](const ModeState& state) { return state.mode == mode; });
+        if (mode >= 0 && !seen) states.push_back(state_of(track, i, mode, vectors, speed));
+      }
+    }
+  }
+  return states;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,11 @@
+// The modes of a point, one by one, as the loci file has them.
+#pragma once
+
+#include "eigentrail/continuation/trace.hpp"
+
+namespace eigentrail {
+
+/// Every mode that exists just before or just behind the point. `traced`: index of the traced parameter.
+std::vector<ModeState> mode_states(const PathNode& node, int traced);
+
+}  // namespace eigentrail

@@ -1,0 +1,363 @@
+#include "continuation/tracks/regrouping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "continuation/tracks/grouping_errors.hpp"
+#include "continuation/tracks/strands.hpp"
+#include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr Eigen::Index largest_block = 6;
+/// Members part that would have met this share of the accepted error alone: of a pair, which costs little to
+/// keep, and of larger blocks, which are told less well.
+constexpr double parting_error = 0.03;
+constexpr double bystander_error = 0.5;
+
+/// Distance of a complex number from the real segment between 0 and h.
+double distance_to_step(Complex z, double h) {
+  const double along = h > 0.0 ? std::clamp(z.real(), 0.0, h) : std::clamp(z.real(), h, 0.0);
+  return std::abs(z - along);
+}
+
+/// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
+/// is the square of the radius that blocks extend around their means.
+double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
+                        double limit) {
+  ComplexVector delta = discriminant_series(a, b);
+  delta[0] -= spread;
+  if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
+  double nearest = INFINITY;
+  for (const Complex root : polynomial_roots(delta)) nearest = std::min(nearest, distance_to_step(root, h));
+  return nearest;
+}
+
+double square_radius(const Track& track) {
+  double radius = 0.0;
+  for (const Complex root : track.roots) radius = std::max(radius, std::norm(root - track.roots.mean()));
+  return track.size() == 1 ? 0.0 : radius;
+}
+
+/// Mean of a track in a chart; empty where it is at infinity there.
+ComplexVector mean_in(const Track& track, Chart chart) {
+  ComplexVector mean = mean_series(track.series.Lambda);
+  if (track.pair.chart == chart) return mean;
+  return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
+}
+
+/// Replaces the tracks with the given indices by one.
+void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
+  std::sort(old.rbegin(), old.rend());
+  for (const std::size_t i : old) node.tracks.erase(node.tracks.begin() + static_cast<std::ptrdiff_t>(i));
+  node.tracks.push_back(std::move(track));
+}
+
+/// The pair corrected at the node and differentiated, its roots in the order of `known`.
+bool settle(const PathProblem& problem, const PathNode& node, const InvariantPair& pair,
+            const ComplexVector& known, const std::vector<int>& modes, Track& track, RunCounts& counts) {
+  const PencilAtPoint pencil(node.pencil, pair.chart);
+  InvariantPair corrected =
+      correct_pair(pencil, pair, problem.reference(pair.chart), problem.corrector, counts.modes);
+  if (corrected.status != PairStatus::converged) return false;
+  track = differentiate_track(problem, node, std::move(corrected), counts);
+  if (!track.functions.allFinite()) return false;
+  track.roots = in_order_of(known, track.roots);
+  track.modes = modes;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
+  const Track& track = node.tracks[index];
+  const double limit = reach * std::abs(h);
+  const ComplexVector mean = mean_series(track.series.Lambda);
+  std::vector<Partner> partners;
+  const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
+    if (other.size() == 0) return;
+    partner.distance = meeting_distance(mean, other, spread, h, limit);
+    if (partner.distance <= limit) partners.push_back(partner);
+  };
+  // A member may as well meet the conjugate of another track: both are near the real axis then.
+  double nearest_conjugate = INFINITY;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& other = node.tracks[i];
+    const double spread =
+        i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
+    const ComplexVector series = mean_in(other, track.pair.chart);
+    if (i != index) consider(series, spread, {false, i});
+    if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
+    nearest_conjugate =
+        std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h, limit));
+  }
+  if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
+  std::sort(partners.begin(), partners.end(),
+            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
+  return partners;
+}
+
+namespace {
+
+/// Where the modes of some tracks that meet at the node are told apart; empty when none of them meet.
+std::optional<double> departure_distance(const PathNode& node, const std::vector<std::size_t>& members) {
+  std::optional<double> distance;
+  for (const std::size_t i : members) {
+    const auto& departure = node.tracks[i].departure;
+    if (departure && (!distance || std::abs(departure->distance) < std::abs(*distance)))
+      distance = departure->distance;
+  }
+  return distance;
+}
+
+/// Roots of a track there, in the order of its modes.
+ComplexVector roots_at_departure(const Track& track, double distance) {
+  double position = 0.0;
+  const ComplexVector start = departing_roots(track, distance / farthest_departure, position);
+  const ComplexVector roots = block_roots(evaluate_series(track.functions, distance));
+  return in_order_of(start, roots);
+}
+
+void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, std::vector<Complex>& all) {
+  const std::size_t first = all.size();
+  for (const Complex root : roots) all.push_back(other_chart ? 1.0 / root : root);
+  if (!with_conjugates) return;
+  for (std::size_t i = first, end = all.size(); i < end; ++i) all.push_back(std::conj(all[i]));
+}
+
+}  // namespace
+
+bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
+          RunCounts& counts) {
+  const StageTimer timer(counts.modes_seconds);
+  std::vector<std::size_t> members{index};
+  bool make_real = false;
+  for (const Partner& partner : partners) {
+    if (!partner.conjugate) members.push_back(partner.track);
+    make_real = make_real || partner.conjugate;
+  }
+  std::vector<InvariantPair> pairs;
+  for (const std::size_t i : members) {
+    make_real = make_real || node.tracks[i].pair.is_real;
+    pairs.push_back(node.tracks[i].pair);
+    if (pairs.back().chart != node.tracks[index].pair.chart) pairs.back() = in_other_chart(pairs.back());
+  }
+  std::vector<const InvariantPair*> parts;
+  std::vector<Complex> known, departing;
+  std::vector<int> modes, met;
+  const std::optional<double> departure = departure_distance(node, members);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Track& track = node.tracks[members[i]];
+    parts.push_back(&pairs[i]);
+    const bool other_chart = track.pair.chart != node.tracks[index].pair.chart;
+    const bool with_conjugates = make_real && !track.pair.is_real;
+    for (const int j : track.met) met.push_back(static_cast<int>(known.size()) + j);
+    append(track.roots, other_chart, with_conjugates, known);
+    if (departure) append(roots_at_departure(track, *departure), other_chart, with_conjugates, departing);
+    modes.insert(modes.end(), track.modes.begin(), track.modes.end());
+    if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
+  }
+  if (static_cast<Eigen::Index>(known.size()) > std::min(largest_block, 2 * node.pencil.size())) return false;
+  Track joined;
+  const ComplexVector values =
+      Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
+  if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
+  joined.met = std::move(met);
+  if (departure) {
+    joined.departure =
+        Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
+  }
+  replace(node, members, std::move(joined));
+  return true;
+}
+
+namespace {
+
+/// Which eigenvalues of a block still belong together: connected by meetings within the reach.
+std::vector<std::vector<int>> groups(const Track& track, double h, double reach) {
+  const Eigen::Index k = track.size();
+  std::vector<int> group(static_cast<std::size_t>(k));
+  std::iota(group.begin(), group.end(), 0);
+  std::vector<ComplexVector> series;
+  for (const Complex root : track.roots) series.push_back(root_series(track.functions, root));
+  const double limit = reach * std::abs(h);
+  const double scale = std::max(track.pair.Lambda.norm(), 1e-300);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const auto& a = series[static_cast<std::size_t>(i)];
+      const auto& b = series[static_cast<std::size_t>(j)];
+      const bool apart =
+          std::abs(track.roots[i] - track.roots[j]) > 1e-7 * scale && a.size() > 0 && b.size() > 0;
+      const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit) < limit ||
+                          meeting_distance(a, b, 0.0, -h, limit) < limit;
+      if (!linked) continue;
+      const int from = group[static_cast<std::size_t>(i)];
+      const int to = group[static_cast<std::size_t>(j)];
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  std::vector<std::vector<int>> result;
+  for (int label = 0; label < k; ++label) {
+    std::vector<int> members;
+    for (int i = 0; i < k; ++i) {
+      if (group[static_cast<std::size_t>(i)] == label) members.push_back(i);
+    }
+    if (!members.empty()) result.push_back(std::move(members));
+  }
+  return result;
+}
+
+/// A block without the eigenvalues that could have done alone.
+std::vector<std::vector<int>> without_bystanders(const Vector& errors, double accepted) {
+  std::vector<std::vector<int>> members;
+  std::vector<int> rest;
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    if (errors[i] < accepted) {
+      members.push_back({static_cast<int>(i)});
+    } else {
+      rest.push_back(static_cast<int>(i));
+    }
+  }
+  // One alone that could not do alone has lost its partner by mistake.
+  if (rest.size() == 1) return {};
+  if (!rest.empty()) members.push_back(std::move(rest));
+  return members;
+}
+
+/// Whether the groups can be followed by themselves: eigenvalues that are much closer to each other than the
+/// block is far from a multiple of the unit matrix are (nearly) defective.
+bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& groups) {
+  constexpr double nearly_defective = 1e-4;
+  ComplexMatrix N = block.pair.Lambda;
+  N.diagonal().array() -= block.roots.mean();
+  double gap = INFINITY;
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      for (const int i : groups[a]) {
+        for (const int j : groups[b]) gap = std::min(gap, std::abs(block.roots[i] - block.roots[j]));
+      }
+    }
+  }
+  return gap > nearly_defective * N.norm();
+}
+
+/// The tracks that a block falls into; empty when one of them does not converge.
+std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, const Track& block,
+                            const std::vector<std::vector<int>>& groups, RunCounts& counts) {
+  std::vector<Track> parts;
+  for (const std::vector<int>& members : groups) {
+    std::vector<int> modes;
+    ComplexVector known(static_cast<Eigen::Index>(members.size()));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      known[static_cast<Eigen::Index>(i)] = block.roots[members[i]];
+      modes.push_back(block.modes[static_cast<std::size_t>(members[i])]);
+    }
+    // Conjugates and guests that have parted from the modes are no longer needed.
+    if (std::all_of(modes.begin(), modes.end(), [](int mode) { return mode < 0; })) continue;
+    Track track;
+    if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
+      return {};
+    if (block.departure) {
+      ComplexVector departing(known.size());
+      for (std::size_t i = 0; i < members.size(); ++i)
+        departing[static_cast<Eigen::Index>(i)] = block.departure->roots[members[i]];
+      track.departure = Track::Departure{block.departure->distance, std::move(departing)};
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (std::find(block.met.begin(), block.met.end(), members[i]) != block.met.end())
+        track.met.push_back(static_cast<int>(i));
+    }
+    parts.push_back(std::move(track));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
+                              const std::vector<int>& members, RunCounts& counts) {
+  if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
+  double inside = 0.0;
+  double outside = INFINITY;
+  ComplexVector known(static_cast<Eigen::Index>(members.size()));
+  std::vector<int> modes;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Complex root = known[static_cast<Eigen::Index>(i)] = track.roots[members[i]];
+    modes.push_back(track.modes[static_cast<std::size_t>(members[i])]);
+    for (int j = 0; j < static_cast<int>(track.size()); ++j) {
+      const bool member = std::find(members.begin(), members.end(), j) != members.end();
+      const double distance = std::abs(track.roots[j] - root);
+      if (member) {
+        inside = std::max(inside, distance);
+      } else {
+        outside = std::min(outside, distance);
+      }
+    }
+  }
+  Track result;
+  if (!(outside > 3.0 * inside)) return std::nullopt;
+  if (!settle(problem, node, part_of(track.pair, track.roots, members), known, modes, result, counts))
+    return std::nullopt;
+  return result;
+}
+
+void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
+          double reach, double accepted, RunCounts& counts) {
+  const StageTimer timer(counts.modes_seconds);
+  std::vector<Track> tracks;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    Track& track = node.tracks[i];
+    std::vector<Track> parts;
+    if (track.size() > 1) {
+      auto members = groups(track, h, reach);
+      const bool comparable =
+          left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
+      if (members.size() == 1 && comparable) {
+        const double share = track.size() == 2 ? parting_error : bystander_error;
+        // What they would be on the next step, which may be longer.
+        const double growth = std::pow(std::abs(h / last_step), 2.0 * problem.order + 2.0);
+        members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
+                                     share * accepted);
+      }
+      if (members.size() > 1 && are_told_apart(track, members))
+        parts = parts_of(problem, node, track, members, counts);
+    }
+    if (parts.empty()) {
+      tracks.push_back(std::move(track));
+    } else {
+      std::move(parts.begin(), parts.end(), std::back_inserter(tracks));
+    }
+  }
+  node.tracks = std::move(tracks);
+}
+
+bool prefers_other_chart(const Track& track, double h) {
+  if (track.size() != 1 || track.functions(0, 0) == 0.0) return false;
+  const ComplexVector here = track.functions.row(0).transpose();
+  const ComplexVector there = reciprocal_series(here);
+  const auto tail = [h](const ComplexVector& series) {
+    const Eigen::Index last = series.size() - 1;
+    return std::abs(series[last]) * std::pow(std::abs(h), static_cast<double>(last)) / std::abs(series[0]);
+  };
+  // The eigenvalue must move by a good part of itself, or the charts do not differ.
+  return std::abs(here[1] * h) > 0.2 * std::abs(here[0]) && tail(there) < 0.2 * tail(here);
+}
+
+bool change_chart(const PathProblem& problem, PathNode& node, std::size_t index, RunCounts& counts) {
+  Track& track = node.tracks[index];
+  if (track.size() != 1 || track.roots[0] == 0.0) return false;
+  Track other;
+  if (!settle(problem, node, in_other_chart(track.pair), track.roots.cwiseInverse(), track.modes, other,
+              counts))
+    return false;
+  other.arriving = track.arriving;
+  track = std::move(other);
+  return true;
+}
+
+}  // namespace eigentrail

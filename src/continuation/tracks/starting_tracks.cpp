@@ -1,0 +1,77 @@
+#include "continuation/tracks/starting_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues closer than this, relatively, start as a block: QZ tells a double one no better than 1e-8, a
+/// triple one no better than 1e-5.
+constexpr double close = 1e-4;
+
+std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref) {
+  std::vector<int> label(modes.size());
+  std::iota(label.begin(), label.end(), 0);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Complex a = modes[i].s;
+      const Complex b = modes[j].s;
+      const double scale = std::max({std::abs(a), std::abs(b), s_ref});
+      const double distance = std::min(std::abs(a - b), std::abs(a - std::conj(b)));
+      if (distance <= close * scale) std::replace(label.begin(), label.end(), label[i], label[j]);
+    }
+  }
+  return label;
+}
+
+bool near_real(Complex s, double s_ref) {
+  return 2.0 * std::abs(s.imag()) <= close * std::max(std::abs(s), s_ref);
+}
+
+}  // namespace
+
+std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
+                                           const std::vector<StartingMode>& modes, int n_modes, double s_ref,
+                                           double least_scale) {
+  s_ref = std::max(s_ref, least_scale);
+  const std::vector<int> labels = group_labels(modes, s_ref);
+  std::vector<StartingGroup> groups;
+  for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      if (labels[i] == label) members.push_back(i);
+    }
+    if (members.empty() || static_cast<int>(members.front()) >= n_modes) continue;
+    const bool is_real = std::any_of(members.begin(), members.end(),
+                                     [&](std::size_t i) { return near_real(modes[i].s, s_ref); });
+    std::vector<Complex> roots;
+    StartingGroup group;
+    for (const std::size_t i : members) {
+      const bool followed = static_cast<int>(i) < n_modes;
+      roots.push_back(modes[i].s);
+      group.modes.push_back(followed ? static_cast<int>(i) : Track::guest);
+      if (!is_real || modes[i].s.imag() == 0.0) continue;
+      roots.push_back(std::conj(modes[i].s));
+      group.modes.push_back(followed ? Track::no_mode : Track::guest);
+    }
+    group.roots = Eigen::Map<ComplexVector>(roots.data(), static_cast<Eigen::Index>(roots.size()));
+    if (roots.size() == 1) {
+      group.pair.is_real = roots[0].imag() == 0.0;
+      const StartingMode& mode = modes[members.front()];
+      group.pair.Z =
+          mode.z.size() > 0 ? mode.z : eigenvector_near(pencil.M[0], pencil.C[0], pencil.K[0], mode.s, s_ref);
+      group.pair.Lambda = group.roots;
+      if (group.pair.is_real) group.pair.Z.imag().setZero();
+    } else {
+      const Complex centre = is_real ? Complex(group.roots.mean().real()) : group.roots.mean();
+      group.pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, group.roots.size(),
+                                      is_real, least_scale);
+    }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,73 @@
+#include "continuation/tracks/strands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "continuation/step/shared_basis.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Relative distance below which two eigenvalues coincide; double ones that are defective are told to the
+/// root of rounding only.
+constexpr double coinciding = 1e-12;
+
+}  // namespace
+
+ComplexVector departing_roots(const Track& track, double h, double& position) {
+  position = 0.0;
+  if (!track.departure) return track.roots;
+  const Track::Departure& departure = *track.departure;
+  position = departure.distance / h;
+  if (std::abs(position) <= farthest_departure * (1.0 + 1e-9)) return departure.roots;
+  // Both roots and square roots only shrink towards the mean: their order is kept.
+  const double share = 0.1 * farthest_departure / std::abs(position);
+  position *= share;
+  const ComplexVector mean = ComplexVector::Constant(track.size(), track.roots.mean());
+  return in_order_of(mean + share * (departure.roots - mean),
+                     block_roots(evaluate_series(track.functions, share * departure.distance)));
+}
+
+StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
+    : functions_(functions_on_step(left, right, index, length)) {
+  double position = 0.0;
+  const Track& track = left.tracks[index];
+  ComplexVector roots = departing_roots(track, length, position);
+  resolution_ = std::max(coinciding * track.pair.Lambda.norm(), root_resolution(functions_(position), roots));
+  known_.emplace(position, std::move(roots));
+}
+
+const ComplexVector& StrandSampler::operator()(double t) {
+  const auto above = known_.upper_bound(t);
+  const auto nearest = above == known_.begin() ? above : std::prev(above);
+  if (nearest->first == t) return nearest->second;
+  if (functions_.size() == 1) return single_ = functions_(t);
+  return known_.emplace(t, follow_roots(functions_, nearest->second, nearest->first, t)).first->second;
+}
+
+std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
+  constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
+  const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
+    return std::all_of(samples.begin(), samples.end(), [&](double t) {
+      const ComplexVector& roots = sampler(t);
+      return std::abs(roots[i] - roots[j]) <= sampler.resolution();
+    });
+  };
+  std::vector<Strand> strands;
+  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
+    const auto known = std::find_if(strands.begin(), strands.end(), [&](const Strand& strand) {
+      return coincide(strand.members.front(), i);
+    });
+    if (known == strands.end()) {
+      strands.push_back({index, {i}});
+    } else {
+      known->members.push_back(i);
+    }
+  }
+  return strands;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,331 @@
+#include "eigentrail/stability/axis_stretches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+namespace eigentrail {
+namespace {
+
+/// Real parts of stored points below this, relatively, are zero: an undamped system does not grow by
+/// rounding.
+constexpr double vanishing_damping = 1e-9;
+/// A double eigenvalue zero, a rigid-body motion, is known to the root of rounding only, relative to the
+/// largest one of the system.
+constexpr double double_zero = 3e-8;
+/// An event with a real part below this, relatively, lies on the imaginary axis.
+constexpr double axis_width = 1e-6;
+constexpr int samples_per_step = 8;
+/// Events closer together than this, relative to the range, are one cut.
+constexpr double same_place = 1e-9;
+/// An event closer to a stored point than this, relative to the range, is there.
+constexpr double on_node = 1e-8;
+/// Beyond this multiple of the reference an eigenvalue is about to pass through infinity.
+constexpr double infinite_size = 1e9;
+
+double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
+  return std::max(std::abs(s), accuracy.reference);
+}
+
+/// Distance to the nearest other eigenvalue of the block, conjugates included.
+double gap_in_block(const DenseBlock& block, const ComplexVector& s, int mode) {
+  double gap = s[mode].imag() != 0.0 ? 2.0 * std::abs(s[mode].imag()) : INFINITY;
+  for (const int other : block.modes) {
+    if (other == mode || !std::isfinite(s[other].real())) continue;
+    gap = std::min({gap, std::abs(s[other] - s[mode]), std::abs(std::conj(s[other]) - s[mode])});
+  }
+  return gap;
+}
+
+/// How far an eigenvalue may be off where the functions of its block are known to `level`: near a meeting as
+/// far as a multiple root.
+double uncertainty(const DenseBlock& block, const ComplexVector& s, int mode, double level,
+                   const EigenvalueAccuracy& accuracy) {
+  const double scale = scale_of(s[mode], accuracy);
+  if (block.size() == 1) return level * scale;
+  const double nearness = std::min(1.0, gap_in_block(block, s, mode) / (0.1 * scale));
+  const double others = static_cast<double>(block.size() - 1);
+  const double multiple = std::pow(level, others / (others + 1.0));
+  return level * scale / std::max(std::pow(nearness, others), multiple);
+}
+
+double largest_magnitude(const ComplexVector& s) {
+  double largest = 0.0;
+  for (const Complex value : s) {
+    if (std::isfinite(value.real())) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+AxisSample sample(const RecordedPath& path, const PathPosition& at, const EigenvalueAccuracy& accuracy) {
+  AxisSample result;
+  result.at = at;
+  result.exact = at.t == 0.0 || at.t == 1.0;
+  result.all_decay = true;
+  const double level = result.exact ? vanishing_damping : accuracy.tolerance;
+  const ComplexVector s = path.eigenvalues_at(at);
+  const double zero = double_zero * std::min(largest_magnitude(s), infinite_size * accuracy.reference);
+  double fastest = -INFINITY;
+  for (const DenseBlock& block : path.steps[at.step].blocks) {
+    for (const int mode : block.modes) {
+      const double growth = s[mode].real();
+      if (!std::isfinite(growth)) continue;
+      const bool vanishes = block.size() > 1 && std::abs(s[mode]) <= zero;
+      const double doubt = vanishes ? zero : uncertainty(block, s, mode, level, accuracy);
+      if (growth > doubt) result.unstable.push_back(mode);
+      result.all_decay = result.all_decay && growth < -doubt;
+      if (growth > fastest) result.critical = mode;
+      fastest = std::max(fastest, growth);
+    }
+  }
+  std::sort(result.unstable.begin(), result.unstable.end());
+  result.margin = result.critical < 0 ? std::numeric_limits<double>::quiet_NaN() : -fastest;
+  return result;
+}
+
+/// What a single sample tells, if anything.
+std::optional<Stability> verdict(const AxisSample& sample) {
+  if (sample.critical < 0) return std::nullopt;
+  if (!sample.unstable.empty()) return Stability::unstable;
+  if (sample.all_decay) return Stability::stable;
+  return sample.exact ? std::optional(Stability::marginal) : std::nullopt;
+}
+
+/// The end of a step is the beginning of the next.
+PathPosition normalized(const RecordedPath& path, PathPosition at) {
+  return at.t >= 1.0 && at.step + 1 < path.steps.size() ? PathPosition{at.step + 1, 0.0} : at;
+}
+
+PathPosition position_of(const RecordedPath& path, const Event& event) {
+  const std::size_t last = path.steps.size() - 1;
+  const std::size_t step = std::min(static_cast<std::size_t>(std::max(event.node - 1, 0)), last);
+  const double from_left = std::abs(event.p - path.p[step]);
+  const double from_right = std::abs(event.p - path.p[step + 1]);
+  const std::vector<double> found = step_positions(path.steps[step], event.p);
+  // The trace puts points on meetings and folds: they are the event. Rounding may also have moved it off the
+  // step.
+  const double near = on_node * (path.highest() - path.lowest());
+  if (found.empty() || std::min(from_left, from_right) <= near)
+    return normalized(path, {step, from_left < from_right ? 0.0 : 1.0});
+  return normalized(path, {step, found.front()});
+}
+
+/// Ends of the trace, and every event on the imaginary axis; sorted.
+std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Event>& events,
+                                const EigenvalueAccuracy& accuracy) {
+  std::vector<AxisCut> cuts;
+  for (const Event& event : events) {
+    const bool turns = event.kind == EventKind::fold || event.kind == EventKind::branch_point;
+    const bool on_axis = std::abs(event.s.real()) <= axis_width * scale_of(event.s, accuracy);
+    if (!turns && (!on_axis || event.kind == EventKind::veering)) continue;
+    const bool passes = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
+    cuts.push_back({position_of(path, event), event.p, event.s, event.modes, event_name(event.kind), true,
+                    passes, turns});
+  }
+  cuts.push_back({{0, 0.0}, path.p.front(), {}, {}, "start", false});
+  cuts.push_back({{path.steps.size() - 1, 1.0}, path.p.back(), {}, {}, "end", false});
+  std::stable_sort(cuts.begin(), cuts.end(), [](const AxisCut& a, const AxisCut& b) { return a.at < b.at; });
+  return cuts;
+}
+
+/// Cuts at one place become one. An event says more than an end of the trace.
+std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> cuts) {
+  const double near = same_place * (path.highest() - path.lowest());
+  std::vector<AxisCut> result;
+  for (AxisCut& cut : cuts) {
+    const bool same =
+        !result.empty() && (cut.at == result.back().at || (cut.at.step - result.back().at.step <= 1 &&
+                                                           std::abs(cut.p - result.back().p) <= near));
+    if (!same) {
+      result.push_back(std::move(cut));
+      continue;
+    }
+    AxisCut& kept = result.back();
+    if (!kept.on_axis) std::swap(kept, cut);
+    kept.modes.insert(kept.modes.end(), cut.modes.begin(), cut.modes.end());
+    std::sort(kept.modes.begin(), kept.modes.end());
+    kept.modes.erase(std::unique(kept.modes.begin(), kept.modes.end()), kept.modes.end());
+    kept.passes = kept.passes && (cut.passes || !cut.on_axis);
+    kept.turns = kept.turns || cut.turns;
+  }
+  return result;
+}
+
+void add_samples(const RecordedPath& path, const EigenvalueAccuracy& accuracy, AxisStretch& stretch) {
+  const PathPosition from = stretch.from.at;
+  const PathPosition to = stretch.to.at;
+  const auto add = [&](std::size_t step, double t) {
+    stretch.samples.push_back(sample(path, {step, t}, accuracy));
+  };
+  for (std::size_t step = from.step; step <= to.step; ++step) {
+    const double low = step == from.step ? from.t : 0.0;
+    const double high = step == to.step ? to.t : 1.0;
+    if (low == 0.0 && (step > from.step || !stretch.from.on_axis) && high > 0.0) add(step, 0.0);
+    if (high <= low) continue;
+    for (int k = 0; k < samples_per_step; ++k) add(step, low + (high - low) * (k + 0.5) / samples_per_step);
+  }
+  if (!stretch.to.on_axis) add(to.step, to.t);
+}
+
+/// Where the dense output changes between two samples of different verdict.
+AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const AxisSample& second,
+                    const EigenvalueAccuracy& accuracy) {
+  constexpr int halvings = 60;
+  const AxisSample& growing = first.unstable.empty() ? second : first;
+  const AxisSample& other = first.unstable.empty() ? first : second;
+  const auto grows = [&](const AxisSample& s) {
+    return other.all_decay ? s.margin < 0.0 : !s.unstable.empty();
+  };
+  const auto coordinate = [](const PathPosition& at) { return static_cast<double>(at.step) + at.t; };
+  const auto position = [&](double x) {
+    const auto step = std::min(static_cast<std::size_t>(x), path.steps.size() - 1);
+    return PathPosition{step, x - static_cast<double>(step)};
+  };
+  double inside = coordinate(growing.at);
+  double outside = coordinate(other.at);
+  AxisSample nearest = growing;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    if (middle == inside || middle == outside) break;
+    const AxisSample there = sample(path, position(middle), accuracy);
+    (grows(there) ? inside : outside) = middle;
+    if (grows(there)) nearest = there;
+  }
+  AxisCut cut;
+  cut.at = position(inside);
+  cut.p = path.parameter_at(cut.at);
+  cut.modes = {nearest.critical};
+  cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
+  cut.cause = std::abs(cut.s) > infinite_size * accuracy.reference ? "infinity" : "sign change";
+  return cut;
+}
+
+/// The first two neighbouring samples of which one grows and the other does not.
+std::optional<AxisCut> missing_cut(const RecordedPath& path, const AxisStretch& stretch,
+                                   const EigenvalueAccuracy& accuracy) {
+  const AxisSample* before = nullptr;
+  for (const AxisSample& here : stretch.samples) {
+    const auto told = verdict(here);
+    if (!told) continue;
+    if (before != nullptr && (*told == Stability::unstable) != (verdict(*before) == Stability::unstable))
+      return sign_change(path, *before, here, accuracy);
+    before = &here;
+  }
+  return std::nullopt;
+}
+
+/// What the samples of a stretch tell together.
+std::optional<Stability> verdict(const AxisStretch& stretch) {
+  std::optional<Stability> result;
+  for (const AxisSample& here : stretch.samples) {
+    const auto told = verdict(here);
+    if (told == Stability::unstable) return told;
+    // A real part that touches the axis at a stored point only does not make the stretch marginal.
+    if (told && result != Stability::stable) result = told;
+  }
+  return result;
+}
+
+/// Appends the stretch between two cuts, or its parts where the samples show that a cut is missing.
+void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut& to,
+                   const EigenvalueAccuracy& accuracy, int depth, std::vector<AxisStretch>& stretches) {
+  constexpr int deepest = 12;
+  AxisStretch stretch{from, to};
+  add_samples(path, accuracy, stretch);
+  if (stretch.samples.empty()) return;  // a sign seems to change where a cut is already
+  if (const auto cut = depth < deepest ? missing_cut(path, stretch, accuracy) : std::nullopt) {
+    add_stretches(path, from, *cut, accuracy, depth + 1, stretches);
+    add_stretches(path, *cut, to, accuracy, depth + 1, stretches);
+    return;
+  }
+  const auto told = verdict(stretch);
+  stretch.seen = told.has_value();
+  stretch.stability = told.value_or(Stability::marginal);
+  stretches.push_back(std::move(stretch));
+}
+
+/// The modes that grow on the other side of a cut: those that pass the axis there change, the others do not.
+std::vector<int> passed(const std::vector<int>& unstable, const AxisCut& cut) {
+  std::vector<int> result;
+  std::set_symmetric_difference(unstable.begin(), unstable.end(), cut.modes.begin(), cut.modes.end(),
+                                std::back_inserter(result));
+  return result;
+}
+
+/// Modes that grow at the first, or last, sample that tells.
+std::vector<int> unstable_at_end(const AxisStretch& stretch, bool first) {
+  const auto tells = [](const AxisSample& s) { return verdict(s).has_value(); };
+  const auto& samples = stretch.samples;
+  if (!stretch.seen) return samples.front().unstable;
+  return first ? std::find_if(samples.begin(), samples.end(), tells)->unstable
+               : std::find_if(samples.rbegin(), samples.rend(), tells)->unstable;
+}
+
+/// A stretch on which nothing was seen, told from a neighbour of known stability and the cut between.
+bool settle(AxisStretch& stretch, const AxisStretch& neighbour, bool neighbour_is_next) {
+  const AxisCut& cut = neighbour_is_next ? stretch.to : stretch.from;
+  if (!cut.passes || neighbour.stability == Stability::marginal) return false;
+  const std::vector<int> unstable = passed(unstable_at_end(neighbour, neighbour_is_next), cut);
+  stretch.stability = unstable.empty() ? Stability::stable : Stability::unstable;
+  for (AxisSample& sample : stretch.samples) sample.unstable = unstable;
+  return true;
+}
+
+void settle_unseen(std::vector<AxisStretch>& stretches) {
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    if (stretches[i].seen) continue;
+    if (i > 0 && settle(stretches[i], stretches[i - 1], false)) continue;
+    if (i + 1 < stretches.size() && stretches[i + 1].seen) settle(stretches[i], stretches[i + 1], true);
+  }
+}
+
+}  // namespace
+
+std::string stability_name(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::marginal:
+      return "marginal";
+    case Stability::unstable:
+      return "unstable";
+  }
+  return "unknown";
+}
+
+bool AxisStretch::grows(int mode) const {
+  return std::any_of(samples.begin(), samples.end(), [mode](const AxisSample& s) {
+    return std::binary_search(s.unstable.begin(), s.unstable.end(), mode);
+  });
+}
+
+std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
+                                        const EigenvalueAccuracy& accuracy) {
+  if (path.steps.empty()) return {};
+  const std::vector<AxisCut> cuts = united_cuts(path, event_cuts(path, events, accuracy));
+  std::vector<AxisStretch> stretches;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    add_stretches(path, cuts[i], cuts[i + 1], accuracy, 0, stretches);
+  settle_unseen(stretches);
+  return stretches;
+}
+
+int count_growing(const AxisStretch& stretch, const PathStep& step, const ComplexVector& s,
+                  const EigenvalueAccuracy& accuracy) {
+  if (stretch.stability != Stability::unstable) return 0;
+  int count = 0;
+  for (const DenseBlock& block : step.blocks) {
+    for (const int mode : block.modes) {
+      const double growth = s[mode].real();
+      if (!std::isfinite(growth)) continue;
+      const double doubt = uncertainty(block, s, mode, accuracy.tolerance, accuracy);
+      const bool doubtful = std::abs(growth) <= doubt;
+      if (doubtful ? stretch.grows(mode) : growth > 0.0) ++count;
+    }
+  }
+  return std::max(count, 1);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,187 @@
+#include "stability/boundary_mode.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
+
+namespace eigentrail {
+namespace {
+
+Vector square(const Vector& a) {
+  const ComplexVector series = a.cast<Complex>();
+  return multiply_series(series, series).real();
+}
+
+Matrix reduced(const TangentBasis& basis, const Matrix& physical) {
+  return basis.is_identity ? physical : Matrix(basis.T[0].transpose() * physical);
+}
+
+/// -g b c' + K: its eigenvalue g vanishes where K is singular, and is simple there whatever K is.
+ReducedPencil bordered(const ReducedPencil& pencil, const Matrix& border) {
+  const Eigen::Index n = pencil.size();
+  return {{Matrix::Zero(n, n)}, {border}, pencil.K};
+}
+
+/// Magnitude below which the followed eigenvalue counts as zero.
+double reference(const Window& window, const BoundaryFunction& function, const ReducedPencil& pencil) {
+  return function.kind == BoundaryKind::divergence ? std::max(pencil.K[0].norm(), 1e-300)
+                                                   : window.reference();
+}
+
+}  // namespace
+
+Vector BoundaryFunction::series(const ComplexMatrix& functions) const {
+  const Vector tau = functions.row(0).real().transpose();
+  if (kind != BoundaryKind::damping_ratio) return tau;
+  const double z2 = damping_ratio * damping_ratio;
+  return z2 * functions.row(1).real().transpose() + (1.0 - z2) * square(tau);
+}
+
+double BoundaryFunction::distance_to_end(double tau, double delta) const {
+  if (kind == BoundaryKind::divergence) return INFINITY;
+  return kind == BoundaryKind::flutter ? -delta : -tau * damping_ratio;
+}
+
+bool BoundaryFunction::passed_end(double tau, double delta) const {
+  return distance_to_end(tau, delta) <= 0.0;
+}
+
+Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
+                            RunCounts& counts) {
+  const PathProblem problem = window.at(guess.place);
+  Situation result;
+  result.place = guess.place;
+  result.point =
+      reduce_at(problem, problem.parameters[problem.traced], guess.equilibrium, guess.basis, counts);
+  result.status = result.point.status;
+  result.message = result.point.message;
+  if (result.status != PointStatus::computed) return result;
+  if (guess.basis.size() > 0 && result.point.pencil.size() != guess.basis.cols()) {
+    result.status = PointStatus::no_equilibrium;
+    result.message = "the number of independent constraints changed";
+    return result;
+  }
+  const TangentBasis& basis = result.point.basis;
+  InvariantPair start;
+  start.is_real = true;
+  start.Z = reduced(basis, guess.block.Z.real()).cast<Complex>();
+  start.Lambda = guess.block.Lambda;
+  result.pencil = result.point.pencil;
+  result.bordered = function.kind == BoundaryKind::divergence;
+  if (result.bordered) {
+    const Vector b = reduced(basis, guess.block.left);
+    const Vector c = start.Z.real();
+    result.pencil = bordered(result.point.pencil, -b * c.transpose() / (b.norm() * c.norm()));
+  }
+  const StageTimer timer(counts.modes_seconds);
+  result.pair = correct_pair(PencilAtPoint(result.pencil), start, reference(window, function, result.pencil),
+                             problem.corrector, counts.modes);
+  if (result.pair.status != PairStatus::converged) {
+    result.status = PointStatus::mode_lost;
+    result.message = "the corrector did not converge to the mode";
+    return result;
+  }
+  result.functions = block_functions({result.pair.Lambda});
+  return result;
+}
+
+Vector left_vector(const Situation& situation) {
+  if (!situation.bordered) return {};
+  const Eigen::Index n = situation.pencil.size();
+  Matrix B = Matrix::Zero(n + 1, n + 1);
+  B.topLeftCorner(n, n) = situation.pencil.K[0].transpose();
+  B.topRightCorner(n, 1) = situation.pair.Z.real();
+  const Vector image = situation.pencil.C[0] * situation.pair.Z.real();
+  B.bottomLeftCorner(1, n) = image.transpose();
+  const Vector y = B.partialPivLu().solve(Vector::Unit(n + 1, n)).head(n).normalized();
+  const TangentBasis& basis = situation.point.basis;
+  return basis.is_identity ? y : Vector(basis.T[0] * y);
+}
+
+PlaceGuess as_guess(const Situation& situation, const Place& place) {
+  const TangentBasis& basis = situation.point.basis;
+  const ComplexMatrix& Z = situation.pair.Z;
+  PlaceGuess guess;
+  guess.place = place;
+  guess.equilibrium = {situation.point.equilibrium.x, situation.point.equilibrium.lambda, true};
+  guess.block.Z = basis.is_identity ? Z : ComplexMatrix(basis.T[0].cast<Complex>() * Z);
+  guess.block.Lambda = situation.pair.Lambda;
+  guess.block.left = left_vector(situation);
+  guess.basis = basis.T[0];
+  return guess;
+}
+
+std::optional<SituationSeries> differentiate_situation(const Window& window, const Situation& situation,
+                                                       const Matrix& places, int order, RunCounts& counts) {
+  PathProblem problem = window.at(situation.place);
+  problem.order = order - 1;
+  std::optional<PathNode> node =
+      differentiate_point(problem, situation.point, window.parameters(places), counts);
+  if (!node) return std::nullopt;
+  const StageTimer timer(counts.differentiation_seconds);
+  SituationSeries series;
+  PairSeries mode = situation.bordered
+                        ? differentiate_pair({situation.pencil.M, situation.pencil.C, node->pencil.K},
+                                             situation.pair, order, counts.modes)
+                        : differentiate_pair(node->pencil, situation.pair, order, counts.modes);
+  series.functions = block_functions(mode.Lambda);
+  if (!series.functions.allFinite()) return std::nullopt;
+  if (!node->basis.is_identity) {
+    std::vector<ComplexMatrix> T;
+    for (const Matrix& coefficient : node->basis.T) T.emplace_back(coefficient.cast<Complex>());
+    mode.Z = multiply_series(T, mode.Z, mode.Z.size());
+  }
+  series.mode = std::move(mode);
+  series.node = std::move(*node);
+  return series;
+}
+
+std::optional<Matrix> function_gradients(const Window& window, const Situation& situation,
+                                         RunCounts& counts) {
+  Matrix gradients(situation.functions.rows(), 2);
+  for (int i = 0; i < 2; ++i) {
+    Matrix places(2, 2);
+    places << situation.place, Place::Unit(i);
+    const auto series = differentiate_situation(window, situation, places, 1, counts);
+    if (!series) return std::nullopt;
+    gradients.col(i) = series->functions.col(1).real();
+  }
+  return gradients;
+}
+
+Place gradient(const BoundaryFunction& function, const ComplexMatrix& functions, const Matrix& gradients) {
+  Place result;
+  for (int i = 0; i < 2; ++i) {
+    ComplexMatrix series(functions.rows(), 2);
+    series << functions.col(0), gradients.col(i).cast<Complex>();
+    result[i] = function.series(series)[1];
+  }
+  return result;
+}
+
+BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const StartingMode& mode) {
+  const auto physical = [&point](const ComplexMatrix& Z) {
+    return point.basis.is_identity ? Z : ComplexMatrix(point.basis.T[0].cast<Complex>() * Z);
+  };
+  BoundaryBlock block;
+  if (kind == BoundaryKind::divergence) {
+    const Eigen::JacobiSVD<Matrix> svd(point.pencil.K[0], Eigen::ComputeFullU | Eigen::ComputeFullV);
+    block.Z = physical(svd.matrixV().rightCols(1).cast<Complex>());
+    block.left = physical(svd.matrixU().rightCols(1).cast<Complex>()).real();
+    block.Lambda = ComplexMatrix::Zero(1, 1);
+    return block;
+  }
+  InvariantPair upper;
+  upper.Z = mode.z;
+  upper.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
+  const InvariantPair pair = with_conjugate(upper);
+  block.Z = physical(pair.Z);
+  block.Lambda = pair.Lambda;
+  return block;
+}
+
+}  // namespace eigentrail

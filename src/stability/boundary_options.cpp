@@ -1,0 +1,114 @@
+#include "eigentrail/stability/boundary_options.hpp"
+
+#include <cmath>
+
+#include "eigentrail/continuation/event_options.hpp"
+#include "eigentrail/core/text.hpp"
+#include "stability/second_parameter.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Points in either direction at which masses, lengths and the direction of gravity are checked.
+constexpr int checked_points = 9;
+
+/// The range of the first parameter must be given here when the scene's belongs to another one, or is
+/// missing.
+void require_first_range(const Scene& scene, const BoundaryRequest& request) {
+  if (request.first_from && request.first_to) return;
+  const std::vector<const Table*> found = tables(scene, "trace");
+  const Table none;
+  const Table& trace = found.empty() ? none : *found.front();
+  const Value* traced = trace.find("parameter");
+  const std::string* name = traced == nullptr ? nullptr : std::get_if<std::string>(&traced->data);
+  const bool another = request.parameter && (name == nullptr || *name != *request.parameter);
+  for (const auto& [key, given] :
+       {std::pair("from", request.first_from), std::pair("to", request.first_to)}) {
+    if (given) continue;
+    const std::string option = "--first-" + std::string(key);
+    if (another)
+      throw InputError(option + ": is missing; the range in the scene is not that of '" + *request.parameter +
+                       "'");
+    if (trace.find(key) == nullptr)
+      throw scene_error(
+          scene, trace.where,
+          "[trace] " + std::string(key) + ": is missing; expected a number, here or as " + option);
+  }
+}
+
+OptionTexts trace_overrides(const BoundaryRequest& request) {
+  OptionTexts texts;
+  if (request.parameter) texts.emplace_back("parameter", *request.parameter);
+  if (request.first_from) texts.emplace_back("from", exact_text(*request.first_from));
+  if (request.first_to) texts.emplace_back("to", exact_text(*request.first_to));
+  if (request.tolerance) texts.emplace_back("tolerance", exact_text(*request.tolerance));
+  return texts;
+}
+
+void check_numbers(const BoundaryOptions& options) {
+  for (const auto& [key, value] :
+       {std::pair("--from", options.second_from), std::pair("--to", options.second_to)}) {
+    if (!std::isfinite(value)) throw InputError(std::string(key) + ": is not a finite number");
+  }
+  if (!(options.second_from < options.second_to))
+    throw InputError("--to: expected more than --from (" + exact_text(options.second_from) + "), found " +
+                     exact_text(options.second_to) + ": the window is empty");
+  if (options.lines < 0 || options.lines > 1000)
+    throw InputError("--lines: must lie between 0 and 1000; found " + std::to_string(options.lines));
+  if (options.damping_ratio && !(std::abs(*options.damping_ratio) < 1.0))
+    throw InputError("--damping-ratio: must lie between -1 and 1; found " +
+                     exact_text(*options.damping_ratio));
+}
+
+/// Declared values with both parameters at places all over the window, its corners first.
+std::vector<Vector> places_to_check(const Scene& scene, const BoundaryOptions& options) {
+  const int first = scene.parameters.index(options.trace.parameter).value();
+  const int second = scene.parameters.index(options.second).value();
+  std::vector<Vector> corners, inner;
+  for (int i = 0; i < checked_points; ++i) {
+    for (int j = 0; j < checked_points; ++j) {
+      const double u = static_cast<double>(i) / (checked_points - 1);
+      const double v = static_cast<double>(j) / (checked_points - 1);
+      Vector values = scene.parameters.declared_values();
+      values[first] = (1.0 - u) * options.trace.from + u * options.trace.to;
+      values[second] = (1.0 - v) * options.second_from + v * options.second_to;
+      const bool corner = i % (checked_points - 1) == 0 && j % (checked_points - 1) == 0;
+      (corner ? corners : inner).push_back(std::move(values));
+    }
+  }
+  corners.insert(corners.end(), inner.begin(), inner.end());
+  return corners;
+}
+
+}  // namespace
+
+BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
+  check_top_level(scene);
+  require_first_range(scene, request);
+  BoundarySetup setup{std::move(scene), {}, nullptr};
+  BoundaryOptions& options = setup.options;
+  std::set<int> used;
+  options.trace = read_trace_options(setup.scene, trace_overrides(request), used);
+  options.second = request.second;
+  options.second_from = request.from;
+  options.second_to = request.to;
+  const std::vector<double> ratios = options.trace.events.values(EventKind::damping_ratio);
+  if (!request.damping_ratio && ratios.size() > 1)
+    throw InputError("--damping-ratio: the scene's [events] has " + std::to_string(ratios.size()) +
+                     " damping ratios; choose one of them here, or 0 for the imaginary axis");
+  options.damping_ratio = request.damping_ratio;
+  if (!options.damping_ratio && !ratios.empty()) options.damping_ratio = ratios.front();
+  // Modes of damping ratio zero are those on the imaginary axis.
+  if (options.damping_ratio == 0.0) options.damping_ratio.reset();
+  options.lines = request.lines.value_or(options.lines);
+  check_second_parameter(setup.scene.parameters, options.second, options.trace.parameter);
+  check_numbers(options);
+  // Both must enter the model.
+  used.erase(setup.scene.parameters.index(options.trace.parameter).value());
+  used.erase(setup.scene.parameters.index(options.second).value());
+  setup.model =
+      build_model(setup.scene, {places_to_check(setup.scene, options), used, options.trace.without});
+  return setup;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,297 @@
+#include "stability/curve_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/continuation/step_control.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double accepted_share = 0.5;  ///< of the tolerance, as in a trace
+constexpr double first_step = 0.02;     ///< of the window; likewise below
+constexpr double longest_step = 0.1;
+constexpr double shortest_step = 1e-9;
+constexpr double same_place = 1e-9;
+constexpr double bent_too_much = 30.0;  ///< a step whose ends look away from its chord counts as this error
+constexpr int samples_per_step = 16;
+/// Of |s|: at the shortest step from an exceptional point two eigenvalues are closer than this.
+constexpr double coalescing = 1e-3;
+/// Steps shrink with the distance from a fold; below this they only fight the rounding that grows there.
+constexpr double shortest_beside_fold = 1e-6;
+constexpr double near_fold = 1e-3;  ///< reciprocal condition of the equilibrium's stiffness
+
+/// Whether a step's dense curve passes a place with this eigenvalue.
+bool step_passes(const ChordStep& step, const Place& place, Complex s, double tolerance, double s_ref) {
+  const double reach = 3.0 * tolerance + same_place;
+  const Place middle = 0.5 * (step.left.col(0) + step.right.col(0)).head<2>();
+  if ((place - middle).norm() > 2.0 * step.length + reach) return false;
+  double t = 0.0;
+  if (distance_from(step, place, t) > reach) return false;
+  const Eigen::Vector4d there = step(t);
+  const Complex root = there[2] + std::sqrt(Complex(there[3]));
+  const double near = std::max(10.0 * tolerance, 1e-5) * std::max(std::abs(s), s_ref);
+  return std::min(std::abs(root - s), std::abs(root - std::conj(s))) <= near;
+}
+
+/// The first t in [0, 1] beyond which `value` is negative, by bisection between samples; above 1 when there
+/// is none.
+template <class Value>
+double first_negative(Value&& value) {
+  for (int k = 1; k <= samples_per_step; ++k) {
+    double before = (k - 1.0) / samples_per_step;
+    double behind = static_cast<double>(k) / samples_per_step;
+    if (value(behind) >= 0.0) continue;
+    constexpr int halvings = 45;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (before + behind);
+      (value(middle) < 0.0 ? behind : before) = middle;
+    }
+    return before;
+  }
+  return 2.0;
+}
+
+/// One direction of a curve.
+class Arm {
+ public:
+  Arm(const Window& window, const BoundaryFunction& function, const FollowOptions& options,
+      const CurvePoint& seed, double sign, const OnPoint& on_point, RunCounts& counts)
+      : window_(window),
+        function_(function),
+        options_(options),
+        sign_(sign),
+        on_point_(on_point),
+        counts_(counts),
+        points{seed} {}
+
+  void follow() {
+    StepControl control(window_.order(), first_step, longest_step, shortest_step);
+    while (advance(control)) {
+    }
+  }
+
+ private:
+  const Window& window_;
+  const BoundaryFunction& function_;
+  const FollowOptions& options_;
+  double sign_;
+  const OnPoint& on_point_;
+  RunCounts& counts_;
+
+ public:
+  std::vector<CurvePoint> points;  ///< from the seed on
+  std::vector<ChordStep> steps;    ///< in the direction of the curve, which may be against that of the arm
+  CurveEnd end = CurveEnd::lost;
+  std::string reason;
+  int rejected = 0;
+
+ private:
+  enum class Landing { nothing, landed, failed };
+
+  bool advance(StepControl& control);
+  /// Ends the arm on the first thing within the step that ends it.
+  Landing land(const ChordStep& step);
+  Landing land_on_edge(const ChordStep& step, double t);
+  /// The same with the dense output of a step that reaches over the edge. Needed where the function followed
+  /// vanishes all along the edge, as in a system without damping: no Newton step leads there.
+  Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess);
+  Landing land_on_end(const ChordStep& step, double t);
+  Landing close();
+  Landing finish(const Situation& there, PointFlag flag, CurveEnd how);
+  /// False when the step to the point is not accurate enough.
+  bool append(CurvePoint next);
+  bool reject(StepControl& control, double h, double error, const std::string& why,
+              PointStatus status = PointStatus::mode_lost);
+
+  bool stop(CurveEnd how, std::string why = {}) {
+    end = how;
+    reason = std::move(why);
+    return false;
+  }
+  const CurvePoint& last() const { return points.back(); }
+  bool folds() const { return last().solves_equilibrium && last().equilibrium_condition < near_fold; }
+  bool stop_at_fold() {
+    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + window_.text(last().place));
+  }
+  std::optional<ChordStep> step_to(const CurvePoint& next) const {
+    return sign_ > 0.0 ? make_chord_step(last(), next) : make_chord_step(next, last());
+  }
+  double error_of(const ChordStep& step) const {
+    return step.error(accepted_share * options_.tolerance, window_.reference());
+  }
+  /// The dense output of a step with t counted from the last point.
+  Eigen::Vector4d at(const ChordStep& step, double t) const { return step(sign_ > 0.0 ? t : 1.0 - t); }
+  /// What is expected there.
+  PlaceGuess guess_at(const ChordStep& step, double t) const {
+    const Place place = at(step, t).head<2>();
+    return predict(last(), last().tangent.dot(place - last().place));
+  }
+};
+
+bool Arm::reject(StepControl& control, double h, double error, const std::string& why, PointStatus status) {
+  ++rejected;
+  control.reject(h, error);
+  if (!control.exhausted()) return true;
+  const std::string where = window_.text(last().place);
+  if (folds()) return stop_at_fold();
+  if (status == PointStatus::no_equilibrium)
+    return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
+  if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
+    return stop(CurveEnd::exceptional_point, "its mode coalesces with another one near " + where);
+  return stop(CurveEnd::lost, "the step became too small at " + where + ": " + why);
+}
+
+bool Arm::advance(StepControl& control) {
+  const double h = control.propose(10.0);
+  const Situation there =
+      correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
+  if (there.status != PointStatus::computed) return reject(control, h, INFINITY, there.message, there.status);
+  std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+  if (!next) return reject(control, h, INFINITY, "a series is not finite");
+  const std::optional<ChordStep> step = step_to(*next);
+  if (!step) return reject(control, h, bent_too_much, "the curve turns too sharply");
+  const double error = error_of(*step);
+  if (!(error <= 1.0)) return reject(control, h, error, "the series at both ends do not agree");
+  switch (land(*step)) {
+    case Landing::landed:
+      return false;
+    case Landing::failed:
+      return reject(control, h, INFINITY, "its end could not be located");
+    default:
+      break;
+  }
+  control.accept(h, error);
+  points.push_back(std::move(*next));
+  steps.push_back(*step);
+  if (folds() && h < shortest_beside_fold) return stop_at_fold();
+  on_point_();
+  if (static_cast<int>(points.size()) < options_.max_points) return true;
+  return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
+}
+
+Arm::Landing Arm::land(const ChordStep& step) {
+  const double edge = first_negative([&](double t) {
+    const Place place = at(step, t).head<2>();
+    constexpr double rounding = 1e-13;
+    return std::min(place.minCoeff(), 1.0 - place.maxCoeff()) + rounding;
+  });
+  const double last = first_negative([&](double t) {
+    const Eigen::Vector4d there = at(step, t);
+    return function_.distance_to_end(there[2], there[3]);
+  });
+  double seed = 2.0;
+  const CurvePoint& first = points.front();
+  if (points.size() > 1 && step_passes(step, first.place, first.s, options_.tolerance, window_.reference())) {
+    distance_from(step, first.place, seed);
+    if (sign_ < 0.0) seed = 1.0 - seed;
+  }
+  if (seed <= std::min(edge, last)) return seed > 1.0 ? Landing::nothing : close();
+  return edge <= last ? land_on_edge(step, edge) : land_on_end(step, last);
+}
+
+Arm::Landing Arm::finish(const Situation& there, PointFlag flag, CurveEnd how) {
+  if (there.status != PointStatus::computed) return Landing::failed;
+  if ((there.place - last().place).norm() > same_place) {
+    std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+    if (!next) return Landing::failed;
+    if (flag == takens_bogdanov_flag) {
+      // The double root is zero; QZ knows it to half the digits only.
+      next->s = 0.0;
+      next->others = last().others;
+    }
+    if (!append(std::move(*next))) return Landing::failed;
+  }
+  points.back().flags |= flag;
+  stop(how);
+  return Landing::landed;
+}
+
+bool Arm::append(CurvePoint next) {
+  const std::optional<ChordStep> step = step_to(next);
+  if (!step || !(error_of(*step) <= 1.0)) return false;
+  points.push_back(std::move(next));
+  steps.push_back(*step);
+  return true;
+}
+
+Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
+  PlaceGuess guess = guess_at(step, t);
+  // The coordinate whose bound is met.
+  const Place bound = guess.place.array().round().cwiseMax(0.0).cwiseMin(1.0);
+  Eigen::Index axis = 0;
+  (guess.place - bound).cwiseAbs().minCoeff(&axis);
+  guess.place[axis] = bound[axis];
+  Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
+  if (there.status == PointStatus::computed && !Window::contains(there.place))
+    there.status = PointStatus::mode_lost;
+  const Landing landing = finish(there, edge_flag, CurveEnd::edge);
+  return landing == Landing::failed ? cut_on_edge(step, t, guess) : landing;
+}
+
+Arm::Landing Arm::cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess) {
+  const Situation there = compute_situation(window_, function_, guess, counts_);
+  if (there.status != PointStatus::computed) return Landing::failed;
+  const Matrix series = step.series(sign_ > 0.0 ? t : 1.0 - t);
+  if (!append(point_on_dense_curve(window_, function_, there, series, last(), counts_)))
+    return Landing::failed;
+  points.back().flags = edge_flag;
+  stop(CurveEnd::edge);
+  return Landing::landed;
+}
+
+Arm::Landing Arm::land_on_end(const ChordStep& step, double t) {
+  return finish(correct_to_end(window_, function_, guess_at(step, t), counts_), takens_bogdanov_flag,
+                CurveEnd::takens_bogdanov);
+}
+
+Arm::Landing Arm::close() {
+  // A point beside the seed gives way to it.
+  if ((points.front().place - last().place).norm() < 1e-3 * steps.back().length && points.size() > 2) {
+    points.pop_back();
+    steps.pop_back();
+  }
+  const std::optional<ChordStep> step = step_to(points.front());
+  if (!step || !(error_of(*step) <= 1.0)) return Landing::failed;
+  points.push_back(points.front());
+  steps.push_back(*step);
+  stop(CurveEnd::closed);
+  return Landing::landed;
+}
+
+}  // namespace
+
+bool FollowedCurve::passes(const Place& place, Complex s, double tolerance, double s_ref) const {
+  return std::any_of(steps.begin(), steps.end(),
+                     [&](const ChordStep& step) { return step_passes(step, place, s, tolerance, s_ref); });
+}
+
+FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
+                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point,
+                           int& rejected, RunCounts& counts) {
+  seed.flags |= seed_flag;
+  Arm ahead(window, function, options, seed, 1.0, on_point, counts);
+  ahead.follow();
+  rejected += ahead.rejected;
+  FollowedCurve curve;
+  curve.function = function;
+  curve.end = curve.begin = ahead.end;
+  curve.end_reason = ahead.reason;
+  curve.points = std::move(ahead.points);
+  curve.steps = std::move(ahead.steps);
+  if (curve.end == CurveEnd::closed) return curve;
+  Arm back(window, function, options, seed, -1.0, on_point, counts);
+  back.follow();
+  rejected += back.rejected;
+  curve.begin = back.end;
+  curve.begin_reason = back.reason;
+  std::reverse(back.points.begin(), back.points.end());
+  std::reverse(back.steps.begin(), back.steps.end());
+  curve.points.front().flags |= back.points.back().flags;  // both are the seed
+  back.points.pop_back();
+  curve.points.insert(curve.points.begin(), back.points.begin(), back.points.end());
+  curve.steps.insert(curve.steps.begin(), back.steps.begin(), back.steps.end());
+  return curve;
+}
+
+}  // namespace eigentrail

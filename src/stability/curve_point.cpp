@@ -1,0 +1,178 @@
+#include "stability/curve_point.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/normalization.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_corrections = 12;
+constexpr double settled = 1e-14;    ///< of the window: smaller corrections are rounding
+constexpr double stagnated = 1e-10;  ///< corrections below this that no longer shrink are rounding
+constexpr double longest = 0.5;      ///< of the window: corrections beyond it lead astray
+/// Real parts below this, relatively, are zero.
+constexpr double vanishing = 1e-9;
+
+/// How far a mode is unstable: Re s, or what is left of it where a damping ratio is asked for.
+double instability(const BoundaryFunction& function, Complex s) {
+  return s.real() +
+         (function.kind == BoundaryKind::damping_ratio ? function.damping_ratio * std::abs(s) : 0.0);
+}
+
+/// Eigenvalue of the block with Im s >= 0 and its vector.
+void read_mode(const Situation& situation, CurvePoint& point) {
+  const InvariantPair& pair = situation.pair;
+  ComplexVector z = pair.Z.col(0);
+  point.s = 0.0;
+  if (pair.size() == 2) {
+    const Eigen::EigenSolver<Matrix> solver(Matrix(pair.Lambda.real()));
+    const Eigen::Index upper = solver.eigenvalues()[0].imag() >= 0.0 ? 0 : 1;
+    point.s = solver.eigenvalues()[upper];
+    z = pair.Z * solver.eigenvectors().col(upper);
+  }
+  z = normalize_shape(z, situation.pencil.M[0], {});
+  const TangentBasis& basis = situation.point.basis;
+  point.shape = basis.is_identity ? z : ComplexVector(basis.T[0].cast<Complex>() * z);
+}
+
+/// The place of the mode among all others.
+void count_others(const Window& window, const BoundaryFunction& function, const ReducedPencil& pencil,
+                  CurvePoint& point, RunCounts& counts) {
+  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  ++counts.spectra;
+  if (spectrum.modes.empty()) return;
+  const auto nearest = std::min_element(
+      spectrum.modes.begin(), spectrum.modes.end(),
+      [&](const auto& a, const auto& b) { return std::abs(a.s - point.s) < std::abs(b.s - point.s); });
+  point.number = static_cast<int>(nearest - spectrum.modes.begin()) + 1;
+  point.gap = INFINITY;
+  for (auto mode = spectrum.modes.begin(); mode != spectrum.modes.end(); ++mode) {
+    if (mode != nearest) point.gap = std::min(point.gap, std::abs(mode->s - point.s));
+    const double zero = vanishing * std::max(std::abs(mode->s), window.reference());
+    if (mode != nearest && instability(function, mode->s) > zero) ++point.others;
+  }
+}
+
+}  // namespace
+
+std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
+                                       const Situation& situation, const Place& along, RunCounts& counts) {
+  const auto gradients = function_gradients(window, situation, counts);
+  if (!gradients) return std::nullopt;
+  const Place slope = gradient(function, situation.functions, *gradients);
+  const double steepness = slope.norm();
+  if (!(steepness > 0.0)) return std::nullopt;
+  CurvePoint point;
+  point.place = situation.place;
+  point.normal = slope / steepness;
+  point.tangent = Place(point.normal.y(), -point.normal.x());
+  if (point.tangent.dot(along) < 0.0) point.tangent = -point.tangent;
+  const int order = window.order() + 1;
+  point.places = Matrix::Zero(2, order + 1);
+  point.places.col(0) = point.place;
+  point.places.col(1) = point.tangent;
+  for (int k = 2; k <= order; ++k) {
+    const auto known = differentiate_situation(window, situation, point.places.leftCols(k), k, counts);
+    if (!known) return std::nullopt;
+    point.places.col(k) = -function.series(known->functions)[k] / steepness * point.normal;
+  }
+  auto series = differentiate_situation(window, situation, point.places, order, counts);
+  if (!series) return std::nullopt;
+  point.path = std::move(series->node.path);
+  point.mode = std::move(series->mode);
+  point.functions = std::move(series->functions);
+  point.left = left_vector(situation);
+  point.basis = situation.point.basis.T[0];
+  const KktFactorization& kkt = situation.point.equilibrium.kkt;
+  point.solves_equilibrium = kkt.can_solve();
+  point.equilibrium_condition = kkt.reciprocal_condition();
+  read_mode(situation, point);
+  count_others(window, function, situation.point.pencil, point, counts);
+  return point;
+}
+
+CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& function,
+                                const Situation& situation, const Matrix& series, const CurvePoint& neighbour,
+                                RunCounts& counts) {
+  CurvePoint point = neighbour;
+  point.flags = 0;
+  point.others = 0;
+  point.place = situation.place;
+  const double speed = series.col(1).head<2>().norm();
+  Matrix along = series;
+  for (Eigen::Index k = 1; k < along.cols(); ++k) along.col(k) /= std::pow(speed, k);
+  point.places = along.topRows(2);
+  point.places.col(0) = point.place;
+  point.tangent = point.places.col(1);
+  point.normal = Place(-point.tangent.y(), point.tangent.x());
+  if (point.functions.rows() == 2) point.functions = along.bottomRows(2).cast<Complex>();
+  point.path.x.col(0) = situation.point.equilibrium.x;
+  read_mode(situation, point);
+  count_others(window, function, situation.point.pencil, point, counts);
+  return point;
+}
+
+PlaceGuess predict(const CurvePoint& point, double h) {
+  PlaceGuess guess;
+  guess.place = evaluate_series(point.places, h);
+  guess.equilibrium = {evaluate_series(point.path.x, h), evaluate_series(point.path.lambda, h), true};
+  guess.block = {evaluate_series(point.mode.Z, h), evaluate_series(point.mode.Lambda, h), point.left};
+  guess.basis = point.basis;
+  return guess;
+}
+
+namespace {
+
+/// Newton with steps from `step(situation)`, until they are rounding. A step is empty when there is none.
+template <class Step>
+Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
+                  Step&& step) {
+  const Place start = guess.place;
+  double last = INFINITY;
+  for (int i = 0; i < most_corrections; ++i) {
+    Situation situation = compute_situation(window, function, guess, counts);
+    if (situation.status != PointStatus::computed) return situation;
+    const std::optional<Place> move = step(situation);
+    const double size = move ? move->norm() : INFINITY;
+    if (size <= settled || (size > 0.5 * last && last <= stagnated)) return situation;
+    if (!(size <= longest) || (situation.place + *move - start).norm() > longest) break;
+    last = size;
+    guess = as_guess(situation, situation.place + *move);
+  }
+  Situation failed;
+  failed.status = PointStatus::mode_lost;
+  failed.message = "no point of the curve was found nearby";
+  return failed;
+}
+
+}  // namespace
+
+Situation correct_along(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
+                        const Place& direction, RunCounts& counts) {
+  return correct(window, function, std::move(guess), counts,
+                 [&](const Situation& situation) -> std::optional<Place> {
+                   const auto gradients = function_gradients(window, situation, counts);
+                   if (!gradients) return std::nullopt;
+                   const Place slope = gradient(function, situation.functions, *gradients);
+                   const Place along = direction.isZero(0.0) ? slope : direction;
+                   return -function.series(situation.functions)[0] / slope.dot(along) * along;
+                 });
+}
+
+Situation correct_to_end(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
+                         RunCounts& counts) {
+  return correct(window, function, std::move(guess), counts,
+                 [&](const Situation& situation) -> std::optional<Place> {
+                   const auto gradients = function_gradients(window, situation, counts);
+                   if (!gradients) return std::nullopt;
+                   const Matrix inverse = gradients->inverse();
+                   return Place(-inverse * situation.functions.col(0).real());
+                 });
+}
+
+}  // namespace eigentrail

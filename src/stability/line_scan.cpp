@@ -1,0 +1,259 @@
+#include "stability/line_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "eigentrail/continuation/dense_output.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double scan_tolerance = 1e-6;
+constexpr int steps_per_line = 16;  ///< at least
+constexpr int samples_per_step = 16;
+/// Values below this, relatively, have no sign: an undamped mode stays on the axis but for rounding.
+constexpr double vanishing = 1e-9;
+constexpr int halvings = 40;
+constexpr double largest_jump = 1e-3;  ///< of |s|, where stability changes
+/// Of the window: a zero of the stiffness nearer to a fold is the fold itself.
+constexpr double beside_fold = 1e-4;
+/// Of the range: a trace that ends farther from its end did not get there.
+constexpr double arrived = 1e-9;
+
+struct Sample {
+  Place place;
+  EquilibriumGuess equilibrium;
+  ComplexVector s;  ///< by mode
+};
+
+/// One step of a trace as a function of t in [0, 1].
+class SampledStep {
+ public:
+  SampledStep(const Window& window, const ScanLine& line, const Path& left, const PathStep& step,
+              ComplexVector at_left, ComplexVector at_right)
+      : window_(window),
+        line_(line),
+        left_(left),
+        step_(step),
+        at_left_(std::move(at_left)),
+        at_right_(std::move(at_right)) {}
+
+  Sample operator()(double t) const {
+    const HermiteInterpolant parameter(step_.length, step_.parameter.row(0).cast<Complex>(),
+                                       step_.parameter.row(1).cast<Complex>());
+    const double h = t * step_.length;
+    Sample sample;
+    sample.place = line_.at(window_.scaled(line_.along, parameter(t)[0].real()));
+    sample.equilibrium = {evaluate_series(left_.x, h), evaluate_series(left_.lambda, h), true};
+    sample.s = eigenvalues(t);
+    return sample;
+  }
+  ComplexVector eigenvalues(double t) const { return step_eigenvalues(step_, at_left_, at_right_, t); }
+
+ private:
+  const Window& window_;
+  const ScanLine& line_;
+  const Path& left_;
+  const PathStep& step_;
+  ComplexVector at_left_, at_right_;
+};
+
+class Scanner {
+ public:
+  Scanner(const Window& window, const BoundaryOptions& options, const ScanLine& line)
+      : window_(window), options_(options), line_(line) {}
+
+  LineScan run();
+
+ private:
+  TraceResult trace_line(double from, double to);
+  bool take(const TracePoint& point);
+  void look_at(const SampledStep& step, double from, const Sample& sample, double t);
+  void add_seed(const SampledStep& step, Eigen::Index mode, double from, double to);
+  void add_extremum(Eigen::Index mode, double before, double here, double behind);
+  void report(const TraceResult& result);
+  bool has_sign(Complex s) const {
+    return std::abs(instability(options_, s)) > vanishing * std::max(std::abs(s), scan_.s_ref);
+  }
+
+  const Window& window_;
+  const BoundaryOptions& options_;
+  const ScanLine& line_;
+  LineScan scan_;
+  std::optional<Path> left_;
+  ComplexVector at_left_;
+  std::optional<Sample> before_, last_;
+  std::vector<double>
+      signs_;  ///< of every mode, where it last had one; 0: not yet, or it has ceased to exist
+};
+
+ComplexVector by_mode(const std::vector<ModeState>& states, Eigen::Index count) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  ComplexVector s = ComplexVector::Constant(count, Complex(nan, nan));
+  for (const ModeState& state : states) s[state.mode] = state.s;
+  return s;
+}
+
+Eigen::Index mode_count(const std::vector<ModeState>& states) {
+  int count = 0;
+  for (const ModeState& state : states) count = std::max(count, state.mode + 1);
+  return count;
+}
+
+void resize(ComplexVector& s, Eigen::Index count) {
+  const Eigen::Index old = s.size();
+  if (count <= old) return;
+  s.conservativeResize(count);
+  s.tail(count - old).setConstant(Complex(std::numeric_limits<double>::quiet_NaN(), 0.0));
+}
+
+LineScan Scanner::run() {
+  const TraceResult result = trace_line(0.0, 1.0);
+  report(result);
+  const double end = window_.declared(line_.at(1.0))[line_.along];
+  const double range = std::abs(end - window_.declared(line_.at(0.0))[line_.along]);
+  const bool complete =
+      result.status == TraceStatus::completed && std::abs(result.reached - end) <= arrived * range;
+  if (complete) return std::move(scan_);
+  // What lies beyond the place where it stopped may be reached from the other end.
+  const TraceResult back = trace_line(1.0, 0.0);
+  report(back);
+  const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
+  const int other = 1 - line_.along;
+  scan_.findings.push_back(
+      {scan_.started ? "lines not searched from end to end" : "lines that could not be begun",
+       window_.name(other) + " = " + window_.value_text(other, line_.held) + ": " + reason});
+  return std::move(scan_);
+}
+
+TraceResult Scanner::trace_line(double from, double to) {
+  const Place held = window_.declared(line_.at(0.5));
+  const int other = 1 - line_.along;
+  TraceOptions options = options_.trace;
+  options.parameter = window_.name(line_.along);
+  options.values[window_.name(other)] = held[other];
+  options.from = window_.declared(line_.at(from))[line_.along];
+  options.to = window_.declared(line_.at(to))[line_.along];
+  options.tolerance = scan_tolerance;
+  options.certify = false;
+  options.events = {.extrema = false};  // the scan looks for its own
+  options.first_step.reset();
+  options.max_step = std::abs(options.to - options.from) / steps_per_line;
+  left_.reset();
+  before_.reset();
+  last_.reset();
+  signs_.clear();
+  TraceObserver observer;
+  observer.started = [this](const TraceStart& start) {
+    scan_.started = true;
+    scan_.s_ref = start.s_ref;
+  };
+  observer.point = [this](const TracePoint& point) { return take(point); };
+  TraceResult result = trace(window_.model(), options, observer);
+  scan_.counts.modes.factorizations += result.counts.modes.factorizations;
+  scan_.counts.spectra += result.counts.spectra;
+  return result;
+}
+
+bool Scanner::take(const TracePoint& point) {
+  const Eigen::Index count = std::max(mode_count(point.modes), at_left_.size());
+  ComplexVector at_right = by_mode(point.modes, count);
+  if (left_ && point.step != nullptr) {
+    resize(at_left_, count);
+    signs_.resize(static_cast<std::size_t>(count), 0.0);
+    const SampledStep step(window_, line_, *left_, *point.step, at_left_, at_right);
+    for (int k = 0; k <= samples_per_step; ++k) {
+      if (k == 0 && last_) continue;
+      const double t = static_cast<double>(k) / samples_per_step;
+      look_at(step, std::max(t - 1.0 / samples_per_step, 0.0), step(t), t);
+    }
+  }
+  left_ = point.node.path;
+  at_left_ = std::move(at_right);
+  return true;
+}
+
+void Scanner::look_at(const SampledStep& step, double from, const Sample& sample, double t) {
+  for (Eigen::Index mode = 0; mode < sample.s.size(); ++mode) {
+    const Complex s = sample.s[mode];
+    double& sign = signs_[static_cast<std::size_t>(mode)];
+    if (!std::isfinite(s.real())) {
+      sign = 0.0;
+      continue;
+    }
+    if (has_sign(s)) {
+      const double here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
+      if (sign * here < 0.0) add_seed(step, mode, from, t);
+      sign = here;
+    }
+    if (!before_ || mode >= last_->s.size() || mode >= before_->s.size()) continue;
+    add_extremum(mode, instability(options_, before_->s[mode]), instability(options_, last_->s[mode]),
+                 instability(options_, s));
+  }
+  before_ = std::move(last_);
+  last_ = sample;
+}
+
+void Scanner::add_seed(const SampledStep& step, Eigen::Index mode, double from, double to) {
+  const double behind = instability(options_, step.eigenvalues(to)[mode]);
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (from + to);
+    const Complex s = step.eigenvalues(middle)[mode];
+    (instability(options_, s) * behind > 0.0 ? to : from) = middle;
+  }
+  const Sample there = step(to);
+  const Complex s = there.s[mode];
+  const bool pair = s.imag() != 0.0;
+  if (!passes_zero(options_, s, scan_.s_ref)) return;
+  // A real root has no damping ratio but one.
+  if (!pair && options_.damping_ratio) return;
+  const BoundaryKind kind = !pair                    ? BoundaryKind::divergence
+                            : options_.damping_ratio ? BoundaryKind::damping_ratio
+                                                     : BoundaryKind::flutter;
+  scan_.seeds.push_back({there.place, Place::Unit(line_.along), kind, s, there.equilibrium});
+}
+
+void Scanner::add_extremum(Eigen::Index mode, double before, double here, double behind) {
+  const double sign = here < 0.0 ? 1.0 : -1.0;
+  if (!(sign * (here - before) > 0.0 && sign * (here - behind) > 0.0)) return;
+  const Complex s = last_->s[mode];
+  if (options_.damping_ratio && s.imag() == 0.0) return;
+  const double rounding = vanishing * std::max(std::abs(s), scan_.s_ref);
+  if (sign * (here - before) < rounding && sign * (here - behind) < rounding) return;
+  scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
+}
+
+/// Boundaries of other kinds than those that are followed.
+void Scanner::report(const TraceResult& result) {
+  for (const Event& event : result.events) {
+    const Place place = line_.at(window_.scaled(line_.along, event.p));
+    if (event.kind == EventKind::fold) {
+      scan_.findings.push_back({"folds of the equilibrium, which are not followed", window_.text(place)});
+      std::erase_if(scan_.seeds, [&place](const BoundarySeed& seed) {
+        return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
+      });
+    }
+    const bool on_axis = std::abs(event.s.real()) <= 1e-6 * std::abs(event.s);
+    if (event.kind == EventKind::collision && event.modes.size() > 1 && event.s.imag() != 0.0 && on_axis)
+      scan_.findings.push_back(
+          {"modes without damping that coalesce, which is not followed (add a little damping)",
+           window_.text(place)});
+  }
+}
+
+}  // namespace
+
+double instability(const BoundaryOptions& options, Complex s) {
+  return s.real() + options.damping_ratio.value_or(0.0) * std::abs(s);
+}
+
+bool passes_zero(const BoundaryOptions& options, Complex s, double s_ref) {
+  return std::abs(instability(options, s)) <= largest_jump * std::max(std::abs(s), s_ref);
+}
+
+LineScan scan_line(const Window& window, const BoundaryOptions& options, const ScanLine& line) {
+  return Scanner(window, options, line).run();
+}
+
+}  // namespace eigentrail

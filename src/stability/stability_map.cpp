@@ -1,0 +1,120 @@
+#include "eigentrail/stability/stability_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/parallel.hpp"
+#include "eigentrail/core/text.hpp"
+#include "stability/second_parameter.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// n >= 2 values from one end to the other; both ends are exact.
+std::vector<double> evenly(double from, double to, int n) {
+  std::vector<double> values(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double share = static_cast<double>(i) / (n - 1);
+    values[static_cast<std::size_t>(i)] = (1.0 - share) * from + share * to;
+  }
+  return values;
+}
+
+void check_options(const MapOptions& options, const TraceOptions& trace, const Parameters& parameters) {
+  const auto require = [](bool holds, const std::string& message) {
+    if (!holds) throw InputError(message);
+  };
+  check_second_parameter(parameters, options.second, trace.parameter);
+  require(std::isfinite(options.from) && std::isfinite(options.to), "--from, --to: expected finite numbers");
+  require(options.from != options.to,
+          "--to: equals --from (" + exact_text(options.from) + "): the window is empty");
+  const std::string grid = std::to_string(options.n_second) + "x" + std::to_string(options.n_first);
+  require(options.n_first >= 2 && options.n_second >= 2,
+          "--grid: expected at least 2 values of each parameter, found " + grid);
+  require(static_cast<long>(options.n_second) * options.n_first <= most_map_cells,
+          "--grid: expected at most " + std::to_string(most_map_cells) + " cells, found " + grid);
+  require(
+      options.jobs >= 0 && options.jobs <= most_map_jobs,
+      "--jobs: expected 0 to " + std::to_string(most_map_jobs) + ", found " + std::to_string(options.jobs));
+}
+
+/// Parameter values all over the window, the two ends of the first line before all others.
+std::vector<Vector> checked_points(const Parameters& parameters, int first, const TraceOptions& trace,
+                                   const MapOptions& options) {
+  constexpr int per_side = 17;
+  const int second = parameters.index(options.second).value();
+  Vector declared = parameters.declared_values();
+  std::vector<Vector> points;
+  for (const double q : evenly(options.from, options.to, per_side)) {
+    declared[second] = q;
+    std::vector<double> line = evenly(trace.from, trace.to, per_side);
+    std::swap(line[1], line.back());
+    for (const double p : line) {
+      declared[first] = p;
+      points.push_back(declared);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+std::uint64_t MapLine::factorizations() const {
+  return counts.modes.factorizations + counts.certificate_factorizations + counts.event_factorizations;
+}
+
+MapTotals total(const StabilityMap& map) {
+  MapTotals totals;
+  for (const MapLine& line : map.lines) {
+    const auto count = [&line](int value) {
+      return static_cast<std::size_t>(std::count(line.unstable.begin(), line.unstable.end(), value));
+    };
+    const std::size_t marginal = static_cast<std::size_t>(line.marginal_cells);
+    const std::size_t unknown = count(MapLine::unknown);
+    const std::size_t calm = count(0);
+    totals.cells += line.unstable.size();
+    totals.unknown += unknown;
+    totals.marginal += marginal;
+    totals.stable += calm - marginal;
+    totals.unstable += line.unstable.size() - calm - unknown;
+    totals.factorizations += line.factorizations();
+    totals.spectra += line.counts.spectra;
+  }
+  return totals;
+}
+
+MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
+  check_top_level(scene);
+  MapSetup setup{{std::move(scene), {}, nullptr}, options};
+  TraceSetup& trace = setup.trace;
+  std::set<int> used;
+  trace.options = read_trace_options(trace.scene, overrides, used);
+  const Parameters& parameters = trace.scene.parameters;
+  check_options(options, trace.options, parameters);
+  // Both must enter the model.
+  used.erase(trace.traced());
+  used.erase(parameters.index(options.second).value());
+  trace.model = build_model(trace.scene, {checked_points(parameters, trace.traced(), trace.options, options),
+                                          used, trace.options.without});
+  return setup;
+}
+
+StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>& done) {
+  const MapOptions& options = setup.options;
+  StabilityMap map;
+  map.first = evenly(setup.trace.options.from, setup.trace.options.to, options.n_first);
+  map.lines.resize(static_cast<std::size_t>(options.n_second));
+  const std::vector<double> seconds = evenly(options.from, options.to, options.n_second);
+
+  std::mutex mutex;
+  int finished = 0;
+  in_parallel(seconds.size(), options.jobs, [&](std::size_t i) {
+    map.lines[i] = map_line(setup, seconds[i], map.first);
+    const std::scoped_lock lock(mutex);
+    done(++finished);
+  });
+  return map;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,78 @@
+#include "eigentrail/stability/stable_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+/// Margin beside a cut at which other modes than those of the cut decide: where an eigenvalue is infinite.
+double margin_of_others(const RecordedPath& path, const AxisCut& cut) {
+  const ComplexVector s = path.eigenvalues_at(cut.at);
+  double fastest = -INFINITY;
+  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
+    const bool of_cut = std::find(cut.modes.begin(), cut.modes.end(), mode) != cut.modes.end();
+    if (!of_cut && std::isfinite(s[mode].real())) fastest = std::max(fastest, s[mode].real());
+  }
+  return -fastest;
+}
+
+/// `nearest` is the sample of the range next to this end.
+RangeEnd range_end(const RecordedPath& path, Stability kind, const AxisCut& cut, const AxisSample& nearest) {
+  RangeEnd end{cut.p, cut.cause};
+  if (cut.on_axis) {
+    end.mode = cut.modes.empty() ? nearest.critical : cut.modes.front();
+    if (cut.cause == "infinity") end.margin = margin_of_others(path, cut);
+  } else if (kind == Stability::stable) {
+    end.margin = nearest.margin;
+    end.mode = nearest.critical;
+  }
+  return end;
+}
+
+/// A range of neighbouring stretches of one kind.
+StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisStretch* last) {
+  StableRange range;
+  range.kind = first->stability;
+  range.from = range_end(path, range.kind, first->from, first->samples.front());
+  range.to = range_end(path, range.kind, last->to, last->samples.back());
+  if (range.kind == Stability::marginal) {
+    range.largest_at = range.from.p;
+    return range;
+  }
+  range.least_margin = std::min(range.from.margin, range.to.margin);
+  range.largest_margin = -INFINITY;
+  const auto include = [&range](double margin, double p) {
+    range.least_margin = std::min(range.least_margin, std::max(margin, 0.0));
+    if (margin <= range.largest_margin) return;
+    range.largest_margin = margin;
+    range.largest_at = p;
+  };
+  include(range.from.margin, range.from.p);
+  for (const AxisStretch* stretch = first; stretch <= last; ++stretch) {
+    for (const AxisSample& sample : stretch->samples) include(sample.margin, path.parameter_at(sample.at));
+  }
+  include(range.to.margin, range.to.p);
+  return range;
+}
+
+}  // namespace
+
+std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
+                                       const EigenvalueAccuracy& accuracy) {
+  const std::vector<AxisStretch> stretches = axis_stretches(path, events, accuracy);
+  std::vector<StableRange> ranges;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const std::size_t first = i;
+    const auto goes_on = [&](std::size_t next) {
+      return next < stretches.size() && stretches[next].stability == stretches[first].stability &&
+             !stretches[next].from.turns;
+    };
+    while (goes_on(i + 1)) ++i;
+    if (stretches[first].stability != Stability::unstable)
+      ranges.push_back(join(path, &stretches[first], &stretches[i]));
+  }
+  return ranges;
+}
+
+}  // namespace eigentrail

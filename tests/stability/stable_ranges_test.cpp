@@ -1,0 +1,244 @@
+// Stable ranges of traces whose stability is known in closed form.
+#include "eigentrail/stability/stable_ranges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "eigentrail/core/text.hpp"
+#include "hard_cases/catalogue.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+struct TracedRanges {
+  TraceResult result;
+  RecordedPath path;
+  std::vector<StableRange> ranges;
+};
+
+TracedRanges traced_ranges(const Setting& setting, int most_points = 0) {
+  TracedRanges traced;
+  PathRecorder recorder;
+  TraceObserver observer;
+  int points = 0;
+  observer.point = [&](const TracePoint& point) {
+    recorder.append(point);
+    return ++points != most_points;
+  };
+  traced.result = trace(*setting.model, setting.options, observer);
+  traced.path = recorder.path();
+  traced.ranges =
+      stable_ranges(traced.path, traced.result.events, {setting.options.tolerance, traced.result.s_ref});
+  return traced;
+}
+
+TracedRanges traced_family(const std::string& trace, const std::string& matrices) {
+  return traced_ranges(
+      make_setting("[trace]\nparameter = \"p\"\n" + trace + "\n[matrix_family]\n" + matrices));
+}
+
+struct ExpectedRange {
+  Stability kind;
+  double from, to;
+  std::string from_cause, to_cause;
+};
+
+std::string text(const std::vector<StableRange>& ranges) {
+  std::ostringstream out;
+  for (const StableRange& range : ranges) {
+    out << stability_name(range.kind) << ' ' << range.from.p << ' ' << range.from.cause << " -> "
+        << range.to.p << ' ' << range.to.cause << "; ";
+  }
+  return out.str();
+}
+
+void expect_ranges(const std::vector<StableRange>& found, const std::vector<ExpectedRange>& expected) {
+  // Events are located to about 1e-10 of the range.
+  constexpr double accuracy = 1e-8;
+  ASSERT_EQ(found.size(), expected.size()) << text(found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    SCOPED_TRACE(text({found[i]}));
+    EXPECT_EQ(found[i].kind, expected[i].kind);
+    EXPECT_NEAR(found[i].from.p, expected[i].from, accuracy);
+    EXPECT_NEAR(found[i].to.p, expected[i].to, accuracy);
+    EXPECT_EQ(found[i].from.cause, expected[i].from_cause);
+    EXPECT_EQ(found[i].to.cause, expected[i].to_cause);
+  }
+}
+
+constexpr Stability stable = Stability::stable;
+constexpr Stability marginal = Stability::marginal;
+
+struct RangesCase {
+  std::string hard_case;
+  std::vector<ExpectedRange> ranges;
+};
+void PrintTo(const RangesCase& c, std::ostream* out) {
+  *out << c.hard_case;
+}
+
+class HardCaseRanges : public testing::TestWithParam<RangesCase> {};
+
+TEST_P(HardCaseRanges, AreThoseOfTheClosedForm) {
+  for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+    SCOPED_TRACE(tolerance);
+    const HardCase& c = hard_case(GetParam().hard_case);
+    expect_ranges(traced_ranges(make_setting(c.scene, {{"tolerance", exact_text(tolerance)}})).ranges,
+                  GetParam().ranges);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, HardCaseRanges,
+    testing::Values(
+        RangesCase{"H05_exceptional_point", {{marginal, 0, 0.5, "start", "collision"}}},
+        RangesCase{"H05_exceptional_point_at_end", {{marginal, 0, 0.5, "start", "collision"}}},
+        RangesCase{"H08_ziegler", {{marginal, 0, 2.085786437626904951198, "start", "collision"}}},
+        RangesCase{"H09_ziegler_damped_1em4", {{stable, 0, 1.46428571428571428571, "start", "flutter"}}},
+        RangesCase{"H09_ziegler_damped_1", {{stable, 0, 1.96428571428571428571, "start", "flutter"}}},
+        RangesCase{"H10_gyroscopic_loss", {{marginal, 3, 2, "start", "collision"}}},
+        RangesCase{"H11_internal_damping", {{stable, 0, 3, "start", "flutter"}}},
+        RangesCase{"H12_internal_damping_anisotropic", {{stable, 0, 3.60555127546399, "start", "flutter"}}},
+        RangesCase{"H13_ground_resonance_undamped",
+                   {{marginal, 5, 14.125938130500622816, "start", "collision"},
+                    {marginal, 19.246307207909378842, 21.010497422155937776, "collision", "collision"},
+                    {marginal, 32.041673914624333041, 40, "collision", "end"}}},
+        RangesCase{"H14_ground_resonance_damped",
+                   {{stable, 5, 14.196322617088708071, "start", "flutter"},
+                    {stable, 19.404591244682398597, 20.950696238470192032, "flutter", "flutter"},
+                    {stable, 33.144464474936986812, 40, "flutter", "end"}}},
+        RangesCase{"H15_ground_resonance_stable", {{stable, 5, 60, "start", "end"}}},
+        RangesCase{"H16_flap_lag", {{stable, 0.01, 0.1657863012097541564, "start", "flutter"}}},
+        RangesCase{"H17_divergence", {{stable, 0, 1, "start", "divergence"}}},
+        RangesCase{"H18_undamped_divergence", {{marginal, 0, 1, "start", "collision"}}},
+        RangesCase{"H20_infinite_eigenvalue", {{stable, 0, 1, "start", "infinity"}}},
+        RangesCase{"H22_rigid_body_mode", {{marginal, 0, 0.1, "collision", "end"}}},
+        RangesCase{"C01_rotating_mass", {{stable, 100, 12.4393882230095183, "start", "flutter"}}},
+        RangesCase{"C05_pushed_pendulum", {{marginal, 0, 1, "start", "fold"}}}),
+    [](const auto& test) { return test.param.hard_case; });
+
+/// s^2 + 2 c s + 1 with c = (p - 1)(p - 2)(p - 4)(p - 5)/10: stable but for two windows, |s| = 1 throughout.
+TEST(StableRanges, LeaveOutTwoWindowsOfInstability) {
+  const TracedRanges traced = traced_family(
+      "from = 0\nto = 6", "M = [[[1]]]\nC = [[[\"(p - 1)*(p - 2)*(p - 4)*(p - 5)/50\"]]]\nK = [[[1]]]");
+  expect_ranges(traced.ranges, {{stable, 0, 1, "start", "flutter"},
+                                {stable, 2, 4, "flutter", "flutter"},
+                                {stable, 5, 6, "flutter", "end"}});
+  ASSERT_EQ(traced.ranges.size(), 3u);
+  // Re s = -c/2: 40/100 at p = 0, and 4/100 in the middle, at p = 3.
+  EXPECT_NEAR(traced.ranges[0].from.margin, 0.4, 1e-12);
+  EXPECT_EQ(traced.ranges[0].from.mode, 0);
+  EXPECT_EQ(traced.ranges[0].to.margin, 0.0);
+  EXPECT_NEAR(traced.ranges[1].largest_margin, 0.04, 1e-4);
+  EXPECT_NEAR(traced.ranges[1].largest_at, 3.0, 0.1);
+  EXPECT_EQ(traced.ranges[1].least_margin, 0.0);
+}
+
+/// The window's growth, 2.5e-9 at most, is far below the tolerance: the events alone tell of it.
+TEST(StableRanges, SeeAWindowBelowTheTolerance) {
+  const TracedRanges traced =
+      traced_family("from = 0\nto = 1\ntolerance = 1e-5",
+                    "M = [[[1]]]\nC = [[[\"0.002*(p - 0.4)*(p - 0.405)\"]]]\nK = [[[1]]]");
+  expect_ranges(traced.ranges, {{stable, 0, 0.4, "start", "flutter"}, {stable, 0.405, 1, "flutter", "end"}});
+}
+
+/// s^2 + 0.1 s + cos: a damped pendulum pushed beyond its fold; it stands upside down behind.
+TEST(StableRanges, EndWhereTheEquilibriumTurnsBack) {
+  const HardCase& c = hard_case("C05_pushed_pendulum");
+  const TracedRanges traced =
+      traced_ranges(make_setting(c.scene + "\n[[drag]]\npoint = \"bob\"\ncoefficient = 0.1\n"));
+  expect_ranges(traced.ranges, {{stable, 0, 1, "start", "fold"}});
+}
+
+TEST(StableRanges, NameTheModeThatEndsThem) {
+  // The second oscillator, s = +-2j, loses its damping at p = 1; the first keeps 0.1.
+  const TracedRanges traced = traced_family(
+      "from = 0\nto = 2",
+      "M = [[[1, 0], [0, 1]]]\nC = [[[0.2, 0], [0, 1]], [[0, 0], [0, -1]]]\nK = [[[1, 0], [0, 4]]]");
+  expect_ranges(traced.ranges, {{stable, 0, 1, "start", "flutter"}});
+  ASSERT_EQ(traced.ranges.size(), 1u);
+  EXPECT_EQ(traced.ranges[0].from.mode, 0);
+  EXPECT_NEAR(traced.ranges[0].from.margin, 0.1, 1e-12);
+  EXPECT_EQ(traced.ranges[0].to.mode, 1);
+}
+
+TEST(StableRanges, OfATraceThatEndedEarlyReachAsFarAsItCame) {
+  const Setting setting = make_setting(hard_case("H11_internal_damping").scene, {{"max_step", "0.1"}});
+  const TracedRanges traced = traced_ranges(setting, 5);
+  ASSERT_EQ(traced.result.status, TraceStatus::stopped);
+  expect_ranges(traced.ranges, {{stable, 0, traced.result.reached, "start", "end"}});
+  EXPECT_TRUE(traced_ranges(setting, 1).ranges.empty());
+}
+
+TEST(StableRanges, OfThePathReversedAreTheSame) {
+  const HardCase& c = hard_case("H14_ground_resonance_damped");
+  expect_ranges(traced_ranges(make_setting(c.scene, {{"from", "40"}, {"to", "5"}})).ranges,
+                {{stable, 40, 33.144464474936986812, "start", "flutter"},
+                 {stable, 20.950696238470192032, 19.404591244682398597, "flutter", "flutter"},
+                 {stable, 14.196322617088708071, 5, "flutter", "end"}});
+}
+
+/// Without any event the dense output alone finds the boundary, to its own accuracy.
+TEST(StableRanges, AreFoundWithoutEventsToo) {
+  const HardCase& c = hard_case("H11_internal_damping");
+  const Setting setting = make_setting(c.scene, {{"tolerance", "1e-9"}});
+  const TracedRanges traced = traced_ranges(setting);
+  const auto ranges = stable_ranges(traced.path, {}, {1e-9, traced.result.s_ref});
+  ASSERT_EQ(ranges.size(), 1u);
+  EXPECT_NEAR(ranges[0].to.p, 3.0, 1e-5);
+  EXPECT_EQ(ranges[0].to.cause, "sign change");
+}
+
+/// The damping p^2 touches zero: the range goes on, and its margin tells.
+TEST(StableRanges, GoOnWhereTheMarginTouchesZero) {
+  const TracedRanges traced =
+      traced_family("from = -1\nto = 1", "M = [[[1]]]\nC = [[[0]], [[0]], [[0.1]]]\nK = [[[1]]]");
+  ASSERT_EQ(traced.ranges.size(), 1u) << text(traced.ranges);
+  EXPECT_EQ(traced.ranges[0].kind, stable);
+  EXPECT_NEAR(traced.ranges[0].least_margin, 0.0, 1e-3);
+}
+
+TEST(StableRanges, ARigidBodyModeIsNoGrowth) {
+  // Two masses on a spring, free to move on: the double eigenvalue zero is found as +-1e-8 or so.
+  for (const std::string k : {"1", "1e4"}) {
+    const TracedRanges traced =
+        traced_family("from = 1\nto = 3", "M = [[[1, 0], [0, 2]]]\nK = [[[0, 0], [0, 0]], [[" + k + ", -" +
+                                              k + "], [-" + k + ", " + k + "]]]\n");
+    expect_ranges(traced.ranges, {{marginal, 1.0, 3.0, "start", "end"}});
+  }
+}
+
+TEST(StableRanges, ManyRigidBodyModesEndATraceInNoTime) {
+  // Two points in space on a spring: five modes are rigid, and none can be told from the others. Followed
+  // through rounding they took hours.
+  const TracedRanges traced = traced_ranges(make_setting(R"([parameters]
+k = 1
+[trace]
+parameter = "k"
+from = 1
+to = 3
+[[point]]
+name = "a"
+mass = 1
+position = [0, 0, 0]
+[[point]]
+name = "b"
+mass = 2
+position = [1, 0, 0]
+[[spring]]
+from = "a"
+to = "b"
+stiffness = "k"
+free_length = 1
+)"));
+  EXPECT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
+  EXPECT_LT(traced.result.nodes, 50);
+  ASSERT_FALSE(traced.ranges.empty());
+  for (const StableRange& range : traced.ranges) EXPECT_EQ(range.kind, marginal) << text({range});
+}
+
+}  // namespace
+}  // namespace eigentrail::test
