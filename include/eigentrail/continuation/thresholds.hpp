@@ -49,6 +49,9 @@ struct VeeringThresholds {
 struct EventThresholds {
   /// Of the range: places of zeros, extrema and meetings are settled to 1e-10 or better.
   double same_place = 1e-9;
+  /// Of the range: a zero that Newton's method finds to be a double root is known to the root of what other
+  /// zeros are.
+  double same_double_root = 1e-6;
   /// Of the range: places of veerings off the axis are settled to 1e-8.
   double same_veering = 1e-7;
   /// Relatively: eigenvalues at a veering, which vary there like the root of the distance.
@@ -101,6 +104,7 @@ struct Thresholds {
     visit("veering.widest", self.veering.widest);
     visit("veering.trusted_share", self.veering.trusted_share);
     visit("event.same_place", self.event.same_place);
+    visit("event.same_double_root", self.event.same_double_root);
     visit("event.same_veering", self.event.same_veering);
     visit("event.same_eigenvalue", self.event.same_eigenvalue);
     visit("event.known_veering_share", self.event.known_veering_share);

@@ -217,7 +217,8 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (located) event.direction = direction(offset);
   // Modes that coalesce leave the imaginary axis, or pass it, at their meeting: one point, one event. In the
   // reciprocal chart zero is infinity.
-  if (asked == EventKind::flutter && search_.log.has_collision_at(event, search_.problem().s_ref)) return;
+  if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
+    return;
   if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
   Eigen::Index nearest = 0;
   (there.roots.array() - mode_->root).abs().minCoeff(&nearest);

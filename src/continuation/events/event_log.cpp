@@ -55,24 +55,34 @@ bool EventLog::any_event(const Condition& holds) const {
 }
 
 bool EventLog::has(const Event& event) const {
-  return any_event([&](const Event& other) { return are_one(other, event, range.length(), thresholds); });
+  return any_event(
+      [&](const Event& other) { return are_one(other, event, range.length(), thresholds.event); });
 }
 
-bool EventLog::has_collision_at(const Event& zero, double s_ref) const {
-  const double place = thresholds.same_place * range.length();
+bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) const {
   return any_event([&](const Event& other) {
-    if (other.kind != EventKind::collision || std::abs(other.p - zero.p) > place) return false;
+    if (other.kind != EventKind::collision) return false;
+    // A pair that meets its own conjugate and stays a pair does not leave the axis by that.
+    if (zero.kind == EventKind::flutter && other.modes.size() < 2) return false;
     const bool takes_part = std::any_of(zero.modes.begin(), zero.modes.end(), [&](int mode) {
       return std::find(other.modes.begin(), other.modes.end(), mode) != other.modes.end();
     });
-    return takes_part && std::abs(other.s - zero.s) <= spread_at(other, place, s_ref);
+    // Modes that meet on the axis itself leave it there, and on their way rounding makes zeros beside it.
+    // Modes that meet off the axis pass it elsewhere, however near that is.
+    const double on_axis = thresholds.criterion.on_axis * std::max(std::abs(other.s), s_ref);
+    const bool meets_on_axis = std::abs(other.s.real()) <= on_axis;
+    const EventThresholds& same = thresholds.event;
+    const double place =
+        (located && !meets_on_axis ? same.same_place : same.same_double_root) * range.length();
+    return takes_part && std::abs(other.p - zero.p) <= place &&
+           std::abs(other.s - zero.s) <= spread_at(other, place, s_ref);
   });
 }
 
 bool EventLog::knows_veering(Complex p, const std::vector<int>& modes) const {
   const auto is_it = [&](const Event& event) {
-    const double slack =
-        thresholds.known_veering_share * event.half_width + thresholds.known_veering * range.length();
+    const double slack = thresholds.event.known_veering_share * event.half_width +
+                         thresholds.event.known_veering * range.length();
     return event.modes == modes && std::abs(event.p - p.real()) <= slack &&
            std::abs(event.half_width - std::abs(p.imag())) <= slack;
   };

@@ -25,15 +25,16 @@ struct EventLog {
   const std::vector<Event>& events;
   const std::vector<Event>& dismissed;
   const PathRange& range;
-  const EventThresholds& thresholds;
+  const Thresholds& thresholds;
   const FoundEvents* found = nullptr;  ///< on the step at hand, not yet recorded; may be null
 
   /// Whether `event` is recorded, seen from another step.
   bool has(const Event& event) const;
 
   /// Whether the modes that pass the imaginary axis at `zero` meet there: one point, recorded as a collision.
-  /// `s_ref` is the magnitude that counts as zero.
-  bool has_collision_at(const Event& zero, double s_ref) const;
+  /// `located`: its place was located as a zero; else it is one near a double root, where derivatives of one
+  /// eigenvalue end. `s_ref` is the magnitude that counts as zero.
+  bool has_collision_at(const Event& zero, bool located, double s_ref) const;
 
   /// Whether a veering of these modes that is expected at a complex place of the parameter is known, or was
   /// dismissed.

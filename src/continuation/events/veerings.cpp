@@ -269,6 +269,8 @@ FoundEvents VeeringWalk::run() {
   if (found.end != WalkEnd::settled) return {};
   const Complex root = found.position + found.move;
   Event event = event_at(root);
+  // One beyond the ends of the range is not kept: it would stand for another one inside that is close to it.
+  if (!search_.log.is_on_range(event)) return {};
   if (!counts(event, root)) return {{}, {std::move(event)}};
   const Track& there = below_->tracks.front();
   std::vector<int> members(there.modes.size());

@@ -77,7 +77,7 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       criteria_(criteria_of(options.events)),
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
-      log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds.event},
+      log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
   state_.frame.range = {problem_.traced, options.from, options.to};
