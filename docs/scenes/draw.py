@@ -1,7 +1,7 @@
 """Draws the pictures of scenes: python3 docs/scenes/draw.py PROGRAM NAME...
 
 Traces data/scenes/NAME.toml and writes docs/scenes/NAME.svg, eigenvalues against the parameter from the dense output,
-and docs/scenes/NAME_sketch.svg, the scene at its equilibrium. docs/scenes/pictures.toml has what cannot be guessed.
+and docs/scenes/NAME_sketch.svg, the scene at its equilibrium. docs/scenes/pictures.toml has the settings.
 """
 import pathlib
 import subprocess
@@ -27,10 +27,10 @@ from sketch import Sketch
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"]
 DASHES = ["-", "--", "-.", (0, (1, 1)), (0, (5, 1, 1, 1, 1, 1))]
 EVENTS = {"flutter": ("X", "#b2182b"), "divergence": ("s", "#b2182b"), "collision": ("P", "#b2182b"),
-          "pitchfork": ("D", "#762a83"), "fold": (">", "#762a83"), "crossing": ("o", "0.4"), "veering": ("d", "0.4"),
+          "branch_point": ("D", "#762a83"), "fold": (">", "#762a83"), "crossing": ("o", "0.4"), "veering": ("d", "0.4"),
           "extremum": ("^", "0.4"), "damping_ratio": ("v", "0.4"), "resonance": ("*", "#b35806")}
 # What a picture shows of the special points unless it is asked for others.
-SHOWN = ["flutter", "divergence", "pitchfork", "fold", "resonance"]
+SHOWN = ["flutter", "divergence", "branch_point", "fold", "resonance"]
 
 
 class Loci:

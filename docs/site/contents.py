@@ -3,15 +3,16 @@ import pathlib
 import re
 
 CONTENTS = {
-    "Start": ["first-trace", "commands", "scenes/README"],
-    "Describe a system": ["scene", "scene-tables"],
-    "Ask it": ["events", "boundaries", "stability-map", "report"],
-    "Use the results": ["loci-file", "python", "notebooks/*", "cpp"],
-    "Trust it": ["how-it-works", "accuracy", "hard_cases", "performance", "reliability"],
-    "Extend it": ["adding-an-effect"],
+    "Start": ["install", "first-trace", "commands", "glossary"],
+    "Describe a system": ["scene", "scene-tables", "scenes/README"],
+    "Read the results": ["events", "boundaries", "stability-map", "report"],
+    "Use the numbers": ["loci-file", "python", "notebooks/*", "cpp"],
+    "Trust them": ["how-it-works", "accuracy", "reliability"],
+    "For developers": ["developers/README"],
 }
 ROOT = "index"
-GALLERY = "scenes/README"
+# Pages of these folders are listed by the folder's own page, in the order of its links.
+FOLDERS = {"scenes/README": "scenes/", "developers/README": "developers/"}
 
 
 def pages_of(patterns, known):
@@ -25,8 +26,8 @@ def toctree(pages, caption=""):
 
 
 def contents(known):
-    gallery = {page for page in known if page.startswith("scenes/")} - {GALLERY}
-    left = set(known) - gallery - {ROOT}
+    within = {page for page in known if page.startswith(tuple(FOLDERS.values()))} - set(FOLDERS)
+    left = set(known) - within - {ROOT}
     for caption, patterns in CONTENTS.items():
         pages = pages_of(patterns, left)
         left -= set(pages)
@@ -40,9 +41,9 @@ def add_contents(app, page, source):
     known = app.env.found_docs
     if page == ROOT:
         source[0] += "".join(contents(known))
-    elif page == GALLERY:
-        named = re.findall(r"\]\((\w+)\.md\)", source[0])
-        source[0] += toctree(dict.fromkeys(name for name in named if f"scenes/{name}" in known))
+    elif page in FOLDERS:
+        named = re.findall(r"\]\(([\w-]+)\.md\)", source[0])
+        source[0] += toctree(dict.fromkeys(name for name in named if FOLDERS[page] + name in known))
 
 
 def leave_out_headings(app, page, template, context, tree):

@@ -11,8 +11,8 @@
 namespace eigentrail {
 
 /// Models with as many coordinates, or more, have sparse matrices. Of chains of rods both routes trace those
-/// with about 80 in the same time (docs/performance.md); small models keep their dense numbers to the last
-/// bit.
+/// with about 80 in the same time (docs/developers/performance.md); small models keep their dense numbers to
+/// the last bit.
 inline constexpr int sparse_from = 100;
 
 /// Sum of entries of a matrix whose coefficients are power series of order Q.

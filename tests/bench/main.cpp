@@ -1,4 +1,5 @@
-// The performance suite: measures every figure in one process and prints a table (docs/performance.md).
+// The performance suite: measures every figure in one process and prints a table
+// (docs/developers/performance.md).
 //
 //     eigentrail_bench [--only NAME ...] [--smoke] [--repeats N] [--json FILE]
 //

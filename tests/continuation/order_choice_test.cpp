@@ -28,7 +28,7 @@ TEST(OrderChoice, HigherOrderForDearerPoints) {
 }
 
 TEST(OrderChoice, PointsAreThoseOfARotatingMass) {
-  // Counted with orders 1 to 4 at 1e-4 and 1e-8 from 100 to 5 rad/s: docs/accuracy.md.
+  // Counted with orders 1 to 4 at 1e-4 and 1e-8 from 100 to 5 rad/s: docs/developers/accuracy.md.
   const double unit = 18 / relative_points(2, 1e-4);
   const int at_1e_4[] = {35, 18, 15, 14};
   const int at_1e_8[] = {262, 61, 33, 23};

@@ -12,7 +12,8 @@ import browser
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCREENSHOTS = pathlib.Path(os.environ["EIGENTRAIL_SCREENSHOTS"])
-PICTURED = ["index.html", "first-trace.html", "how-it-works.html", "scenes/README.html", "scene.html", "cpp.html", "api/index.html"]
+PICTURED = ["index.html", "first-trace.html", "how-it-works.html", "scenes/README.html", "scene.html", "cpp.html",
+            "developers/method.html", "api/index.html"]
 LOADED = "return performance.getEntriesByType('resource').map((entry) => entry.name)"
 BACKGROUND = "return getComputedStyle(document.body).backgroundColor"
 OVERHANG = "return document.documentElement.scrollWidth - document.documentElement.clientWidth"
@@ -115,7 +116,7 @@ class Site(unittest.TestCase):
         self.prefer("light")
 
     def test_formulas_are_set(self):
-        self.open(self.folder / "how-it-works.html")
+        self.open(self.folder / "developers" / "method.html")
         self.assertGreater(self.driver.execute_script("return document.querySelectorAll('.formula .katex').length"), 5)
         self.assertNotIn("$$", self.driver.execute_script("return document.body.innerText"))
         self.assertTrue(self.driver.execute_script("return document.fonts.check('16px KaTeX_Main')"))

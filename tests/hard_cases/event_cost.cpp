@@ -1,5 +1,5 @@
 // Prints what locating special points costs on the hard cases, and what bisection with a spectrum per
-// evaluation would have cost (docs/events.md).
+// evaluation would have cost (docs/developers/special-points.md).
 //
 //     event_cost
 //

@@ -5,7 +5,7 @@
 // the ends and special points ask for. Each point costs what no order changes (corrections, LU, certificate)
 // and q + 1 coefficients of every series. The work is counted in multiplications, not timed: the same scene
 // gives the same order, and the same bits, on every machine. The counts are those of the traces in
-// docs/accuracy.md.
+// docs/developers/accuracy.md.
 #pragma once
 
 #include <Eigen/Core>
