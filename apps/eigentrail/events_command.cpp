@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
@@ -50,6 +51,13 @@ void print_json(const LociFile& loci) {
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
+/// A file may be from a version of the program with other kinds.
+std::string remark_on(const LociEvent& event) {
+  const EventKindInfo* kind = find_event_kind(event.kind);
+  if (kind == nullptr) return "";
+  return kind->remark({event.half_width, event.puiseux, event.direction, event.value});
+}
+
 void print_for_people(const LociFile& loci) {
   if (loci.events.empty()) {
     std::printf("no special points between %s = %s and %s\n", loci.parameter.c_str(),
@@ -59,8 +67,7 @@ void print_for_people(const LociFile& loci) {
   std::vector<std::vector<std::string>> rows{{"kind", loci.parameter, "s", "modes", "remark"}};
   for (const LociEvent& event : loci.events) {
     rows.push_back({event.kind, rounded(event.parameter, 14),
-                    complex_text(event.s.real(), event.s.imag(), 10), event.modes,
-                    event_remark(event.kind, event.half_width, event.puiseux, event.direction, event.value)});
+                    complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark_on(event)});
   }
   print_table(rows);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "eigentrail/continuation/event_kinds.hpp"
+
 namespace eigentrail::app {
 
 std::string rounded(double value, int digits) {
@@ -21,27 +23,11 @@ std::string complex_text(double real, double imag, int digits) {
   return rounded(real, digits) + (std::signbit(imag) ? " - " : " + ") + rounded(std::abs(imag), digits) + "j";
 }
 
-std::string event_remark(const std::string& kind, double half_width, Complex puiseux, int direction,
-                         double value) {
-  if (kind == "veering") return "half-width " + rounded(half_width);
-  if (kind == "collision" && std::isfinite(puiseux.real()) && puiseux != 0.0)
-    return "Puiseux coefficient " + complex_text(puiseux.real(), puiseux.imag());
-  if (kind == "extremum")
-    return (direction > 0 ? "least damping ratio " : "largest damping ratio ") + rounded(value);
-  const auto turns = [&](const std::string& up, const std::string& down) {
-    return direction > 0 ? up : direction < 0 ? down : "";
-  };
-  if (kind == "resonance") return "harmonic " + rounded(value) + turns(", outgrows it", ", falls behind it");
-  if (kind == "damping_ratio") return "ratio " + rounded(value) + turns(", falling", ", rising");
-  if (kind == "flutter" || kind == "divergence") return turns("unstable above", "unstable below");
-  return "";
-}
-
 std::vector<std::string> event_row(const Event& event, const std::string& parameter) {
   std::string modes;
   for (const int mode : event.modes) modes += (modes.empty() ? "" : ", ") + std::to_string(mode + 1);
   const std::string remark =
-      event_remark(event_name(event.kind), event.half_width, event.puiseux, event.direction, event.value);
+      event_kind(event.kind).remark({event.half_width, event.puiseux, event.direction, event.value});
   return {"  " + event_name(event.kind), parameter + " = " + rounded(event.p, 12),
           "s = " + complex_text(event.s.real(), event.s.imag(), 8), modes.empty() ? "" : "modes " + modes,
           remark};

@@ -17,10 +17,6 @@ std::string order_text(int order, bool chosen);
 /// "-0.01994 + 17.88j"
 std::string complex_text(double real, double imag, int digits = 6);
 
-/// What a special point is beside its kind and place, in a few words; arguments as in Event.
-std::string event_remark(const std::string& kind, double half_width, Complex puiseux, int direction,
-                         double value);
-
 /// Cells that describe a special point to people.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "commands.hpp"
+#include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/model/build.hpp"
 #include "output.hpp"
@@ -42,15 +43,21 @@ EffectHelp trace_help() {
   return help;
 }
 
+EffectHelp events_help() {
+  EffectHelp help{"events", "what counts as a special point beside stability, collisions and veerings", {}};
+  for (const EventKindInfo& kind : event_kinds()) {
+    const EventRequest& request = kind.request;
+    if (request.key.empty()) continue;
+    help.fields.push_back({std::string(request.key), "number or list", std::string(request.help), "none"});
+    if (request.of_excitation)
+      help.fields.push_back({"excitation", "rad/s", "the excitation frequency", "the traced parameter"});
+  }
+  help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "true"});
+  return help;
+}
+
 std::vector<EffectHelp> whole_reference() {
-  std::vector<EffectHelp> all = {
-      trace_help(),
-      {"events",
-       "what counts as a special point beside stability, collisions and veerings",
-       {{"damping_ratio", "number or list", "where the damping ratio of a pair has this value", "none"},
-        {"harmonics", "number or list", "where Im s is this multiple of the excitation frequency", "none"},
-        {"excitation", "rad/s", "the excitation frequency", "the traced parameter"},
-        {"extrema", "true or false", "locate extrema of damping ratios", "true"}}}};
+  std::vector<EffectHelp> all = {trace_help(), events_help()};
   for (EffectHelp& effect : effect_reference()) all.push_back(std::move(effect));
   return all;
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "continuation/step/counted_roots.hpp"
+#include "continuation/step/path_step.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "report/file_data.hpp"

@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 
+#include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/units.hpp"
@@ -58,16 +59,18 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
   Json list = Json::array();
   for (std::size_t i = 0; i < loci.events.size(); ++i) {
     const LociEvent& event = loci.events[i];
-    Json item{{"kind", event.kind},
+    // A file may be from a version of the program with other kinds.
+    const EventKindInfo* kind = find_event_kind(event.kind);
+    const EventFacts facts{event.half_width, event.puiseux, event.direction, event.value};
+    Json item{{"kind", kind != nullptr ? std::string(kind->long_name) : event.kind},
+              {"symbol", kind != nullptr ? kind->symbol : "circle-open-dot"},
+              {"labelled", kind != nullptr && kind->labelled},
+              {"remark", kind != nullptr ? kind->remark(facts) : ""},
               {"parameter", event.parameter},
               {"real", event.s.real()},
               {"imag", event.s.imag()},
               {"modes", mode_numbers(event.modes, loci.modes.size())},
-              {"direction", event.direction},
-              {"value", event.value},
-              {"half_width", event.half_width},
               {"node", i < nodes.size() ? nodes[i] : -1}};
-    if (std::isfinite(event.puiseux.real())) item["puiseux"] = {event.puiseux.real(), event.puiseux.imag()};
     list.push_back(std::move(item));
   }
   return list;
@@ -116,7 +119,9 @@ Json excitation_data(const LociFile& loci) {
                                                     values.data(), static_cast<std::size_t>(values.size())))
                                               : (turns ? 2.0 * std::numbers::pi : 1.0) * values[*index]);
     }
-    return {{"parameter", parameters}, {"frequency", frequencies}, {"harmonics", events.values(EventKind::resonance)}};
+    return {{"parameter", parameters},
+            {"frequency", frequencies},
+            {"harmonics", events.values(EventKind::resonance)}};
   } catch (const InputError&) {
     return nullptr;  // a scene of a program with other rules; the page goes without rays
   }

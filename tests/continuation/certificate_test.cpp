@@ -1,6 +1,7 @@
 // The certificate closes where a block is continued and stays open where modes are exchanged; modal
 // assurance, which is what is used without it, passes such an exchange.
 #include "eigentrail/continuation/certificate.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "support/scenes.hpp"
 

@@ -1,6 +1,7 @@
 // Threads share the modes of a point; what they find may not depend on them.
 #include <gtest/gtest.h>
 
+#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "support/scenes.hpp"
 

@@ -5,15 +5,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "continuation/point/point_modes.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 namespace {
-
-void add(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part) {
-  sum.resize(std::max(sum.size(), part.size()), 0);
-  for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
-}
 
 void size_counters(const PathProblem& problem, RunCounts& counts) {
   if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
@@ -89,31 +84,6 @@ bool is_finite(const Track& track) {
 }
 
 }  // namespace
-
-RunCounts& RunCounts::operator+=(const RunCounts& other) {
-  // Taken apart, so that a member that is added and forgotten here does not compile.
-  const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases,
-               equilibrium, reduction, correction, differentiation, matching, certificate, event, output] =
-      other;
-  add(evaluations.residual, evaluations_.residual);
-  add(evaluations.linearization, evaluations_.linearization);
-  modes += modes_;
-  equilibrium_iterations += iterations;
-  equilibrium_factorizations += factorizations;
-  spectra += spectra_;
-  event_factorizations += events;
-  certificate_factorizations += certificates;
-  certificate_bases += bases;
-  equilibrium_seconds += equilibrium;
-  reduction_seconds += reduction;
-  modes_seconds += correction;
-  differentiation_seconds += differentiation;
-  matching_seconds += matching;
-  certificate_seconds += certificate;
-  events_seconds += event;
-  output_seconds += output;
-  return *this;
-}
 
 ComplexMatrix PathPoint::shapes(std::size_t pair) const {
   return basis.is_identity ? pairs[pair].Z : ComplexMatrix(basis.T[0].cast<Complex>() * pairs[pair].Z);

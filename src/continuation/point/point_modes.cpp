@@ -1,4 +1,4 @@
-#include "continuation/point/point_modes.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 #include "core/matrix_series.hpp"
 #include "core/parallel.hpp"

@@ -7,6 +7,7 @@
 #include "continuation/step/modal_certificate.hpp"
 #include "core/parallel.hpp"
 #include "eigentrail/continuation/certificate.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 namespace {

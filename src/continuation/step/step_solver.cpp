@@ -6,6 +6,7 @@
 #include "continuation/tracks/mode_order.hpp"
 #include "continuation/tracks/regrouping.hpp"
 #include "core/parallel.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 namespace {

@@ -6,6 +6,7 @@
 #include "continuation/events/landing.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
+#include "eigentrail/continuation/trace_observer.hpp"
 
 namespace eigentrail {
 

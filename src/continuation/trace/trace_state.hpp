@@ -7,7 +7,7 @@
 #include "continuation/step/step_solver.hpp"
 #include "continuation/tracks/mode_order.hpp"
 #include "eigentrail/continuation/step_control.hpp"
-#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 

@@ -9,6 +9,7 @@
 #include "continuation/tracks/starting_tracks.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
 

@@ -2,7 +2,8 @@
 // followed otherwise.
 #pragma once
 
-#include "continuation/tracks/regrouping.hpp"
+#include "continuation/tracks/partner.hpp"
+#include "eigentrail/continuation/path_node.hpp"
 
 namespace eigentrail {
 

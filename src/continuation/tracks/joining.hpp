@@ -3,7 +3,7 @@
 
 #include "continuation/step/step.hpp"
 #include "continuation/tracks/regrouping.hpp"
-#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 

@@ -1,7 +1,7 @@
 // The modes of a point, one by one, as the loci file has them.
 #pragma once
 
-#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 

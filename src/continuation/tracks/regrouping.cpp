@@ -6,6 +6,7 @@
 
 #include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/strands.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"

@@ -6,16 +6,10 @@
 // tells where the root lies.
 #pragma once
 
+#include "continuation/tracks/partner.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
-
-/// Who could be followed together with a track: another track, or its own conjugate.
-struct Partner {
-  bool conjugate = false;
-  std::size_t track = 0;
-  double distance = 0.0;  ///< of the meeting from the step
-};
 
 /// The partners whose meeting with `track` lies within `reach` steps of the step [0, h], nearest first.
 std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);

@@ -8,12 +8,6 @@ const FAINT = "#d4d4d4";
 const GRID = "#e8e8e8";
 const INK = "#1a1a1a";
 
-const EVENT_SYMBOLS = {
-  flutter: "x", divergence: "cross", collision: "star", crossing: "circle-open", veering: "bowtie-open",
-  fold: "triangle-left", branch_point: "asterisk-open", extremum: "triangle-down-open", damping_ratio: "square-open",
-  resonance: "diamond-open",
-};
-
 const FREQUENCY_UNITS = { "rad/s": 1, Hz: 0.5 / Math.PI, rpm: 30 / Math.PI };
 
 const isNarrow = () => window.innerWidth < 700;

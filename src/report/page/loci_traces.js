@@ -135,18 +135,17 @@ function eventTraces(files, chart, settings, isActive, axes, showLegend) {
   if (named) placeNames(marks, axes.view);
   const { view, ...plot } = axes;
   return [...kinds].map(([kind, list]) => {
+    const { symbol } = list[0].event;
     return {
       x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: named ? "markers+text" : "markers",
       text: named ? list.map(({ name }) => plotText(name)) : undefined,
       textposition: named ? list.map(({ side }) => side) : undefined, textfont: { size: 11, color: INK }, cliponaxis: true,
-      marker: { symbol: EVENT_SYMBOLS[kind] || "circle-open-dot", size: marks.length > 60 ? 7 : 11, color: INK, line: { width: kind.match(/flutter|divergence|collision|fold/) ? 0.5 : 2, color: INK } },
-      name: kind.replace("_", " "), legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot, marks: list,
+      marker: { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
+      name: kind, legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot, marks: list,
     };
   });
 }
 
-/** What changes stability or the path is named; of the others the number must do, their mark tells the kind. */
-const NAMED_EVENTS = ["flutter", "divergence", "collision", "fold", "branch_point", "resonance"];
 const SIDES = { "top center": [0, -1], "bottom center": [0, 1], "middle right": [1, 0], "middle left": [-1, 0], "top right": [1, -1],
   "top left": [-1, -1], "bottom right": [1, 1], "bottom left": [-1, 1] };
 
@@ -157,7 +156,7 @@ function placeNames(marks, view) {
   const overlaps = ([a, b, c, d]) => taken.some(([e, f, g, h]) => a < f && b > e && c < h && d > g);
   for (const mark of marks) {
     const { file, event } = mark, [x, y] = at(mark);
-    const number = file.eventNumber(event), long = NAMED_EVENTS.includes(event.kind) ? `${event.kind} ${number}` : number;
+    const number = file.eventNumber(event), long = event.labelled ? `${event.kind} ${number}` : number;
     mark.name = "";
     mark.side = "top center";
     for (const [name, side] of [long, number].flatMap((text) => Object.keys(SIDES).map((key) => [text, key]))) {

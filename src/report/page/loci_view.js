@@ -252,9 +252,9 @@ class LociView {
   }
 
   eventTexts({ file, event }) {
-    return [`${file.eventNumber(event)} ${event.kind.replace("_", " ")}`, this.files.length > 1 ? file.data.name : "",
+    return [`${file.eventNumber(event)} ${event.kind}`, this.files.length > 1 ? file.data.name : "",
       `${this.parameter.name} = ${withUnit(number(event.parameter, 10), this.parameter.unit)}`, `s = ${complexText(event.real, event.imag, 8)} 1/s`,
-      event.modes.map((mode) => file.modeText(mode)).join(" and "), eventRemark(event)];
+      event.modes.map((mode) => file.modeText(mode)).join(" and "), event.remark];
   }
 
   lineTexts({ line, place }) {

@@ -17,8 +17,8 @@ function eventTable(files, choose) {
     return element("tr", {},
       cell(element("button", { type: "button", text: file.eventNumber(event), click: () => choose(file, event), title: "show it" })),
       ...(several ? [cell(file.data.name)] : []),
-      cell(event.kind.replace("_", " ")), cell(number(event.parameter, 12), "value"),
-      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell(eventRemark(event)));
+      cell(event.kind), cell(number(event.parameter, 12), "value"),
+      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell(event.remark));
   }));
   if (!rows.length) return element("p", { class: "note", text: "No special points on the traced range." });
   const { name, unit } = files[0].data.parameter;

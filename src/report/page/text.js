@@ -41,18 +41,3 @@ function withUnit(text, unit) {
 function axisName(axis) {
   return plotText(axis.unit && axis.unit !== "1" ? `${axis.name}, ${axis.unit}` : axis.name);
 }
-
-/** What an event is beside its kind and place, in a few words. */
-function eventRemark(event) {
-  const turns = (up, down) => (event.direction > 0 ? up : event.direction < 0 ? down : "");
-  switch (event.kind) {
-    case "veering": return `half-width ${number(event.half_width)}`;
-    case "collision": return event.puiseux ? `Puiseux coefficient ${complexText(...event.puiseux, 5)}` : "";
-    case "extremum": return `${event.direction > 0 ? "least" : "largest"} damping ratio ${number(event.value)}`;
-    case "resonance": return `harmonic ${number(event.value)}${turns(", outgrows it", ", falls behind it")}`;
-    case "damping_ratio": return `ratio ${number(event.value)}${turns(", falling", ", rising")}`;
-    case "flutter":
-    case "divergence": return turns("unstable above", "unstable below");
-    default: return "";
-  }
-}
