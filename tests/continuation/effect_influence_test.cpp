@@ -68,13 +68,6 @@ TEST(EffectInfluences, OfAllEffectsTogetherAreThatOfScalingThePencil) {
   }
 }
 
-TEST(EffectInfluences, DoubleEigenvalueHasNone) {
-  const Influences influences = effect_influences(mass_on_springs(1.0));
-  ASSERT_EQ(influences.fault, "");
-  ASSERT_EQ(influences.s.size(), 2);
-  EXPECT_LT(std::abs(influences.s[0] - influences.s[1]), 1e-10);
-}
-
 TEST(EffectInfluences, AreOfAsManyModesAsAreFollowed) {
   TraceSetup setup = mass_on_springs(3.0);
   setup.options.modes = 1;
