@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuation/planted_points.hpp"
+#include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -115,6 +116,40 @@ TEST_P(SeenFrom, CrossingLiesWhereUncoupledModesAreEqual) {
 
 INSTANTIATE_TEST_SUITE_P(Distances, SeenFrom, testing::Values(0.0, 1e-9, -1e-6, 1e-3, -0.02, 0.1, -0.2));
 
+/// Frequencies 2 + p + p^2 and 2.6 - p + p^3 / 2 cross where 2 p + p^2 - p^3 / 2 = 0.6.
+TEST(NearestMeeting, CurvedModesCrossWhereTheirCurvesDo) {
+  Matrix w = Matrix::Zero(2, 4);
+  w << 2.0, 1.0, 1.0, 0.0, 2.6, -1.0, 0.0, 0.5;
+  Planted family = Planted::frequencies(uncoupled(w));
+  double place = 0.3;
+  for (int i = 0; i < 20; ++i) {
+    place -= (2.0 * place + place * place - 0.5 * std::pow(place, 3) - 0.6) /
+             (2.0 + 2.0 * place - 1.5 * place * place);
+  }
+  for (const double away : {0.1, 0.02, -0.01, 1e-3, -1e-4, 1e-6}) {
+    const double p = place + away;
+    const PathNode node = family.point(p, {{{(2.0 + p + p * p) * j, (2.6 - p + 0.5 * std::pow(p, 3)) * j}}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << away;
+    // From far away a point nearer by is told, to the square of the distance; from there the place itself.
+    const double accuracy = std::abs(away) <= 1e-3 ? rounding : away * away;
+    EXPECT_NEAR(p + meeting.offset, place, accuracy) << away;
+  }
+}
+
+/// 2 +- p by a matrix with one vector where both are 2: they go straight on, and coalesce.
+TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
+  Planted family = branching({0.0, 0.0, 1.0});
+  for (const double p : {0.0, 1e-9, -1e-8}) {
+    const PathNode node = branching_point(family, p, p * p);
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_EQ(meeting.kind, EventKind::collision) << p;
+    // A double root of what is known to rounding.
+    EXPECT_NEAR(p + meeting.offset, 0.0, 1e-7) << p;
+  }
+}
+
 class NearestVeering : public testing::TestWithParam<double> {};
 
 TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
@@ -143,6 +178,39 @@ TEST(NearestMeeting, ModesThatPassEachOtherDoNotMeet) {
   const PathNode node = family.point(0.28, {{{2.28 * j, -damping + 2.32 * j}}});
   EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
 }
+
+/// s^2 + c s + 4 + p and s^2 + 4 - p, coupled by eps: exceptional points near j (eps - c) and -j (eps + c).
+class DampedVeering : public testing::TestWithParam<double> {
+ protected:
+  static constexpr double eps = 0.05;
+  double damping = GetParam();
+  Planted family{{{Matrix::Identity(2, 2)},
+                  {Matrix{{damping, 0.0}, {0.0, 0.0}}},
+                  {Matrix{{4.0, eps}, {eps, 4.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}}}};
+};
+
+TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
+  const PathPoint point = family.reduced(0.0);
+  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  ASSERT_EQ(spectrum.modes.size(), 2U);
+  const PathNode node = family.point(0.0, {{{spectrum.modes[0].s, spectrum.modes[1].s}}});
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::veering);
+  EXPECT_NEAR(meeting.half_width, std::abs(eps - damping), 2e-3 * eps);
+  // The gap vanishes at the place that is told, on one side of the axis.
+  const ComplexMatrix gap = gap_of(node.tracks[0], {0}, {1}).transpose();
+  const auto at = [&](Complex p) {
+    Complex value = 0.0;
+    for (Eigen::Index k = gap.cols() - 1; k >= 0; --k) value = value * p + gap(0, k);
+    return std::abs(value);
+  };
+  const double nearest =
+      std::min(at({meeting.offset, meeting.half_width}), at({meeting.offset, -meeting.half_width}));
+  EXPECT_LT(nearest, 1e-6 * at(0.5));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0));
 
 TEST(NearestMeeting, OfTwoExceptionalPointsIsTheNearer) {
   // Roots 0.1 and 0.2, seen from either side.
@@ -204,6 +272,21 @@ TEST(NearestMeeting, OfADoubletWithAThirdIsACrossing) {
       EXPECT_EQ(meeting.kind, EventKind::crossing) << p;
     }
   }
+}
+
+/// Whoever is asked for: the two that are one meet the third together.
+TEST(NearestMeeting, OfADoubletBesideItsCrossingIsThatOfAllThree) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
+  constexpr double place = 0.5 / 1.2;
+  const double p = place - 1e-8;
+  const Complex twice = (2.0 + 0.5 * p) * j;
+  const PathNode node = family.point(p, {{{twice, (2.5 - 0.7 * p) * j, twice}}});
+  // Slopes of the two are told on the scale of their distance from the third.
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {2}, 1e-7);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::crossing);
+  EXPECT_NEAR(p + meeting.offset, place, 1e-12);
+  EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
 }
 
 class TripleCrossing : public testing::TestWithParam<double> {};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "continuation/planted_points.hpp"
@@ -142,9 +143,9 @@ TEST(Regrouping, DoesNotPartThoseWhoMeetWithinTheReachOnEitherSide) {
   Planted family = crossing();
   for (const double h : {0.05, -0.05}) {
     PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-    part(family.problem(), nullptr, node, h, 0.0, 7.0, 0.0, family.counts);
+    part(family.problem(), nullptr, node, h, 0.0, 5.5, 0.0, family.counts);
     EXPECT_EQ(node.tracks.size(), 1U) << h;
-    // 0.25 steps of 0.05 are nearer than 0.3 from either end.
+    // The meeting lies 0.25 beyond the step on its side.
     part(family.problem(), nullptr, node, h, 0.0, 4.0, 0.0, family.counts);
     EXPECT_EQ(node.tracks.size(), 2U) << h;
   }
@@ -202,6 +203,20 @@ TEST(Regrouping, ASingleModeThatCouldNotDoAloneKeepsItsPartner) {
   const PathNode left = family.point(-0.3, both(-0.3));
   PathNode node = family.point(0.0, both(0.0));
   part(family.problem(), &left, node, 0.3, 0.3, 1.0, 1e-8, family.counts);
+  EXPECT_EQ(node.tracks.size(), 1U);
+}
+
+/// The upper of two that veer, and one that crosses it: the second is a polynomial and could do alone.
+TEST(Regrouping, DoesNotPartAPairOfWhichOneCouldNotDoAlone) {
+  constexpr double eps = 0.05;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps, 0.0}, {eps, 2.0, 0.0}, {0.0, 0.0, 2.3}},
+                                         Matrix{{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}}});
+  const auto both = [&](double p) {
+    return std::vector<Together>{{{(2.0 + std::hypot(p, eps)) * j, (2.3 - p) * j}}};
+  };
+  const PathNode left = family.point(-0.1, both(-0.1));
+  PathNode node = family.point(0.1, both(0.1));
+  part(family.problem(), &left, node, 0.2, 0.2, 1.0, 1e-8, family.counts);
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
