@@ -68,6 +68,25 @@ TEST(EffectInfluences, OfAllEffectsTogetherAreThatOfScalingThePencil) {
   }
 }
 
+/// One spring along (0.6, 0.8) and one across it, of the same stiffness: which of the vectors of the double
+/// eigenvalue is whose is not said, and so is what either spring does to it.
+TEST(EffectInfluences, DoubleEigenvalueHasNone) {
+  const std::string text =
+      "[parameters]\nk = 50\n[trace]\nparameter = \"k\"\nfrom = 50\nto = 60\n"
+      "[[point]]\nname = \"a\"\nmass = 2\nposition = [0, 0, 0]\n"
+      "[[fixed]]\npoint = \"a\"\ncoordinate = \"z\"\n"
+      "[[spring]]\nfrom = [-0.6, -0.8, 0]\nto = \"a\"\nstiffness = \"k\"\nfree_length = 1\n"
+      "[[guided_spring]]\npoint = \"a\"\ndirection = [-0.8, 0.6, 0]\nstiffness = 50\n";
+  const Influences influences = effect_influences(prepare_trace(parse_scene(text, "test.toml"), {}, true));
+  ASSERT_EQ(influences.fault, "");
+  ASSERT_EQ(influences.s.size(), 2);
+  ASSERT_LT(std::abs(influences.s[0] - influences.s[1]), 1e-12);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    EXPECT_TRUE(std::isnan(of(influences, "spring")[i].real())) << of(influences, "spring")[i];
+    EXPECT_TRUE(std::isnan(of(influences, "guided_spring")[i].real())) << of(influences, "guided_spring")[i];
+  }
+}
+
 TEST(EffectInfluences, AreOfAsManyModesAsAreFollowed) {
   TraceSetup setup = mass_on_springs(3.0);
   setup.options.modes = 1;

@@ -79,6 +79,19 @@ TEST_P(FindPartnersOfVeering, DistanceIsThatOfTheExceptionalPoint) {
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, FindPartnersOfVeering, testing::Values(0.1, 1e-2, 1e-3, 1e-4));
 
+/// Half-width 0.1, on a step of twice the distance at which the series cease to converge: what they tell out
+/// there, a conjugate four units away, is no partner before the true one.
+TEST(FindPartners, ConjugateFarAwayIsNotTheNearest) {
+  constexpr double eps = 0.1;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+  const double apart = std::hypot(0.2, eps);
+  const PathNode node = family.point(-0.2, alone({(2.0 - apart) * j, (2.0 + apart) * j}));
+  const auto partners = find_partners(node, 0, 0.4, 0.5);
+  ASSERT_FALSE(partners.empty());
+  EXPECT_FALSE(partners[0].conjugate);
+  EXPECT_EQ(partners[0].track, 1U);
+}
+
 /// s^2 + 2 d s + 1 - p: a pair that meets the real axis at p = 1 - d^2, beside a mode far away.
 Planted towards_the_axis(double d) {
   return Planted({{Matrix::Identity(2, 2)},
@@ -123,6 +136,15 @@ TEST(FindPartners, ChartsDoNotMatter) {
   EXPECT_EQ(partners[0].track, 1U);
   // 1 / (2.6 - p) is no polynomial: its series to p^5 places the crossing to some (0.3 / 2.6)^6.
   EXPECT_NEAR(partners[0].distance, 0.2, 1e-3);
+}
+
+/// A block of 2 +- 0.1, which a single mode 3 - p meets first at p = 0.9: its own step must see that.
+TEST(FindPartners, BlockIsMetWhereItsMembersAre) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{1.9, 0.0}, {2.1, 0.0}, {3.0, -1.0}}));
+  const PathNode node = family.point(0.0, {{{1.9 * j, 2.1 * j}}, {{3.0 * j}}});
+  const auto partners = find_partners(node, 1, 0.85, 0.1);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_LE(partners[0].distance, 0.05 + rounding);
 }
 
 TEST(FindPartners, RealBlockIsMetWhereItsMembersAre) {

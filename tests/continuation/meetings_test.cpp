@@ -210,7 +210,7 @@ TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
   EXPECT_LT(nearest, 1e-6 * at(0.5));
 }
 
-INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0));
+INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0, 0.02, 0.04999));
 
 TEST(NearestMeeting, OfTwoExceptionalPointsIsTheNearer) {
   // Roots 0.1 and 0.2, seen from either side.

@@ -297,6 +297,27 @@ TEST_F(DepartureFromACrossing, IsWhereStrandsBegin) {
   }
 }
 
+/// The two that cross are told from each other also where a third of their block is far away.
+TEST(DepartingRoots, OfTwoBesideAThirdKeepTheirOrder) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {3.1, 0.2}}));
+  const Complex third = (3.1 + 0.2 * 0.3) * j;
+  PathNode node = family.point(0.3, {{{2.3 * j, 2.3 * j, third}}});
+  for (const double sign : {1.0, -1.0}) {
+    for (const double h : {0.1, 0.01, 1e-3}) {
+      Track& track = node.tracks[0];
+      track.departure = Track::Departure{
+          0.02, ComplexVector{{(2.3 + 0.02 * sign) * j, (2.3 - 0.02 * sign) * j, third + 0.004 * j}}};
+      double position = 0.0;
+      const ComplexVector roots = departing_roots(track, h, position);
+      const double d = position * h * sign;
+      EXPECT_LT(
+          distance(roots, ComplexVector{{(2.3 + d) * j, (2.3 - d) * j, third + 0.2 * position * h * j}}),
+          0.1 * position * h)
+          << "h = " << h << ", " << (sign > 0.0 ? "straight" : "the other way");
+    }
+  }
+}
+
 TEST(DepartingRoots, BehindAnExceptionalPointShrinkLikeTheRootOfTheDistance) {
   Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
   PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j}}});
