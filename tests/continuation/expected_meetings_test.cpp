@@ -1,0 +1,339 @@
+// Where a step is expected to pass a meeting, and what lies beside it: all of them, each once, at the places
+// of the closed forms, and nothing else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "continuation/meetings.hpp"
+#include "continuation/planted_points.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< of simple roots of interpolated polynomials of order one
+/// Of double ones, which are known to the root of that.
+constexpr double of_double_roots = 1e-6;
+using Members = std::vector<int>;
+using Roots = std::function<std::vector<Complex>(double)>;
+
+/// A step from one p to another, its eigenvalues in one block or one by one.
+struct PlantedStep {
+  PlantedStep(Planted planted, const Roots& roots, double from, double to, bool in_one_block)
+      : family(std::move(planted)),
+        left(family.point(from, tracks(roots(from), in_one_block))),
+        right(family.point(to, tracks(roots(to), in_one_block))),
+        start(from),
+        length(to - from) {}
+
+  static std::vector<Together> tracks(const std::vector<Complex>& s, bool in_one_block) {
+    return in_one_block ? std::vector<Together>{{s}} : alone(s);
+  }
+
+  std::vector<ExpectedMeeting> in_blocks() const { return expected_in_blocks(left, right, length); }
+  std::vector<ExpectedMeeting> beside(double width) const {
+    return expected_beside(left, right, length, width);
+  }
+  /// Places of meetings, as values of p.
+  std::vector<Complex> places(const std::vector<ExpectedMeeting>& meetings) const {
+    std::vector<Complex> p;
+    for (const ExpectedMeeting& meeting : meetings) p.push_back(start + meeting.position);
+    return p;
+  }
+
+  Planted family;
+  PathNode left, right;
+  double start, length;
+};
+
+/// Uncoupled frequencies w_i + v_i p, given by their coefficients.
+PlantedStep lines(const Matrix& coefficients, double from, double to, bool in_one_block = true) {
+  const auto roots = [&](double p) {
+    std::vector<Complex> s;
+    for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
+      s.push_back((coefficients(i, 0) + coefficients(i, 1) * p) * j);
+    return s;
+  };
+  return {Planted::frequencies(uncoupled(coefficients)), roots, from, to, in_one_block};
+}
+
+/// Frequencies 2 +- sqrt(product(p)), which branch where the product vanishes.
+PlantedStep branching(const std::vector<double>& product, double from, double to) {
+  std::vector<Matrix> W{Matrix{{2.0, 1.0}, {product[0], 2.0}}};
+  for (std::size_t k = 1; k < product.size(); ++k) W.push_back(Matrix{{0.0, 0.0}, {product[k], 0.0}});
+  const auto roots = [&](double p) {
+    double value = 0.0;
+    for (std::size_t k = product.size(); k-- > 0;) value = value * p + product[k];
+    const Complex root = std::sqrt(Complex(value));
+    return std::vector<Complex>{j * (2.0 + root), j * (2.0 - root)};
+  };
+  return {Planted::frequencies(W), roots, from, to, true};
+}
+
+/// 2 +- sqrt((p - 0.1)^2 + eps^2) beside a mode far away.
+PlantedStep veering(double eps, double from, double to, bool in_one_block) {
+  const std::vector<Matrix> W{Matrix{{1.9, eps, 0.0}, {eps, 2.1, 0.0}, {0.0, 0.0, 9.0}},
+                              Matrix{{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 0.2}}};
+  const auto roots = [&](double p) {
+    const double half = std::hypot(p - 0.1, eps);
+    std::vector<Complex> s{(2.0 - half) * j, (2.0 + half) * j};
+    if (!in_one_block) s.push_back((9.0 + 0.2 * p) * j);
+    return s;
+  };
+  return {Planted::frequencies(W), roots, from, to, in_one_block};
+}
+
+TEST(ExpectedInBlocks, CrossingIsOneMeetingOfItsTwoStrands) {
+  for (const auto& [from, to] : {std::pair(0.0, 0.8), std::pair(0.8, 0.0)}) {
+    const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, from, to);
+    const auto found = step.in_blocks();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(step.places(found)[0].real(), 0.3, of_double_roots);
+    EXPECT_EQ(found[0].position.imag(), 0.0);
+    EXPECT_EQ(found[0].a.members, Members{0});
+    EXPECT_EQ(found[0].b.members, Members{1});
+  }
+}
+
+TEST(ExpectedInBlocks, ExceptionalPointIsWhereItsDoubtSays) {
+  const PlantedStep step = branching({-0.1, 1.0}, -0.2, 0.3);
+  const auto found = step.in_blocks();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(step.places(found)[0].real(), 0.1, rounding);
+  EXPECT_LT(found[0].doubt, 1e-10);
+  EXPECT_GE(found[0].doubt + 1e-15, std::abs(step.places(found)[0] - 0.1));
+}
+
+/// (1 + p / 2) s^2 + s + 1 - p: the pair meets the axis where (1 - p)(1 + p / 2) = 1/4, and its gap is no
+/// polynomial. The step is long enough for the dense output to misplace it.
+TEST(ExpectedInBlocks, DoubtCoversWhatTheDenseOutputMisplaces) {
+  Planted family({{Matrix{{1.0}}, Matrix{{0.5}}}, {Matrix{{1.0}}}, {Matrix{{1.0}}, Matrix{{-1.0}}}}, 3);
+  const auto pair = [](double p) {
+    const double m = 1.0 + 0.5 * p;
+    const Complex root = std::sqrt(Complex(0.25 / (m * m) - (1.0 - p) / m));
+    return std::vector<Complex>{-0.5 / m + root, -0.5 / m - root};
+  };
+  const double exact = -0.5 + std::sqrt(0.25 + 1.5);
+  const PlantedStep step(std::move(family), pair, 0.0, 0.95, true);
+  const auto found = step.in_blocks();
+  ASSERT_EQ(found.size(), 1U);
+  const double miss = std::abs(step.places(found)[0] - exact);
+  EXPECT_GT(miss, 1e-9);
+  EXPECT_GE(found[0].doubt, miss);
+  EXPECT_LT(found[0].doubt, 1e4 * miss);
+}
+
+TEST(ExpectedInBlocks, SeveralComeInTheOrderInWhichTheStepPassesThem) {
+  // Exceptional points at -0.1, 0.05 and 0.2.
+  const std::vector<double> product{0.001, -0.015, -0.15, 1.0};
+  for (const auto& [from, to] : {std::pair(-0.3, 0.4), std::pair(0.4, -0.3)}) {
+    const PlantedStep step = branching(product, from, to);
+    const auto found = step.in_blocks();
+    ASSERT_EQ(found.size(), 3U);
+    const double first = from < to ? -0.1 : 0.2;
+    EXPECT_NEAR(step.places(found)[0].real(), first, rounding);
+    EXPECT_NEAR(step.places(found)[1].real(), 0.05, rounding);
+    EXPECT_NEAR(step.places(found)[2].real(), 0.1 - first, rounding);
+  }
+}
+
+TEST(ExpectedInBlocks, TwoCloseTogetherAreTwo) {
+  const PlantedStep step = branching({0.1 * 0.101, -0.201, 1.0}, -0.2, 0.3);
+  const auto places = step.places(step.in_blocks());
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_NEAR(places[0].real(), 0.1, 1e-10);
+  EXPECT_NEAR(places[1].real(), 0.101, 1e-10);
+  // Closer ones may as well be a double root that rounding has split: one place to look at.
+  const PlantedStep closer = branching({0.1 * 0.1001, -0.2001, 1.0}, -0.2, 0.3);
+  const auto place = closer.places(closer.in_blocks());
+  ASSERT_EQ(place.size(), 1U);
+  EXPECT_NEAR(place[0].real(), 0.10005, 1e-4);
+}
+
+TEST(ExpectedInBlocks, EveryTwoOfThreeMeetOnceEach) {
+  // At 0.2, 0.45 and 0.7.
+  const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}, 0.0, 0.9);
+  const auto places = step.places(step.in_blocks());
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_NEAR(places[0].real(), 0.2, of_double_roots);
+  EXPECT_NEAR(places[1].real(), 0.45, of_double_roots);
+  EXPECT_NEAR(places[2].real(), 0.7, of_double_roots);
+}
+
+TEST(ExpectedInBlocks, OutsideTheStepThereAreNone) {
+  EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.0, 0.25).in_blocks().empty());
+  EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.35, 0.8).in_blocks().empty());
+  EXPECT_TRUE(branching({-0.1, 1.0}, 0.2, 0.5).in_blocks().empty());
+}
+
+TEST(ExpectedInBlocks, AtTheRightEndIsOnTheStep) {
+  const PlantedStep step = branching({-0.1, 1.0}, -0.2, 0.1);
+  const auto found = step.in_blocks();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].position.real(), 0.3, rounding);
+  EXPECT_LE(found[0].position.real(), step.length);
+}
+
+TEST(ExpectedInBlocks, TheOneThatTheStepBeganWithIsKnown) {
+  PlantedStep step = branching({0.0, 0.1, -1.0}, 0.0, 0.3);
+  Track& track = step.left.tracks[0];
+  track.met = {0, 1};
+  const double half = std::sqrt(0.01 * 0.09);
+  track.departure = Track::Departure{0.01, ComplexVector{{(2.0 + half) * j, (2.0 - half) * j}}};
+  // That at 0, and then that at 0.1.
+  const auto places = step.places(step.in_blocks());
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_NEAR(places[0].real(), 0.1, rounding);
+}
+
+TEST(ExpectedInBlocks, ModesThatAreOneNeverMeet) {
+  const PlantedStep step = lines(Matrix{{2.0, 0.5}, {2.0, 0.5}, {3.0, 0.1}}, 0.0, 0.6);
+  EXPECT_TRUE(step.in_blocks().empty());
+}
+
+TEST(ExpectedInBlocks, MeetingsOfGuestsAreNobodysEvents) {
+  PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}, 0.0, 0.9);
+  step.left.tracks[0].modes = {Track::guest, Track::guest, 4};
+  // The third meets one of them; what comes behind is looked for when the step has ended there.
+  const auto found = step.in_blocks();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].b.members, Members{2});
+  EXPECT_NEAR(found[0].position.real(), 0.45, of_double_roots);
+  step.left.tracks[0].modes = {Track::guest, Track::guest, Track::guest};
+  EXPECT_TRUE(step.in_blocks().empty());
+}
+
+TEST(ExpectedInBlocks, SingleModesHaveNone) {
+  EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.0, 0.8, false).in_blocks().empty());
+}
+
+TEST(ExpectedInBlocks, WideVeeringIsNoneNarrowOneIs) {
+  EXPECT_TRUE(veering(0.2, -0.2, 0.4, true).in_blocks().empty());
+  const PlantedStep step = veering(1e-3, -0.2, 0.4, true);
+  const auto places = step.places(step.in_blocks());
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_NEAR(places[0].real(), 0.1, 1e-9);
+}
+
+/// The pair of a real block touches the axis twice: it comes apart at 0.1 and is a pair again at 0.4.
+TEST(ExpectedInBlocks, PairThatVisitsTheRealAxisMeetsTwice) {
+  // s^2 + s + 0.25 - (p - 0.1)(0.4 - p).
+  Planted family({{Matrix{{1.0}}}, {Matrix{{1.0}}}, {Matrix{{0.29}}, Matrix{{-0.5}}, Matrix{{1.0}}}});
+  const auto pair = [](double p) {
+    const Complex root = std::sqrt(Complex((p - 0.1) * (0.4 - p)));
+    return std::vector<Complex>{-0.5 + root, -0.5 - root};
+  };
+  const PlantedStep step(std::move(family), pair, 0.0, 0.5, true);
+  const auto places = step.places(step.in_blocks());
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_NEAR(places[0].real(), 0.1, rounding);
+  EXPECT_NEAR(places[1].real(), 0.4, rounding);
+}
+
+class ExpectedVeering : public testing::TestWithParam<double> {};
+
+TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
+  const double eps = GetParam();
+  for (const auto& [from, to] : {std::pair(-0.05, 0.2), std::pair(0.2, -0.05)}) {
+    const PlantedStep step = veering(eps, from, to, false);
+    const auto found = step.beside(0.1);
+    ASSERT_EQ(found.size(), 1U) << from;
+    EXPECT_NEAR(step.places(found)[0].real(), 0.1, 1e-8);
+    EXPECT_NEAR(std::abs(found[0].position.imag()), eps, 1e-8);
+    EXPECT_EQ(found[0].a.track, 0U);
+    EXPECT_EQ(found[0].b.track, 1U);
+    // The gap as both ends see it: -((p - 0.1)^2 + eps^2).
+    EXPECT_LT(std::abs(found[0].gap_at_left[0] + std::pow(from - 0.1, 2) + eps * eps), rounding);
+    EXPECT_LT(std::abs(found[0].gap_at_right[0] + std::pow(to - 0.1, 2) + eps * eps), rounding);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfWidths, ExpectedVeering, testing::Values(0.08, 0.03, 1e-2, 1e-3));
+
+TEST(ExpectedBeside, WiderThanAskedForIsNone) {
+  EXPECT_TRUE(veering(0.08, -0.05, 0.2, false).beside(0.05).empty());
+  EXPECT_EQ(veering(0.04, -0.05, 0.2, false).beside(0.05).size(), 1U);
+}
+
+TEST(ExpectedBeside, WhatLiesBeforeOrBehindTheStepIsLeftToItsNeighbours) {
+  EXPECT_TRUE(veering(0.01, 0.2, 0.4, false).beside(0.05).empty());
+  EXPECT_TRUE(veering(0.01, -0.2, 0.0, false).beside(0.05).empty());
+  // Near an end either step may tell it.
+  EXPECT_EQ(veering(0.01, 0.11, 0.4, false).beside(0.05).size(), 1U);
+  EXPECT_EQ(veering(0.01, -0.2, 0.09, false).beside(0.05).size(), 1U);
+}
+
+TEST(ExpectedBeside, BlockOfTwoTellsItsOwn) {
+  const PlantedStep step = veering(0.03, -0.05, 0.2, true);
+  const auto found = step.beside(0.1);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(step.places(found)[0].real(), 0.1, 1e-10);
+  EXPECT_NEAR(std::abs(found[0].position.imag()), 0.03, 1e-10);
+  // So near to the axis that the step ends there: told with those on the axis.
+  EXPECT_TRUE(veering(1e-4, -0.05, 0.2, true).beside(0.1).empty());
+}
+
+TEST(ExpectedBeside, SingleModesThatCrossAreExpectedOnTheAxis) {
+  const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.6, -1.0}, {7.0, 0.0}}, 0.0, 0.8, false);
+  const auto found = step.beside(0.1);
+  ASSERT_FALSE(found.empty());
+  for (const ExpectedMeeting& meeting : found) {
+    EXPECT_NEAR(step.places({meeting})[0].real(), 0.3, of_double_roots);
+    EXPECT_LT(std::abs(meeting.position.imag()), of_double_roots);
+  }
+}
+
+TEST(ExpectedBeside, ModesThatStayApartHaveNone) {
+  const PlantedStep step =
+      lines(Matrix{{2.0, 0.3}, {3.0, -0.2}, {4.0, 0.5}, {5.0, 0.0}, {6.0, 1.0}}, 0.0, 0.5, false);
+  EXPECT_TRUE(step.beside(0.3).empty());
+}
+
+TEST(ExpectedBeside, ModesInDifferentChartsAreNotCompared) {
+  constexpr double eps = 0.03;
+  PlantedStep step = veering(eps, -0.05, 0.2, false);
+  for (PathNode* node : {&step.left, &step.right}) {
+    const Complex s = node->tracks[1].roots[0];
+    const Complex third = node->tracks[2].roots[0];
+    *node = step.family.point(node->p, {{{node->tracks[0].roots[0]}}, {{s}, Chart::reciprocal}, {{third}}});
+  }
+  EXPECT_TRUE(step.beside(0.1).empty());
+}
+
+/// A veering of two members of a block of three, the third nearby.
+TEST(ExpectedBeside, BlockOfThreeTellsItsVeerings) {
+  constexpr double eps = 0.02;
+  const std::vector<Matrix> W{Matrix{{1.9, eps, 0.0}, {eps, 2.1, 0.0}, {0.0, 0.0, 2.5}},
+                              Matrix{{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 0.2}}};
+  const auto roots = [&](double p) {
+    const double half = std::hypot(p - 0.1, eps);
+    return std::vector<Complex>{(2.0 - half) * j, (2.0 + half) * j, (2.5 + 0.2 * p) * j};
+  };
+  const PlantedStep step(Planted::frequencies(W), roots, -0.05, 0.2, true);
+  const auto found = step.beside(0.1);
+  ASSERT_FALSE(found.empty());
+  for (const ExpectedMeeting& meeting : found) {
+    EXPECT_EQ(meeting.a.members, Members{0});
+    EXPECT_EQ(meeting.b.members, Members{1});
+    EXPECT_NEAR(step.places({meeting})[0].real(), 0.1, 1e-4);
+    EXPECT_NEAR(std::abs(meeting.position.imag()), eps, 1e-4);
+  }
+}
+
+/// The rival: distances at both ends and in the middle of the step hardly differ from those of modes that
+/// keep their distance, and yet one pair veers and the other does not.
+TEST(ExpectedBeside, ToldBySeriesAndNotByDistances) {
+  const PlantedStep veers = veering(0.01, 0.05, 0.15, false);
+  const PlantedStep parallel = lines(Matrix{{1.95, 0.0}, {2.05, 0.0}, {9.0, 0.2}}, 0.05, 0.15, false);
+  const auto apart = [](const PathNode& node) {
+    return std::abs(node.tracks[0].roots[0] - node.tracks[1].roots[0]);
+  };
+  EXPECT_NEAR(apart(veers.left), apart(parallel.left), 0.01);
+  EXPECT_NEAR(apart(veers.right), apart(parallel.right), 0.01);
+  EXPECT_EQ(veers.beside(0.1).size(), 1U);
+  EXPECT_TRUE(parallel.beside(0.1).empty());
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,162 @@
+// Who could be followed together: meetings in closed form, before, beside and behind a step.
+#include "continuation/regrouping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "continuation/planted_points.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
+
+/// Frequencies 2 + p, 2.6 - p, 5 and 9: the first two cross at p = 0.3.
+Planted crossing() {
+  return Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}, {9.0, 0.0}}));
+}
+const std::vector<Complex> at_zero{2.0 * j, 2.6 * j, 5.0 * j, 9.0 * j};
+
+TEST(FindPartners, IsWhomAModeMeetsWithinTheReach) {
+  Planted family = crossing();
+  const PathNode node = family.point(0.0, alone(at_zero));
+  const auto partners = find_partners(node, 0, 0.4, 1.0);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_EQ(partners[0].track, 1U);
+  EXPECT_FALSE(partners[0].conjugate);
+  // A double root is told to the root of rounding.
+  EXPECT_NEAR(partners[0].distance, 0.0, 1e-7);
+}
+
+TEST(FindPartners, DistanceIsThatFromTheStep) {
+  Planted family = crossing();
+  const PathNode node = family.point(0.0, alone(at_zero));
+  EXPECT_TRUE(find_partners(node, 0, 0.1, 1.0).empty());
+  const auto partners = find_partners(node, 0, 0.1, 3.0);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_NEAR(partners[0].distance, 0.2, 1e-7);
+  // Going the other way it lies behind.
+  const auto behind = find_partners(node, 0, -0.1, 4.0);
+  ASSERT_EQ(behind.size(), 1U);
+  EXPECT_NEAR(behind[0].distance, 0.3, 1e-7);
+}
+
+TEST(FindPartners, AreSymmetricAndNearestFirst) {
+  // 2 + p meets 2.3 at 0.3 and 2.5 at 0.5; those two never meet.
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.5, 0.0}, {2.3, 0.0}}));
+  const PathNode node = family.point(0.0, alone({2.0 * j, 2.5 * j, 2.3 * j}));
+  const auto partners = find_partners(node, 0, 0.1, 5.0);
+  ASSERT_EQ(partners.size(), 2U);
+  EXPECT_EQ(partners[0].track, 2U);
+  EXPECT_EQ(partners[1].track, 1U);
+  for (const std::size_t other : {1U, 2U}) {
+    const auto back = find_partners(node, other, 0.1, 5.0);
+    ASSERT_EQ(back.size(), 1U);
+    EXPECT_EQ(back[0].track, 0U);
+    EXPECT_NEAR(back[0].distance, partners[other == 2U ? 0 : 1].distance, rounding);
+  }
+}
+
+class FindPartnersOfVeering : public testing::TestWithParam<double> {};
+
+/// 20 +- sqrt(p^2 + eps^2): they meet at +- j eps. The gap's series is exact where those of the modes are
+/// not.
+TEST_P(FindPartnersOfVeering, DistanceIsThatOfTheExceptionalPoint) {
+  const double eps = GetParam();
+  Planted family = Planted::frequencies({Matrix{{20.0, eps}, {eps, 20.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+  const double start = 0.2;
+  const double apart = std::hypot(start, eps);
+  const PathNode node = family.point(-start, alone({(20.0 - apart) * j, (20.0 + apart) * j}));
+  const auto partners = find_partners(node, 0, 2.0 * start, 0.5);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_EQ(partners[0].track, 1U);
+  EXPECT_FALSE(partners[0].conjugate);
+  EXPECT_NEAR(partners[0].distance, eps, 1e-10 / eps);
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfWidths, FindPartnersOfVeering, testing::Values(0.1, 1e-2, 1e-3, 1e-4));
+
+/// Half-width 0.1, on a step of twice the distance at which the series cease to converge: what they tell out
+/// there, a conjugate four units away, is no partner before the true one.
+TEST(FindPartners, ConjugateFarAwayIsNotTheNearest) {
+  constexpr double eps = 0.1;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+  const double apart = std::hypot(0.2, eps);
+  const PathNode node = family.point(-0.2, alone({(2.0 - apart) * j, (2.0 + apart) * j}));
+  const auto partners = find_partners(node, 0, 0.4, 0.5);
+  ASSERT_FALSE(partners.empty());
+  EXPECT_FALSE(partners[0].conjugate);
+  EXPECT_EQ(partners[0].track, 1U);
+}
+
+/// s^2 + 2 d s + 1 - p: a pair that meets the real axis at p = 1 - d^2, beside a mode far away.
+Planted towards_the_axis(double d) {
+  return Planted({{Matrix::Identity(2, 2)},
+                  {Matrix{{2.0 * d, 0.0}, {0.0, 0.2}}},
+                  {Matrix{{1.0, 0.0}, {0.0, 36.01}}, Matrix{{-1.0, 0.0}, {0.0, 0.0}}}});
+}
+Complex upper(double d, double p) {
+  return {-d, std::sqrt(1.0 - p - d * d)};
+}
+const Complex far_away(-0.1, 6.0);
+
+TEST(FindPartners, IsAModesOwnConjugateBeforeTheRealAxis) {
+  Planted family = towards_the_axis(0.5);
+  const PathNode node = family.point(0.5, alone({upper(0.5, 0.5), far_away}));
+  const auto partners = find_partners(node, 0, 0.1, 2.0);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_TRUE(partners[0].conjugate);
+  EXPECT_EQ(partners[0].track, 0U);
+  EXPECT_NEAR(partners[0].distance, 0.15, rounding);
+  EXPECT_TRUE(find_partners(node, 0, 0.1, 1.0).empty());
+  EXPECT_TRUE(find_partners(node, 1, 0.1, 2.0).empty());
+}
+
+TEST(FindPartners, RealModeHasNoConjugate) {
+  Planted family = towards_the_axis(0.5);
+  // Behind the collision, at p = 0.76: s = -0.5 +- 0.1, which meet each other behind the step.
+  const PathNode node = family.point(0.76, alone({Complex(-0.4), Complex(-0.6), far_away}));
+  const auto partners = find_partners(node, 0, 0.005, 2.0);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_FALSE(partners[0].conjugate);
+  EXPECT_EQ(partners[0].track, 1U);
+  // The root lies where the series ceases to converge, which magnifies rounding.
+  EXPECT_NEAR(partners[0].distance, 0.01, 1e-8);
+}
+
+TEST(FindPartners, ChartsDoNotMatter) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, alone(at_zero));
+  ASSERT_TRUE(change_chart(family.problem(), node, 1, family.counts));
+  const auto partners = find_partners(node, 0, 0.1, 3.0);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_EQ(partners[0].track, 1U);
+  // 1 / (2.6 - p) is no polynomial: its series to p^5 places the crossing to some (0.3 / 2.6)^6.
+  EXPECT_NEAR(partners[0].distance, 0.2, 1e-3);
+}
+
+/// A block of 2 +- 0.1, which a single mode 3 - p meets first at p = 0.9: its own step must see that.
+TEST(FindPartners, BlockIsMetWhereItsMembersAre) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{1.9, 0.0}, {2.1, 0.0}, {3.0, -1.0}}));
+  const PathNode node = family.point(0.0, {{{1.9 * j, 2.1 * j}}, {{3.0 * j}}});
+  const auto partners = find_partners(node, 1, 0.85, 0.1);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_LE(partners[0].distance, 0.05 + rounding);
+}
+
+TEST(FindPartners, RealBlockIsMetWhereItsMembersAre) {
+  // (s + 1.9)(s + 2.1), and s = -3 + p beside one at -20: they meet first at p = 0.9.
+  Planted family({{Matrix::Identity(2, 2)},
+                  {Matrix{{4.0, 0.0}, {0.0, 23.0}}, Matrix{{0.0, 0.0}, {0.0, -1.0}}},
+                  {Matrix{{3.99, 0.0}, {0.0, 60.0}}, Matrix{{0.0, 0.0}, {0.0, -20.0}}}});
+  const PathNode node = family.point(0.0, {{{Complex(-1.9), Complex(-2.1)}}, {{Complex(-3.0)}}});
+  const auto partners = find_partners(node, 1, 0.85, 0.1);
+  ASSERT_EQ(partners.size(), 1U);
+  EXPECT_LE(partners[0].distance, 0.05 + rounding);
+}
+
+}  // namespace
+}  // namespace eigentrail::test

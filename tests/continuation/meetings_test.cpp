@@ -1,0 +1,393 @@
+// A meeting as it is seen from a point near it: kind, place, width and Puiseux coefficient in closed form.
+#include "continuation/meetings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "continuation/planted_points.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< of gaps that are polynomials of order one
+constexpr double reach = 1.0;
+using Members = std::vector<int>;
+
+/// Frequencies 2 +- sqrt(product(p)), by a matrix [[2, 1], [product(p), 2]]: roots of the product are
+/// exceptional points.
+Planted branching(const std::vector<double>& product, int order = 4) {
+  std::vector<Matrix> W{Matrix{{2.0, 1.0}, {product[0], 2.0}}};
+  for (std::size_t k = 1; k < product.size(); ++k) W.push_back(Matrix{{0.0, 0.0}, {product[k], 0.0}});
+  return Planted::frequencies(W, order);
+}
+
+PathNode branching_point(Planted& family, double p, double product) {
+  const Complex root = std::sqrt(Complex(product));
+  return family.point(p, {{{j * (2.0 + root), j * (2.0 - root)}}});
+}
+
+/// Two uncoupled frequencies 2 + p and 2.6 - p.
+Planted crossing() {
+  return Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}}));
+}
+PathNode crossing_point(Planted& family, double p) {
+  return family.point(p, {{{(2.0 + p) * j, (2.6 - p) * j}}});
+}
+
+/// 2 +- sqrt(p^2 + eps^2).
+Planted veering(double eps) {
+  return Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+}
+PathNode veering_point(Planted& family, double p, double eps) {
+  return family.point(p, {{{(2.0 - std::hypot(p, eps)) * j, (2.0 + std::hypot(p, eps)) * j}}});
+}
+
+TEST(GapOf, TwoIsDelta) {
+  Planted family = crossing();
+  const PathNode node = crossing_point(family, 0.1);
+  const ComplexVector gap = gap_of(node.tracks[0], {0}, {1});
+  // -(0.2 - h)^2.
+  EXPECT_LT(distance(gap, ComplexVector{{-0.04, 0.4, -1.0}}), rounding);
+  EXPECT_LT(distance(gap, node.tracks[0].functions.row(1).transpose()), rounding);
+}
+
+TEST(GapOf, AnyTwoOfThreeIsTheirs) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {3.0, 0.5}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j, 3.0 * j}}});
+  const auto expect = [&](int a, int b, double apart, double speed) {
+    const ComplexVector expected{{-0.25 * apart * apart, -0.5 * apart * speed, -0.25 * speed * speed}};
+    EXPECT_LT(distance(gap_of(node.tracks[0], {a}, {b}), expected), rounding) << a << " and " << b;
+    EXPECT_LT(distance(gap_of(node.tracks[0], {b}, {a}), expected), rounding) << b << " and " << a;
+  };
+  expect(0, 1, 0.6, -2.0);
+  expect(0, 2, 1.0, -0.5);
+  expect(1, 2, 0.4, 1.5);
+}
+
+TEST(GapOf, AStrandOfTwoAndAThirdIsThatOfTheirMeans) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.5 * j, 2.0 * j}}});
+  // -((0.5 - 1.2 h) / 2)^2.
+  EXPECT_LT(distance(gap_of(node.tracks[0], {0, 2}, {1}), ComplexVector{{-0.0625, 0.3, -0.36}}), rounding);
+}
+
+TEST(GapOf, IsSmoothWhereTheTwoMeetBesideAThird) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, -1.0}, {3.0, 0.5}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 3.0 * j}}});
+  EXPECT_LT(distance(gap_of(node.tracks[0], {0}, {1}), ComplexVector{{0.0, 0.0, -1.0}}), rounding);
+}
+
+TEST(GapOf, IsEmptyWhereTheTwoCannotBeToldFromAThird) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, 0.0}, {2.0, -0.6}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 2.0 * j}}});
+  EXPECT_EQ(gap_of(node.tracks[0], {0}, {1}).size(), 0);
+}
+
+class SeenFrom : public testing::TestWithParam<double> {};
+
+TEST_P(SeenFrom, ExceptionalPointLiesWhereTheBranchesJoin) {
+  const double p = GetParam();
+  Planted family = branching({0.0, 1.0});
+  const PathNode node = branching_point(family, p, p);
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::collision);
+  EXPECT_NEAR(meeting.offset, -p, rounding);
+  EXPECT_EQ(meeting.half_width, 0.0);
+  EXPECT_EQ(meeting.members, (Members{0, 1}));
+  // s = j (2 +- sqrt(p)).
+  EXPECT_LT(std::abs(meeting.puiseux * meeting.puiseux + 1.0), rounding);
+}
+
+TEST_P(SeenFrom, CrossingLiesWhereUncoupledModesAreEqual) {
+  Planted family = crossing();
+  const PathNode node = crossing_point(family, 0.3 + GetParam());
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_NEAR(meeting.offset, -GetParam(), rounding);
+  EXPECT_EQ(meeting.half_width, 0.0);
+  // Farther away the two are different, and whether they have two vectors where they meet is not told.
+  if (std::abs(GetParam()) <= 1e-6) {
+    EXPECT_EQ(meeting.kind, EventKind::crossing);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, SeenFrom, testing::Values(0.0, 1e-9, -1e-6, 1e-3, -0.02, 0.1, -0.2));
+
+/// Frequencies 2 + p + p^2 and 2.6 - p + p^3 / 2 cross where 2 p + p^2 - p^3 / 2 = 0.6.
+TEST(NearestMeeting, CurvedModesCrossWhereTheirCurvesDo) {
+  Matrix w = Matrix::Zero(2, 4);
+  w << 2.0, 1.0, 1.0, 0.0, 2.6, -1.0, 0.0, 0.5;
+  Planted family = Planted::frequencies(uncoupled(w));
+  double place = 0.3;
+  for (int i = 0; i < 20; ++i) {
+    place -= (2.0 * place + place * place - 0.5 * std::pow(place, 3) - 0.6) /
+             (2.0 + 2.0 * place - 1.5 * place * place);
+  }
+  for (const double away : {0.1, 0.02, -0.01, 1e-3, -1e-4, 1e-6}) {
+    const double p = place + away;
+    const PathNode node = family.point(p, {{{(2.0 + p + p * p) * j, (2.6 - p + 0.5 * std::pow(p, 3)) * j}}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << away;
+    // From far away a point nearer by is told, to the square of the distance; from there the place itself.
+    const double accuracy = std::abs(away) <= 1e-3 ? rounding : away * away;
+    EXPECT_NEAR(p + meeting.offset, place, accuracy) << away;
+  }
+}
+
+/// 2 +- p by a matrix with one vector where both are 2: they go straight on, and coalesce.
+TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
+  Planted family = branching({0.0, 0.0, 1.0});
+  for (const double p : {0.0, 1e-9, -1e-8}) {
+    const PathNode node = branching_point(family, p, p * p);
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_EQ(meeting.kind, EventKind::collision) << p;
+    // A double root of what is known to rounding.
+    EXPECT_NEAR(p + meeting.offset, 0.0, 1e-7) << p;
+  }
+}
+
+class NearestVeering : public testing::TestWithParam<double> {};
+
+TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
+  const double eps = GetParam();
+  Planted family = veering(eps);
+  for (const double p : {0.0, 0.5 * eps, -3.0 * eps}) {
+    const PathNode node = veering_point(family, p, eps);
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_EQ(meeting.kind, EventKind::veering) << p;
+    // Lambda is known to rounding, and the gap's root to that over its slope.
+    EXPECT_NEAR(meeting.offset, -p, 1e-13 + 1e-9 * eps) << p;
+    EXPECT_NEAR(meeting.half_width, eps, 1e-13 + 1e-9 * eps) << p;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfWidths, NearestVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6, 1e-8));
+
+/// Modes of different damping pass each other on the real axis; where they coincide p is complex.
+TEST(NearestMeeting, ModesThatPassEachOtherDoNotMeet) {
+  constexpr double damping = 0.02;
+  const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
+  Planted family({{Matrix::Identity(2, 2)},
+                  {diagonal(0.0, 2.0 * damping)},
+                  {diagonal(4.0, 6.76 + damping * damping), diagonal(4.0, -5.2), Matrix::Identity(2, 2)}});
+  const PathNode node = family.point(0.28, {{{2.28 * j, -damping + 2.32 * j}}});
+  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
+}
+
+/// s^2 + c s + 4 + p and s^2 + 4 - p, coupled by eps: exceptional points near j (eps - c) and -j (eps + c).
+class DampedVeering : public testing::TestWithParam<double> {
+ protected:
+  static constexpr double eps = 0.05;
+  double damping = GetParam();
+  Planted family{{{Matrix::Identity(2, 2)},
+                  {Matrix{{damping, 0.0}, {0.0, 0.0}}},
+                  {Matrix{{4.0, eps}, {eps, 4.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}}}};
+};
+
+TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
+  const PathPoint point = family.reduced(0.0);
+  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  ASSERT_EQ(spectrum.modes.size(), 2U);
+  const PathNode node = family.point(0.0, {{{spectrum.modes[0].s, spectrum.modes[1].s}}});
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::veering);
+  EXPECT_NEAR(meeting.half_width, std::abs(eps - damping), 2e-3 * eps);
+  // The gap vanishes at the place that is told, on one side of the axis.
+  const ComplexMatrix gap = gap_of(node.tracks[0], {0}, {1}).transpose();
+  const auto at = [&](Complex p) {
+    Complex value = 0.0;
+    for (Eigen::Index k = gap.cols() - 1; k >= 0; --k) value = value * p + gap(0, k);
+    return std::abs(value);
+  };
+  const double nearest =
+      std::min(at({meeting.offset, meeting.half_width}), at({meeting.offset, -meeting.half_width}));
+  EXPECT_LT(nearest, 1e-6 * at(0.5));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0, 0.02, 0.04999));
+
+TEST(NearestMeeting, OfTwoExceptionalPointsIsTheNearer) {
+  // Roots 0.1 and 0.2, seen from either side.
+  Planted family = branching({0.02, -0.3, 1.0});
+  for (const double p : {0.09, 0.21}) {
+    const PathNode node = branching_point(family, p, (p - 0.1) * (p - 0.2));
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found);
+    EXPECT_EQ(meeting.kind, EventKind::collision);
+    EXPECT_NEAR(p + meeting.offset, p < 0.15 ? 0.1 : 0.2, rounding);
+  }
+}
+
+/// s^2 + 2 d s + 1 - p: the pair meets the real axis at p = 1 - d^2.
+TEST(NearestMeeting, OfAPairWithItsConjugateIsACollision) {
+  constexpr double d = 0.4;
+  Planted family({{Matrix{{1.0}}}, {Matrix{{2.0 * d}}}, {Matrix{{1.0}}, Matrix{{-1.0}}}});
+  for (const double p : {0.6, 0.83, 0.84, 0.9}) {
+    const Complex root = std::sqrt(Complex(p - 1.0 + d * d));
+    const PathNode node = family.point(p, {{{-d + root, -d - root}}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_EQ(meeting.kind, EventKind::collision) << p;
+    EXPECT_NEAR(p + meeting.offset, 1.0 - d * d, rounding) << p;
+    EXPECT_NEAR(std::abs(meeting.puiseux), 1.0, 1e-9) << p;
+  }
+}
+
+TEST(NearestMeeting, BeyondTheReachIsNone) {
+  Planted family = crossing();
+  const PathNode node = crossing_point(family, 0.0);
+  EXPECT_TRUE(nearest_meeting(node.tracks[0], {0}, {1}, 0.2).found);
+  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, 0.1).found);
+}
+
+TEST(NearestMeeting, ParallelModesNeverMeet) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, 1.0}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
+  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
+}
+
+TEST(NearestMeeting, TwoThatAreOneDoNotMeet) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.0, 0.5}, {2.9, 0.1}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 2.9 * j}}});
+  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
+}
+
+TEST(NearestMeeting, OfADoubletWithAThirdIsACrossing) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
+  constexpr double place = 0.5 / 1.2;
+  for (const double p : {0.4, place - 1e-7, place}) {
+    const Complex twice = (2.0 + 0.5 * p) * j;
+    const PathNode node = family.point(p, {{{twice, (2.5 - 0.7 * p) * j, twice}}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0, 2}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_NEAR(p + meeting.offset, place, 1e-10);
+    EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
+    if (p > 0.4) {
+      EXPECT_EQ(meeting.kind, EventKind::crossing) << p;
+    }
+  }
+}
+
+/// Whoever is asked for: the two that are one meet the third together.
+TEST(NearestMeeting, OfADoubletBesideItsCrossingIsThatOfAllThree) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
+  constexpr double place = 0.5 / 1.2;
+  const double p = place - 1e-8;
+  const Complex twice = (2.0 + 0.5 * p) * j;
+  const PathNode node = family.point(p, {{{twice, (2.5 - 0.7 * p) * j, twice}}});
+  // Slopes of the two are told on the scale of their distance from the third.
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {2}, 1e-7);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::crossing);
+  EXPECT_NEAR(p + meeting.offset, place, 1e-12);
+  EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
+}
+
+class TripleCrossing : public testing::TestWithParam<double> {};
+
+TEST_P(TripleCrossing, IsOneMeetingOfAllThreeWhoeverIsAskedFor) {
+  const double p = GetParam();
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, 0.0}, {2.0, -0.6}, {3.0, 0.1}}));
+  const PathNode node =
+      family.point(p, {{{(2.0 + p) * j, 2.0 * j, (2.0 - 0.6 * p) * j, (3.0 + 0.1 * p) * j}}});
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+    const Meeting meeting = nearest_meeting(node.tracks[0], {a}, {b}, reach);
+    ASSERT_TRUE(meeting.found) << a << " and " << b;
+    EXPECT_EQ(meeting.kind, EventKind::crossing);
+    EXPECT_NEAR(meeting.offset, -p, rounding);
+    EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, TripleCrossing, testing::Values(0.0, 1e-7, -1e-4, 0.05));
+
+class TripleCollision : public testing::TestWithParam<double> {};
+
+/// (w - 2)^3 = p: all three vary like the cube root.
+TEST_P(TripleCollision, IsOneExceptionalPointWithItsPuiseuxCoefficient) {
+  const double p = GetParam();
+  Planted family = Planted::frequencies({Matrix{{2.0, 1.0, 0.0}, {0.0, 2.0, 1.0}, {0.0, 0.0, 2.0}},
+                                         Matrix{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}});
+  std::vector<Complex> s;
+  for (int i = 0; i < 3; ++i) s.push_back(j * (2.0 + std::cbrt(p) * std::polar(1.0, 2.0 * M_PI / 3.0 * i)));
+  const PathNode node = family.point(p, {{s}});
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, 0.1);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.kind, EventKind::collision);
+  EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
+  // The slope of the product is a difference over a thousandth of the reach: to its square.
+  EXPECT_NEAR(meeting.offset, -p, 1e-8);
+  // (s - 2 j)^3 = j^3 p.
+  EXPECT_LT(std::abs(std::pow(meeting.puiseux, 3) + j), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, TripleCollision, testing::Values(0.0, 1e-6, -1e-3, 0.02));
+
+/// At the same distance as that, only two of three meet: the third stays out.
+TEST(NearestMeeting, LeavesOutAThirdThatOnlyComesNear) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.1, 0.0}, {2.35, -0.1}}));
+  const PathNode node = family.point(0.08, {{{2.08 * j, 2.1 * j, 2.342 * j}}});
+  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+  ASSERT_TRUE(meeting.found);
+  EXPECT_EQ(meeting.members, (Members{0, 1}));
+  EXPECT_NEAR(meeting.offset, 0.02, 1e-10);
+}
+
+/// Meetings of 1/s: both leave through infinity at different places, and meet between.
+TEST(NearestMeeting, IsSeenInTheReciprocalChart) {
+  // mu = -1 + p and -1.5 + 2 p, from (s mu - 1): no mass, C = mu, K = -1.
+  const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
+  Planted family({{Matrix::Zero(2, 2)}, {diagonal(-1.0, -1.5), diagonal(1.0, 2.0)}, {diagonal(-1.0, -1.0)}});
+  for (const double p : {0.45, 0.5}) {
+    const Complex a = 1.0 / (-1.0 + p);
+    const Complex b = 1.0 / (-1.5 + 2.0 * p);
+    const PathNode node = family.point(p, {{{a, b}, Chart::reciprocal}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_NEAR(p + meeting.offset, 0.5, rounding);
+    if (p == 0.5) {
+      EXPECT_EQ(meeting.kind, EventKind::crossing);
+    }
+  }
+}
+
+TEST(EarlierMeeting, IsTheOneThatTheStepHasPassed) {
+  // Exceptional points at 0.1 and 0.2; a point on the second.
+  Planted family = branching({0.02, -0.3, 1.0});
+  const PathNode node = branching_point(family, 0.2, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.1, 1e-9);
+  // Far behind for a short step; ahead for one that comes from the other side.
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 0.3), 0.0);
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.0);
+}
+
+TEST(EarlierMeeting, GoesBackwardsAlike) {
+  Planted family = branching({0.02, -0.3, 1.0});
+  const PathNode node = branching_point(family, 0.1, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.1, 1e-9);
+}
+
+TEST(EarlierMeeting, IsTheFarthestOfSeveral) {
+  // At 0, 0.05 and 0.12, seen from the last.
+  Planted family = branching({0.0, 0.006, -0.17, 1.0});
+  const PathNode node = branching_point(family, 0.12, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.12, 1e-9);
+}
+
+TEST(EarlierMeeting, IsNoneBesideTheAxisAndNoneAtThePoint) {
+  Planted family = veering(0.05);
+  const PathNode node = veering_point(family, 0.1, 0.05);
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), 0.0);
+  Planted single = branching({0.0, 1.0});
+  const PathNode on_it = branching_point(single, 0.0, 0.0);
+  EXPECT_EQ(earlier_meeting(on_it.tracks[0], {0}, {1}, 1.0), 0.0);
+}
+
+}  // namespace
+}  // namespace eigentrail::test

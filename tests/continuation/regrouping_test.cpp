@@ -1,0 +1,344 @@
+// Joining, parting and changing charts at a point: blocks of modes in closed form, in and out again.
+#include "continuation/regrouping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "continuation/planted_points.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
+using Modes = std::vector<int>;
+
+/// Frequencies 2 + p, 2.6 - p, 5 and 9: the first two cross at p = 0.3.
+Planted crossing() {
+  return Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}, {9.0, 0.0}}));
+}
+const std::vector<Complex> at_zero{2.0 * j, 2.6 * j, 5.0 * j, 9.0 * j};
+
+/// s^2 + 2 d s + 1 - p: a pair that meets the real axis at p = 1 - d^2, beside a mode far away.
+Planted towards_the_axis(double d) {
+  return Planted({{Matrix::Identity(2, 2)},
+                  {Matrix{{2.0 * d, 0.0}, {0.0, 0.2}}},
+                  {Matrix{{1.0, 0.0}, {0.0, 36.01}}, Matrix{{-1.0, 0.0}, {0.0, 0.0}}}});
+}
+Complex upper(double d, double p) {
+  return {-d, std::sqrt(1.0 - p - d * d)};
+}
+const Complex far_away(-0.1, 6.0);
+
+TEST(Regrouping, JoinsTwoModesThatMeetWithinTheStep) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, alone(at_zero));
+  ASSERT_TRUE(join(family.problem(), node, 0, find_partners(node, 0, 0.4, 1.0), family.counts));
+  ASSERT_EQ(node.tracks.size(), 3U);
+  const Track& block = node.tracks.back();
+  EXPECT_EQ(block.modes, (Modes{0, 1}));
+  EXPECT_LT(distance(block.roots, ComplexVector{{2.0 * j, 2.6 * j}}), rounding);
+  // tau = 2.3 j, delta = -(0.3 - p)^2.
+  EXPECT_LT(distance(block.functions.row(0).transpose(), ComplexVector{{2.3 * j}}), rounding);
+  EXPECT_LT(distance(block.functions.row(1).transpose(), ComplexVector{{-0.09, 0.6, -1.0}}), rounding);
+  EXPECT_EQ(node.tracks[0].modes, Modes{2});
+}
+
+TEST(Regrouping, JoinedBlockHasTheSeriesThatItsPartsLose) {
+  // A veering of half-width 0.01 seen from 0.2 before it: the block's functions are polynomials of degree 2.
+  constexpr double eps = 0.01;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+  const auto exact = [&](double p) {
+    return ComplexVector{{(2.0 - std::hypot(p, eps)) * j, (2.0 + std::hypot(p, eps)) * j}};
+  };
+  const ComplexVector start = exact(-0.2);
+  PathNode node = family.point(-0.2, alone({start[0], start[1]}));
+  const auto block_exact = [&](double h) { return exact(h - 0.2); };
+  const auto first_exact = [&](double h) { return ComplexVector(exact(h - 0.2).head(1)); };
+  EXPECT_GT(largest_miss(node.tracks[0], first_exact, {0.2, 0.4}), 1e-3);
+  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, eps}}, family.counts));
+  // Rounding of delta over the distance of the roots, 2 eps.
+  EXPECT_LT(largest_miss(node.tracks[0], block_exact, {0.1, 0.2, 0.3, 0.4}), rounding / eps);
+}
+
+TEST(Regrouping, JoinsAPairWithItsConjugateToARealBlock) {
+  Planted family = towards_the_axis(0.5);
+  PathNode node = family.point(0.5, alone({upper(0.5, 0.5), far_away}));
+  ASSERT_TRUE(join(family.problem(), node, 0, {{true, 0, 0.25}}, family.counts));
+  const Track& block = node.tracks.back();
+  EXPECT_TRUE(block.pair.is_real);
+  EXPECT_EQ(block.modes, (Modes{0, Track::no_mode}));
+  EXPECT_LT(std::abs(block.roots[0] - upper(0.5, 0.5)), rounding);
+  EXPECT_EQ(block.roots[1], std::conj(block.roots[0]));
+  EXPECT_LT(distance(block.functions.row(1).transpose(), ComplexVector{{-0.25, 1.0}}), rounding);
+}
+
+TEST(Regrouping, ComplexModeThatJoinsARealBlockBringsItsConjugate) {
+  Planted family = towards_the_axis(0.5);
+  const Complex s = upper(0.5, 0.5);
+  PathNode node = family.point(0.5, {{{far_away}}, {{s, std::conj(s)}}});
+  node.tracks[1].met = {0, 1};
+  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.0}}, family.counts));
+  ASSERT_EQ(node.tracks.size(), 1U);
+  const Track& block = node.tracks[0];
+  EXPECT_TRUE(block.pair.is_real);
+  EXPECT_EQ(block.modes, (Modes{0, Track::no_mode, 1, Track::no_mode}));
+  EXPECT_LT(distance(block.roots, ComplexVector{{far_away, std::conj(far_away), s, std::conj(s)}}), rounding);
+  EXPECT_EQ(block.met, (std::vector<int>{2, 3}));
+}
+
+TEST(Regrouping, JoinsAcrossChartsInThatOfTheTrack) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, alone(at_zero));
+  ASSERT_TRUE(change_chart(family.problem(), node, 1, family.counts));
+  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.0}}, family.counts));
+  EXPECT_EQ(node.tracks.back().pair.chart, Chart::finite);
+  EXPECT_LT(distance(node.tracks.back().roots, ComplexVector{{2.0 * j, 2.6 * j}}), rounding);
+}
+
+TEST(Regrouping, DoesNotJoinMoreThanSix) {
+  Matrix w(7, 2);
+  for (Eigen::Index i = 0; i < 7; ++i) w.row(i) << 2.0 + 0.1 * static_cast<double>(i), 0.1;
+  Planted family = Planted::frequencies(uncoupled(w));
+  std::vector<Complex> s;
+  for (Eigen::Index i = 0; i < 7; ++i) s.push_back(w(i, 0) * j);
+  PathNode node = family.point(0.0, alone(s));
+  std::vector<Partner> six;
+  for (std::size_t i = 1; i < 7; ++i) six.push_back({false, i, 0.0});
+  EXPECT_FALSE(join(family.problem(), node, 0, six, family.counts));
+  EXPECT_EQ(node.tracks.size(), 7U);
+  six.pop_back();
+  EXPECT_TRUE(join(family.problem(), node, 0, six, family.counts));
+  EXPECT_EQ(node.tracks.size(), 2U);
+}
+
+/// The same mode twice is no block: its two columns are one.
+TEST(Regrouping, DoesNotJoinAModeWithItselfAndLeavesThePointAlone) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, alone({2.0 * j, 5.0 * j, 2.0 * j}));
+  EXPECT_FALSE(join(family.problem(), node, 0, {{false, 2, 0.0}}, family.counts));
+  ASSERT_EQ(node.tracks.size(), 3U);
+  EXPECT_EQ(node.tracks[0].modes, Modes{0});
+  EXPECT_EQ(node.tracks[2].roots.size(), 1);
+}
+
+TEST(Regrouping, PartingAfterJoiningGivesBackTheSameSeries) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, alone(at_zero));
+  const PathNode before = node;
+  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.3}}, family.counts));
+  part(family.problem(), nullptr, node, 0.05, 0.0, 1.0, 0.0, family.counts);
+  ASSERT_EQ(node.tracks.size(), 4U);
+  for (const Track& track : node.tracks) {
+    ASSERT_EQ(track.size(), 1);
+    const Track& same = before.tracks[static_cast<std::size_t>(track.modes.at(0))];
+    EXPECT_LT((track.functions - same.functions).norm(), rounding);
+  }
+}
+
+TEST(Regrouping, DoesNotPartThoseWhoMeetWithinTheReachOnEitherSide) {
+  Planted family = crossing();
+  for (const double h : {0.05, -0.05}) {
+    PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
+    part(family.problem(), nullptr, node, h, 0.0, 5.5, 0.0, family.counts);
+    EXPECT_EQ(node.tracks.size(), 1U) << h;
+    // The meeting lies 0.25 beyond the step on its side.
+    part(family.problem(), nullptr, node, h, 0.0, 4.0, 0.0, family.counts);
+    EXPECT_EQ(node.tracks.size(), 2U) << h;
+  }
+}
+
+TEST(Regrouping, PartsOnlyTheOneThatMeetsNobody) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -0.1}}));
+  PathNode node = family.point(0.0, {{{2.0 * j, 2.9 * j, 2.2 * j}}});
+  part(family.problem(), nullptr, node, 0.2, 0.0, 1.0, 0.0, family.counts);
+  ASSERT_EQ(node.tracks.size(), 2U);
+  EXPECT_EQ(node.tracks[0].modes, (Modes{0, 2}));
+  EXPECT_EQ(node.tracks[1].modes, Modes{1});
+  EXPECT_LT(distance(node.tracks[1].functions.row(0).transpose(), ComplexVector{{2.9 * j, -0.1 * j}}),
+            rounding);
+}
+
+TEST(Regrouping, ConjugateThatIsNoLongerNeededIsDropped) {
+  Planted family = towards_the_axis(0.5);
+  const Complex s = upper(0.5, 0.5);
+  PathNode node = family.point(0.5, {{{s, std::conj(s)}}});
+  part(family.problem(), nullptr, node, 0.01, 0.0, 1.0, 0.0, family.counts);
+  ASSERT_EQ(node.tracks.size(), 1U);
+  EXPECT_EQ(node.tracks[0].size(), 1);
+  EXPECT_EQ(node.tracks[0].modes, Modes{0});
+  EXPECT_LT(std::abs(node.tracks[0].roots[0] - s), rounding);
+}
+
+/// Nearly defective: sqrt(p) 1e-10 from its branch point. However short the step, they stay together.
+TEST(Regrouping, DefectiveBlockIsNotTakenApart) {
+  Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
+  PathNode node = family.point(1e-10, {{{(2.0 + 1e-5) * j, (2.0 - 1e-5) * j}}});
+  part(family.problem(), nullptr, node, 1e-14, 0.0, 1.0, 0.0, family.counts);
+  EXPECT_EQ(node.tracks.size(), 1U);
+}
+
+TEST(Regrouping, PartsThoseWhoWouldHaveBeenAccurateAloneOnTheLastStep) {
+  Planted family = crossing();
+  const PathNode left = family.point(-0.1, {{{1.9 * j, 2.7 * j}}});
+  // They meet, but are polynomials by themselves.
+  for (const double accepted : {0.0, 1e-6}) {
+    PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
+    part(family.problem(), &left, node, 0.1, 0.1, 10.0, accepted, family.counts);
+    EXPECT_EQ(node.tracks.size(), accepted > 0.0 ? 2U : 1U) << accepted;
+  }
+}
+
+TEST(Regrouping, ASingleModeThatCouldNotDoAloneKeepsItsPartner) {
+  // Half-width 0.05, a step that ends on the veering.
+  constexpr double eps = 0.05;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
+  const auto both = [&](double p) {
+    const double apart = std::hypot(p, eps);
+    return std::vector<Together>{{{(2.0 - apart) * j, (2.0 + apart) * j}}};
+  };
+  const PathNode left = family.point(-0.3, both(-0.3));
+  PathNode node = family.point(0.0, both(0.0));
+  part(family.problem(), &left, node, 0.3, 0.3, 1.0, 1e-8, family.counts);
+  EXPECT_EQ(node.tracks.size(), 1U);
+}
+
+/// The upper of two that veer, and one that crosses it: the second is a polynomial and could do alone.
+TEST(Regrouping, DoesNotPartAPairOfWhichOneCouldNotDoAlone) {
+  constexpr double eps = 0.05;
+  Planted family = Planted::frequencies({Matrix{{2.0, eps, 0.0}, {eps, 2.0, 0.0}, {0.0, 0.0, 2.3}},
+                                         Matrix{{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}}});
+  const auto both = [&](double p) {
+    return std::vector<Together>{{{(2.0 + std::hypot(p, eps)) * j, (2.3 - p) * j}}};
+  };
+  const PathNode left = family.point(-0.1, both(-0.1));
+  PathNode node = family.point(0.1, both(0.1));
+  part(family.problem(), &left, node, 0.2, 0.2, 1.0, 1e-8, family.counts);
+  EXPECT_EQ(node.tracks.size(), 1U);
+}
+
+TEST(Regrouping, WhoIsWhoBehindAMeetingOutlivesJoiningAndParting) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, -1.0}, {2.5, 0.3}}));
+  PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j}}, {{2.5 * j}}});
+  node.tracks[0].departure = Track::Departure{0.01, ComplexVector{{2.01 * j, 1.99 * j}}};
+  node.tracks[0].met = {0, 1};
+  ASSERT_TRUE(join(family.problem(), node, 1, {{false, 0, 0.0}}, family.counts));
+  const Track joined = node.tracks[0];
+  EXPECT_EQ(joined.modes, (Modes{2, 0, 1}));
+  EXPECT_EQ(joined.met, (std::vector<int>{1, 2}));
+  ASSERT_TRUE(joined.departure);
+  EXPECT_LT(distance(joined.departure->roots, ComplexVector{{2.503 * j, 2.01 * j, 1.99 * j}}), rounding);
+  // The third could do alone; of the two that coincide here that is not known.
+  const PathNode left = family.point(-0.1, {{{2.47 * j, 1.9 * j, 2.1 * j}}});
+  part(family.problem(), &left, node, 0.1, 0.1, 1.0, 1e-6, family.counts);
+  ASSERT_EQ(node.tracks.size(), 2U);
+  const Track& pair = node.tracks[1];
+  EXPECT_EQ(pair.modes, (Modes{0, 1}));
+  EXPECT_EQ(pair.met, (std::vector<int>{0, 1}));
+  ASSERT_TRUE(pair.departure);
+  EXPECT_LT(distance(pair.departure->roots, ComplexVector{{2.01 * j, 1.99 * j}}), rounding);
+}
+
+TEST(Separate, GivesMembersTheSeriesThatTheyHaveAlone) {
+  Planted family = Planted::frequencies({Matrix{{2.0, 0.01, 0.0}, {0.01, 2.1, 0.02}, {0.0, 0.02, 2.9}},
+                                         Matrix{{1.0, 0.0, 0.1}, {0.0, -1.0, 0.0}, {0.1, 0.0, 0.2}}});
+  const Matrix W{{2.0, 0.01, 0.0}, {0.01, 2.1, 0.02}, {0.0, 0.02, 2.9}};
+  const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(W).eigenvalues();
+  const PathNode node =
+      family.point(0.0, {{{w[0] * j, w[1] * j, w[2] * j}}, {{w[2] * j}}, {{w[0] * j, w[1] * j}}});
+  const auto one = separate(family.problem(), node, node.tracks[0], {2}, family.counts);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->modes, Modes{2});
+  EXPECT_LT((one->functions - node.tracks[1].functions).norm(), 1e-11);
+  const auto two = separate(family.problem(), node, node.tracks[0], {0, 1}, family.counts);
+  ASSERT_TRUE(two);
+  EXPECT_LT((two->functions - node.tracks[2].functions).norm(), 1e-11);
+}
+
+TEST(Separate, AllMembersAreTheBlock) {
+  Planted family = crossing();
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
+  const auto all = separate(family.problem(), node, node.tracks[0], {0, 1}, family.counts);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->functions, node.tracks[0].functions);
+}
+
+TEST(Separate, GivesNothingWhereOthersAreAsClose) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.1, 0.0}, {2.3, 0.3}, {6.0, 0.0}}));
+  const PathNode node = family.point(0.0, {{{2.0 * j, 2.1 * j, 2.3 * j}}});
+  // The third is twice as far from the second as that from the first.
+  EXPECT_FALSE(separate(family.problem(), node, node.tracks[0], {0, 1}, family.counts));
+  EXPECT_FALSE(separate(family.problem(), node, node.tracks[0], {0, 2}, family.counts));
+  EXPECT_TRUE(separate(family.problem(), node, node.tracks[0], {1}, family.counts));
+}
+
+/// (1 - p) s^2 + 0.5 s + 1 = 0: mu = 1/s = -0.25 +- sqrt(p - 0.9375), zero at p = 1.
+Planted vanishing_mass() {
+  return Planted({{Matrix{{1.0}}, Matrix{{-1.0}}}, {Matrix{{0.5}}}, {Matrix{{1.0}}}});
+}
+double passing(double p) {
+  return -0.25 + std::sqrt(p - 0.9375);
+}
+
+TEST(ChangeChart, GivesTheReciprocalSeriesAndBackTheSame) {
+  Planted family = vanishing_mass();
+  PathNode node = family.point(0.98, alone({Complex(1.0 / passing(0.98))}));
+  node.tracks[0].arriving = {4};
+  const Track before = node.tracks[0];
+  ASSERT_TRUE(change_chart(family.problem(), node, 0, family.counts));
+  const Track& other = node.tracks[0];
+  EXPECT_EQ(other.pair.chart, Chart::reciprocal);
+  EXPECT_NEAR(other.roots[0].real(), passing(0.98), rounding);
+  EXPECT_EQ(other.modes, before.modes);
+  EXPECT_EQ(other.arriving, before.arriving);
+  const ComplexVector s = before.functions.row(0).transpose();
+  const ComplexVector mu = other.functions.row(0).transpose();
+  // Coefficients grow like 0.0425^-k.
+  EXPECT_LT(distance(mu, reciprocal_series(s)), 1e-8 * mu.cwiseAbs().maxCoeff());
+  ASSERT_TRUE(change_chart(family.problem(), node, 0, family.counts));
+  const ComplexVector back = node.tracks[0].functions.row(0).transpose();
+  EXPECT_LT(distance(back, s), 1e-9 * s.cwiseAbs().maxCoeff());
+}
+
+TEST(ChangeChart, IsRefusedToBlocksAndToZero) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
+  EXPECT_FALSE(change_chart(family.problem(), node, 0, family.counts));
+  // At infinity 1/s is zero: there is no finite chart.
+  Planted passing_infinity = vanishing_mass();
+  PathNode at_infinity = passing_infinity.point(0.98, {{{1.0 / passing(0.98)}, Chart::reciprocal}});
+  at_infinity.tracks[0].roots[0] = 0.0;
+  EXPECT_FALSE(change_chart(passing_infinity.problem(), at_infinity, 0, passing_infinity.counts));
+  EXPECT_EQ(at_infinity.tracks[0].pair.chart, Chart::reciprocal);
+}
+
+TEST(PrefersOtherChart, OnTheWayToInfinityAndNotBack) {
+  Planted family = vanishing_mass();
+  PathNode node = family.point(0.985, alone({Complex(1.0 / passing(0.985))}));
+  EXPECT_TRUE(prefers_other_chart(node.tracks[0], 0.01));
+  ASSERT_TRUE(change_chart(family.problem(), node, 0, family.counts));
+  EXPECT_FALSE(prefers_other_chart(node.tracks[0], 0.01));
+}
+
+TEST(PrefersOtherChart, NotWhereTheEigenvalueHardlyMoves) {
+  Planted family = vanishing_mass();
+  const PathNode node = family.point(0.985, alone({Complex(1.0 / passing(0.985))}));
+  EXPECT_FALSE(prefers_other_chart(node.tracks[0], 1e-4));
+  // The other root stays finite.
+  const PathNode other = family.point(0.985, alone({Complex(1.0 / (-0.5 - passing(0.985)))}));
+  EXPECT_FALSE(prefers_other_chart(other.tracks[0], 0.01));
+}
+
+TEST(PrefersOtherChart, NeitherBlocksNorZeroDo) {
+  Planted family = crossing();
+  PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}, {{5.0 * j}}});
+  EXPECT_FALSE(prefers_other_chart(node.tracks[0], 1e3));
+  node.tracks[1].functions(0, 0) = 0.0;
+  EXPECT_FALSE(prefers_other_chart(node.tracks[1], 1.0));
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,333 @@
+// Eigenvalues of a step one by one: in closed form through crossings, veerings and exceptional points, and
+// the same whatever order they are asked for in.
+#include "continuation/strands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "continuation/planted_points.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< of interpolated polynomials of order one
+using Members = std::vector<int>;
+
+/// The frequencies of a family in the order that strands should have.
+using Frequencies = std::function<Vector(double)>;
+
+std::vector<Complex> imaginary(const Vector& w) {
+  std::vector<Complex> s;
+  for (const double one : w) s.push_back(one * j);
+  return s;
+}
+
+/// A step of all modes of an undamped family in one block.
+struct BlockStep {
+  BlockStep(const std::vector<Matrix>& W, const Frequencies& w, double from, double to)
+      : family(Planted::frequencies(W)),
+        left(family.point(from, {{imaginary(w(from))}})),
+        right(family.point(to, {{imaginary(w(to))}})),
+        length(to - from),
+        start(from),
+        frequencies(w) {}
+
+  StrandSampler sampler() const { return {left, right, 0, length}; }
+  ComplexVector expected(double t) const { return j * frequencies(start + t * length).cast<Complex>(); }
+
+  Planted family;
+  PathNode left, right;
+  double length, start;
+  Frequencies frequencies;
+};
+
+const std::vector<double> places{0.05, 0.2, 0.45, 0.5, 0.61, 0.8, 0.99, 1.0};
+
+double largest_miss_on(const BlockStep& step, StrandSampler& sampler) {
+  double worst = 0.0;
+  for (const double t : places)
+    worst = std::max(worst, (sampler(t) - step.expected(t)).cwiseAbs().maxCoeff());
+  return worst;
+}
+
+/// Frequencies 2 + p and 2.6 - p, the lower one first all the way.
+BlockStep crossing(double from = 0.0, double to = 0.8) {
+  const auto by_size = [](double p) {
+    return Vector{{std::min(2.0 + p, 2.6 - p), std::max(2.0 + p, 2.6 - p)}};
+  };
+  return {uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}}), by_size, from, to};
+}
+
+BlockStep veering(double eps) {
+  return {{Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}},
+          [eps](double p) {
+            return Vector{{2.0 - std::hypot(p, eps), 2.0 + std::hypot(p, eps)}};
+          },
+          -0.5,
+          0.4};
+}
+
+/// Three that cross at different places, by size.
+BlockStep three() {
+  const auto by_size = [](double p) {
+    Vector w{{2.0 + 0.5 * p, 2.2, 2.5 - 0.7 * p}};
+    std::sort(w.begin(), w.end());
+    return w;
+  };
+  return {uncoupled(Matrix{{2.0, 0.5}, {2.2, 0.0}, {2.5, -0.7}}), by_size, 0.0, 0.6};
+}
+
+/// On the step itself nothing tells a crossing from a veering of rounding's width: that it is one is found
+/// elsewhere, and steps end there.
+TEST(StrandSampler, TakesACrossingForTheNarrowestOfVeerings) {
+  for (const BlockStep& step : {crossing(), crossing(0.8, 0.0), three()}) {
+    StrandSampler sampler = step.sampler();
+    EXPECT_LT(largest_miss_on(step, sampler), rounding);
+  }
+}
+
+/// s = j (2 + 0.5 p), twice, and -damping + j (2.5 - 0.7 p): they pass each other at p = 0.42, at that
+/// distance.
+struct PassingStep {
+  explicit PassingStep(double damping)
+      : family(matrices(damping)),
+        left(family.point(0.0, {{roots(0.0, damping)}})),
+        right(family.point(0.6, {{roots(0.6, damping)}})) {}
+
+  static std::vector<Complex> roots(double p, double damping) {
+    const Complex twice = j * (2.0 + 0.5 * p);
+    return {twice, -damping + j * (2.5 - 0.7 * p), twice};
+  }
+  static PlantedMatrices matrices(double damping) {
+    const auto diagonal = [](double two, double one) { return Matrix(Vector{{two, one, two}}.asDiagonal()); };
+    return {{Matrix::Identity(3, 3)},
+            {diagonal(0.0, 2.0 * damping)},
+            {diagonal(4.0, 6.25 + damping * damping), diagonal(2.0, -3.5), diagonal(0.25, 0.49)}};
+  }
+
+  Planted family;
+  PathNode left, right;
+};
+
+class PassAtADistance : public testing::TestWithParam<double> {};
+
+TEST_P(PassAtADistance, GoesStraightOn) {
+  const double damping = GetParam();
+  const PassingStep step(damping);
+  StrandSampler sampler(step.left, step.right, 0, 0.6);
+  for (const double t : places) {
+    const std::vector<Complex> expected = PassingStep::roots(0.6 * t, damping);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_LT(std::abs(sampler(t)[i] - expected[static_cast<std::size_t>(i)]), 1e-10) << t;
+    }
+  }
+}
+
+TEST_P(PassAtADistance, ThoseThatCoincideThroughoutAreOneStrand) {
+  const PassingStep step(GetParam());
+  StrandSampler sampler(step.left, step.right, 0, 0.6);
+  const std::vector<Strand> strands = strands_of(step.left.tracks[0], 0, sampler);
+  ASSERT_EQ(strands.size(), 2U);
+  EXPECT_EQ(strands[0].members, (Members{0, 2}));
+  EXPECT_EQ(strands[1].members, Members{1});
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, PassAtADistance, testing::Values(0.3, 0.03, 1e-3));
+
+class SampleVeering : public testing::TestWithParam<double> {};
+
+TEST_P(SampleVeering, EachKeepsItsSide) {
+  const BlockStep step = veering(GetParam());
+  StrandSampler sampler = step.sampler();
+  // Rounding of delta over the distance of the roots, where that is least.
+  EXPECT_LT(largest_miss_on(step, sampler), rounding / GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfWidths, SampleVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6));
+
+TEST(StrandSampler, OrderOfSamplingDoesNotMatter) {
+  const BlockStep step = three();
+  std::vector<double> order;
+  for (int i = 0; i <= 40; ++i) order.push_back(0.025 * i);
+  std::vector<ComplexVector> forwards;
+  StrandSampler first = step.sampler();
+  for (const double t : order) forwards.push_back(first(t));
+  std::mt19937_64 engine(5);
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::size_t> shuffled(order.size());
+    for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
+    std::shuffle(shuffled.begin(), shuffled.end(), engine);
+    StrandSampler again = step.sampler();
+    for (const std::size_t i : shuffled) {
+      EXPECT_EQ((again(order[i]) - forwards[i]).norm(), 0.0) << "t = " << order[i] << " in round " << round;
+    }
+  }
+}
+
+TEST(StrandSampler, FirstCallMayBeAnywhere) {
+  const BlockStep step = crossing();
+  for (const double t : places) {
+    StrandSampler sampler = step.sampler();
+    EXPECT_LT((sampler(t) - step.expected(t)).norm(), rounding) << t;
+  }
+}
+
+TEST(StrandSampler, OfASingleModeIsItsInterpolant) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {5.0, 0.5}}));
+  const PathNode left = family.point(0.0, alone({2.0 * j, 5.0 * j}));
+  const PathNode right = family.point(0.5, alone({2.5 * j, 5.25 * j}));
+  StrandSampler sampler(left, right, 1, 0.5);
+  EXPECT_EQ(sampler.functions().size(), 1);
+  for (const double t : places) {
+    EXPECT_LT(std::abs(sampler(t)[0] - (5.0 + 0.25 * t) * j), rounding);
+    EXPECT_EQ(sampler(t)[0], sampler.functions()(t)[0]);
+  }
+}
+
+/// sqrt(p): the interpolant of delta is exact, the roots part like a root.
+TEST(StrandSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
+  Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
+  const auto root = [](double p) { return std::sqrt(Complex(p)); };
+  const auto both = [&](double p) {
+    return std::vector<Together>{{{j * (2.0 + root(p)), j * (2.0 - root(p))}}};
+  };
+  const PathNode left = family.point(-0.2, both(-0.2));
+  const PathNode right = family.point(0.3, both(0.3));
+  StrandSampler sampler(left, right, 0, 0.5);
+  for (const double t : {0.1, 0.3, 0.5, 0.9}) {
+    const ComplexVector& roots = sampler(t);
+    const Complex half = j * root(0.5 * t - 0.2);
+    EXPECT_LT(std::abs(0.5 * (roots[0] + roots[1]) - 2.0 * j), rounding);
+    EXPECT_LT(std::abs(0.25 * std::pow(roots[0] - roots[1], 2) - half * half), rounding);
+  }
+}
+
+TEST(StrandsOf, ModesThatMeetAreStrandsOfTheirOwn) {
+  const BlockStep step = three();
+  StrandSampler sampler = step.sampler();
+  const std::vector<Strand> strands = strands_of(step.left.tracks[0], 3, sampler);
+  ASSERT_EQ(strands.size(), 3U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(strands[static_cast<std::size_t>(i)].members, Members{i});
+    EXPECT_EQ(strands[static_cast<std::size_t>(i)].track, 3U);
+  }
+}
+
+TEST(StrandsOf, ModesThatCoincideAtTheLeftEndOnlyAreTwo) {
+  BlockStep step = crossing(0.3, 0.8);
+  step.left.tracks[0].departure = Track::Departure{0.01, ComplexVector{{2.31 * j, 2.29 * j}}};
+  StrandSampler sampler = step.sampler();
+  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 2U);
+}
+
+/// Half-width 1e-6: far from one, for anyone who samples the step where it is.
+TEST(StrandsOf, NarrowVeeringIsTwo) {
+  const BlockStep step = veering(1e-6);
+  StrandSampler sampler = step.sampler();
+  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 2U);
+}
+
+TEST(StrandsOf, ADistanceOfRoundingIsNone) {
+  // 2 + p and 2 + p + 1e-14.
+  const BlockStep step{uncoupled(Matrix{{2.0, 1.0}, {2.0 + 1e-14, 1.0}}),
+                       [](double p) {
+                         return Vector{{2.0 + p, 2.0 + p}};
+                       },
+                       0.0, 0.5};
+  StrandSampler sampler = step.sampler();
+  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 1U);
+}
+
+TEST(DepartingRoots, AreThoseOfThePointWhereNoneMeet) {
+  const BlockStep step = crossing();
+  double position = 1.0;
+  EXPECT_EQ(departing_roots(step.left.tracks[0], 0.8, position), step.left.tracks[0].roots);
+  EXPECT_EQ(position, 0.0);
+}
+
+/// A point on a crossing at p = 0.3, seen 0.02 behind it.
+class DepartureFromACrossing : public testing::Test {
+ protected:
+  DepartureFromACrossing() { track.departure = Track::Departure{0.02, ComplexVector{{2.32 * j, 2.28 * j}}}; }
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}}));
+  PathNode node = family.point(0.3, {{{2.3 * j, 2.3 * j}}});
+  Track& track = node.tracks[0];
+};
+
+TEST_F(DepartureFromACrossing, IsTakenAsItIsWithinATenthOfTheStep) {
+  for (const double h : {0.2, 0.5, 10.0}) {
+    double position = 0.0;
+    EXPECT_EQ(departing_roots(track, h, position), track.departure->roots);
+    EXPECT_DOUBLE_EQ(position, 0.02 / h);
+  }
+}
+
+TEST_F(DepartureFromACrossing, IsLookedAtNearerByOnAShorterStep) {
+  for (const double h : {0.1, 1e-2, 1e-4}) {
+    double position = 0.0;
+    const ComplexVector roots = departing_roots(track, h, position);
+    EXPECT_LE(position, farthest_departure);
+    EXPECT_GT(position, 0.0);
+    const double p = 0.3 + position * h;
+    // delta at the point is rounding, of order 1e-16, and its root 1e-8.
+    EXPECT_LT(distance(roots, ComplexVector{{(2.0 + p) * j, (2.6 - p) * j}}), 2e-8) << h;
+    EXPECT_GT(roots[0].imag(), roots[1].imag()) << h;
+  }
+}
+
+TEST_F(DepartureFromACrossing, KeepsWhoIsWhoInEitherOrder) {
+  std::reverse(track.departure->roots.begin(), track.departure->roots.end());
+  double position = 0.0;
+  const ComplexVector roots = departing_roots(track, 0.01, position);
+  EXPECT_LT(roots[0].imag(), roots[1].imag());
+}
+
+TEST_F(DepartureFromACrossing, IsWhereStrandsBegin) {
+  const PathNode right = family.point(0.8, {{{2.8 * j, 1.8 * j}}});
+  for (const bool swapped : {false, true}) {
+    if (swapped) std::reverse(track.departure->roots.begin(), track.departure->roots.end());
+    StrandSampler sampler(node, right, 0, 0.5);
+    const int up = swapped ? 1 : 0;
+    EXPECT_LT(std::abs(sampler(0.6)[up] - 2.6 * j), rounding);
+    EXPECT_LT(std::abs(sampler(1.0)[1 - up] - 1.8 * j), rounding);
+  }
+}
+
+/// The two that cross are told from each other also where a third of their block is far away.
+TEST(DepartingRoots, OfTwoBesideAThirdKeepTheirOrder) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {3.1, 0.2}}));
+  const Complex third = (3.1 + 0.2 * 0.3) * j;
+  PathNode node = family.point(0.3, {{{2.3 * j, 2.3 * j, third}}});
+  for (const double sign : {1.0, -1.0}) {
+    for (const double h : {0.1, 0.01, 1e-3}) {
+      Track& track = node.tracks[0];
+      track.departure = Track::Departure{
+          0.02, ComplexVector{{(2.3 + 0.02 * sign) * j, (2.3 - 0.02 * sign) * j, third + 0.004 * j}}};
+      double position = 0.0;
+      const ComplexVector roots = departing_roots(track, h, position);
+      const double d = position * h * sign;
+      EXPECT_LT(
+          distance(roots, ComplexVector{{(2.3 + d) * j, (2.3 - d) * j, third + 0.2 * position * h * j}}),
+          0.1 * position * h)
+          << "h = " << h << ", " << (sign > 0.0 ? "straight" : "the other way");
+    }
+  }
+}
+
+TEST(DepartingRoots, BehindAnExceptionalPointShrinkLikeTheRootOfTheDistance) {
+  Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
+  PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j}}});
+  Track& track = node.tracks[0];
+  track.departure = Track::Departure{0.04, ComplexVector{{2.2 * j, 1.8 * j}}};
+  double position = 0.0;
+  const ComplexVector roots = departing_roots(track, 0.01, position);
+  const double half = std::sqrt(position * 0.01);
+  EXPECT_LT(distance(roots, ComplexVector{{(2.0 + half) * j, (2.0 - half) * j}}), 1e-8);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
