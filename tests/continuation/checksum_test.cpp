@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "continuation/completeness.hpp"
 #include "continuation/planted_points.hpp"
-#include "continuation/regrouping.hpp"
+#include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/regrouping.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "continuation/criterion.hpp"
+#include "continuation/events/criterion.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "support/scenes.hpp"
 

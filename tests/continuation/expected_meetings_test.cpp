@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "continuation/meetings.hpp"
+#include "continuation/events/expected_meetings.hpp"
 #include "continuation/planted_points.hpp"
 
 namespace eigentrail::test {
@@ -244,8 +244,8 @@ TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
     EXPECT_EQ(found[0].a.track, 0U);
     EXPECT_EQ(found[0].b.track, 1U);
     // The gap as both ends see it: -((p - 0.1)^2 + eps^2).
-    EXPECT_LT(std::abs(found[0].gap_at_left[0] + std::pow(from - 0.1, 2) + eps * eps), rounding);
-    EXPECT_LT(std::abs(found[0].gap_at_right[0] + std::pow(to - 0.1, 2) + eps * eps), rounding);
+    EXPECT_LT(std::abs(found[0].discriminant_at_left[0] + std::pow(from - 0.1, 2) + eps * eps), rounding);
+    EXPECT_LT(std::abs(found[0].discriminant_at_right[0] + std::pow(to - 0.1, 2) + eps * eps), rounding);
   }
 }
 

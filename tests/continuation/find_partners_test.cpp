@@ -1,5 +1,5 @@
 // Who could be followed together: meetings in closed form, before, beside and behind a step.
-#include "continuation/regrouping.hpp"
+#include "continuation/tracks/regrouping.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What the dense output would err by, had modes been followed otherwise: against the error really made, and
 // zero where the other way makes polynomials of the series.
-#include "continuation/grouping_errors.hpp"
+#include "continuation/tracks/grouping_errors.hpp"
 
 #include <gtest/gtest.h>
 

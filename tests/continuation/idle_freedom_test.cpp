@@ -1,5 +1,5 @@
 // Freedoms that nothing acts on are found whatever combination of coordinates they are, and no others.
-#include "continuation/idle_freedom.hpp"
+#include "continuation/point/idle_freedom.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A meeting as it is seen from a point near it: kind, place, width and Puiseux coefficient in closed form.
-#include "continuation/meetings.hpp"
+#include "continuation/events/meetings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ PathNode veering_point(Planted& family, double p, double eps) {
 TEST(GapOf, TwoIsDelta) {
   Planted family = crossing();
   const PathNode node = crossing_point(family, 0.1);
-  const ComplexVector gap = gap_of(node.tracks[0], {0}, {1});
+  const ComplexVector gap = discriminant_of(node.tracks[0], {0}, {1});
   // -(0.2 - h)^2.
   EXPECT_LT(distance(gap, ComplexVector{{-0.04, 0.4, -1.0}}), rounding);
   EXPECT_LT(distance(gap, node.tracks[0].functions.row(1).transpose()), rounding);
@@ -58,8 +58,8 @@ TEST(GapOf, AnyTwoOfThreeIsTheirs) {
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j, 3.0 * j}}});
   const auto expect = [&](int a, int b, double apart, double speed) {
     const ComplexVector expected{{-0.25 * apart * apart, -0.5 * apart * speed, -0.25 * speed * speed}};
-    EXPECT_LT(distance(gap_of(node.tracks[0], {a}, {b}), expected), rounding) << a << " and " << b;
-    EXPECT_LT(distance(gap_of(node.tracks[0], {b}, {a}), expected), rounding) << b << " and " << a;
+    EXPECT_LT(distance(discriminant_of(node.tracks[0], {a}, {b}), expected), rounding) << a << " and " << b;
+    EXPECT_LT(distance(discriminant_of(node.tracks[0], {b}, {a}), expected), rounding) << b << " and " << a;
   };
   expect(0, 1, 0.6, -2.0);
   expect(0, 2, 1.0, -0.5);
@@ -70,19 +70,20 @@ TEST(GapOf, AStrandOfTwoAndAThirdIsThatOfTheirMeans) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.5 * j, 2.0 * j}}});
   // -((0.5 - 1.2 h) / 2)^2.
-  EXPECT_LT(distance(gap_of(node.tracks[0], {0, 2}, {1}), ComplexVector{{-0.0625, 0.3, -0.36}}), rounding);
+  EXPECT_LT(distance(discriminant_of(node.tracks[0], {0, 2}, {1}), ComplexVector{{-0.0625, 0.3, -0.36}}),
+            rounding);
 }
 
 TEST(GapOf, IsSmoothWhereTheTwoMeetBesideAThird) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, -1.0}, {3.0, 0.5}}));
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 3.0 * j}}});
-  EXPECT_LT(distance(gap_of(node.tracks[0], {0}, {1}), ComplexVector{{0.0, 0.0, -1.0}}), rounding);
+  EXPECT_LT(distance(discriminant_of(node.tracks[0], {0}, {1}), ComplexVector{{0.0, 0.0, -1.0}}), rounding);
 }
 
 TEST(GapOf, IsEmptyWhereTheTwoCannotBeToldFromAThird) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, 0.0}, {2.0, -0.6}}));
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 2.0 * j}}});
-  EXPECT_EQ(gap_of(node.tracks[0], {0}, {1}).size(), 0);
+  EXPECT_EQ(discriminant_of(node.tracks[0], {0}, {1}).size(), 0);
 }
 
 class SeenFrom : public testing::TestWithParam<double> {};
@@ -199,7 +200,7 @@ TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
   EXPECT_EQ(meeting.kind, EventKind::veering);
   EXPECT_NEAR(meeting.half_width, std::abs(eps - damping), 2e-3 * eps);
   // The gap vanishes at the place that is told, on one side of the axis.
-  const ComplexMatrix gap = gap_of(node.tracks[0], {0}, {1}).transpose();
+  const ComplexMatrix gap = discriminant_of(node.tracks[0], {0}, {1}).transpose();
   const auto at = [&](Complex p) {
     Complex value = 0.0;
     for (Eigen::Index k = gap.cols() - 1; k >= 0; --k) value = value * p + gap(0, k);

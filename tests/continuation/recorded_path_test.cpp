@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "continuation/counted_roots.hpp"
+#include "continuation/step/path_step.hpp"
 
 namespace eigentrail::test {
 namespace {

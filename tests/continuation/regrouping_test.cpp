@@ -1,5 +1,5 @@
 // Joining, parting and changing charts at a point: blocks of modes in closed form, in and out again.
-#include "continuation/regrouping.hpp"
+#include "continuation/tracks/regrouping.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A change of the path's coordinate: against paths that are polynomials in the new one, and the invariants of
 // any: sigma is what the plane measures, and the way back restores every series.
-#include "continuation/reparametrize.hpp"
+#include "continuation/path/reparametrize.hpp"
 
 #include <gtest/gtest.h>
 

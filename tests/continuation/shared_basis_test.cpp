@@ -1,6 +1,6 @@
 // Blocks in the basis of the left end of their step: eigenvalues do not change, and what is interpolated is
 // smooth whatever bases the two points came with.
-#include "continuation/shared_basis.hpp"
+#include "continuation/step/shared_basis.hpp"
 
 #include <gtest/gtest.h>
 

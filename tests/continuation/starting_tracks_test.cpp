@@ -1,6 +1,6 @@
 // Which modes of a spectrum start as one block: pencils with planted double, triple and nearly real
 // eigenvalues. A block is told to rounding where the spectrum tells its members to a root of it.
-#include "continuation/starting_tracks.hpp"
+#include "continuation/tracks/starting_tracks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Eigenvalues of a step one by one: in closed form through crossings, veerings and exceptional points, and
 // the same whatever order they are asked for in.
-#include "continuation/strands.hpp"
+#include "continuation/tracks/strands.hpp"
 
 #include <gtest/gtest.h>
 

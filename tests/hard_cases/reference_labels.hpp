@@ -49,9 +49,9 @@ class LabelledStretch {
   std::string reason_;
 };
 
-/// Every stretch of the case: between its coincidences (collision, crossing, fold, branch point, infinite), for
-/// every equilibrium branch; those shorter than 1e-9 of the range are left out. `hard_case` must outlive the
-/// result.
+/// Every stretch of the case: between its coincidences (collision, crossing, fold, branch point, infinite),
+/// for every equilibrium branch; those shorter than 1e-9 of the range are left out. `hard_case` must outlive
+/// the result.
 std::vector<LabelledStretch> reference_labels(const HardCase& hard_case);
 
 /// Members with Im s >= 0: one per complex pair, and the real roots.

@@ -94,7 +94,8 @@ RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting) {
     options.emplace_back("first_step",
                          exact_text(setting.first_step * std::abs(hard_case.to - hard_case.from)));
   }
-  const Setting scene = make_setting(hard_case.scene, options);
+  Setting scene = make_setting(hard_case.scene, options);
+  scene.options.thresholds = setting.thresholds;
   return setting.reversed ? trace_back(scene) : record_trace(scene);
 }
 

@@ -15,6 +15,7 @@ struct RunSetting {
   bool reversed = false;    ///< from the other end of the range
   double first_step = 0.0;  ///< share of the range; 0: chosen by the program
   int order = 3;
+  Thresholds thresholds = {};
 };
 
 struct CaseReport {

@@ -125,7 +125,9 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
     meeting.kind = EventKind::collision;  // two exceptional points close to each other; this one is nearer
   } else {
     meeting.kind = EventKind::veering;
-    const bool around = first.imag() * second.imag() < 0.0;
+    // Mirror images are one point, seen from both sides of the axis; others are two points, of which the first
+    // is nearer.
+    const bool around = std::abs(first - std::conj(second)) <= thresholds.beside_axis * separation;
     if (around) meeting.offset = 0.5 * (first + second).real();
     meeting.half_width =
         around ? 0.5 * (std::abs(first.imag()) + std::abs(second.imag())) : std::abs(first.imag());

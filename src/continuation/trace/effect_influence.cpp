@@ -10,7 +10,9 @@
 namespace eigentrail {
 namespace {
 
-/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a multiple eigenvalue.
+/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a defective eigenvalue. Below this
+/// share of the largest one, the second smallest singular value does: a semisimple one, whose vectors are any of a
+/// plane. The root of rounding, to which a double eigenvalue is known.
 constexpr double multiple = 1e-8;
 
 /// A mode with both its vectors, and P'(s).
@@ -19,6 +21,7 @@ struct ModeVectors {
   ComplexVector right, left;
   Complex denominator;  ///< y* P'(s) z
   double magnitude;     ///< what it is measured by
+  bool is_simple;       ///< P(s) has one vector in its kernel
 };
 
 ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
@@ -28,14 +31,16 @@ ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   const Eigen::Index last = P.cols() - 1;
   const ComplexVector z = svd.matrixV().col(last);
   const ComplexVector y = svd.matrixU().col(last);
-  return {s, z, y, y.dot(derivative * z), derivative.norm()};
+  const auto& singular = svd.singularValues();
+  const bool is_simple = last == 0 || singular[last - 1] > multiple * singular[0];
+  return {s, z, y, y.dot(derivative * z), derivative.norm(), is_simple};
 }
 
 Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
   const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
     return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));
   };
-  if (!(std::abs(mode.denominator) > multiple * mode.magnitude))
+  if (!mode.is_simple || !(std::abs(mode.denominator) > multiple * mode.magnitude))
     return std::numeric_limits<double>::quiet_NaN();
   const Eigen::Index n = pencil.size();
   const ComplexMatrix change =

@@ -27,15 +27,35 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
+/// A root of a series means nothing where the last term is this share of the largest one: there the series has
+/// not yet begun to converge.
+constexpr double last_term = 0.3;
+
+/// Whether a series still tells something at z.
+bool converges_at(const ComplexVector& series, Complex z) {
+  double largest = 0.0;
+  double term = 0.0;
+  double power = 1.0;
+  for (const Complex coefficient : series) {
+    term = std::abs(coefficient) * power;
+    largest = std::max(largest, term);
+    power *= std::abs(z);
+  }
+  return term <= last_term * largest;
+}
+
 /// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
-/// is the square of the radius that blocks extend around their means.
+/// is the square of the radius that blocks extend around their means: the discriminant of what lies between
+/// their rims is nearer to zero by so much.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
                         double limit) {
   ComplexVector delta = discriminant_series(a, b);
-  delta[0] -= spread;
+  if (spread > 0.0 && delta[0] != 0.0) delta[0] -= spread * delta[0] / std::abs(delta[0]);
   if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;
-  for (const Complex root : polynomial_roots(delta)) nearest = std::min(nearest, distance_to_step(root, h));
+  for (const Complex root : polynomial_roots(delta)) {
+    if (converges_at(delta, root)) nearest = std::min(nearest, distance_to_step(root, h));
+  }
   return nearest;
 }
 

@@ -23,11 +23,10 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
   const Track::Departure& departure = *track.departure;
   position = departure.distance / h;
   if (std::abs(position) <= farthest_departure * (1.0 + 1e-9)) return departure.roots;
-  // Both roots and square roots only shrink towards the mean: their order is kept.
+  // On their way to the meeting roots, and square roots of the distance, only shrink: their order is kept.
   const double share = 0.1 * farthest_departure / std::abs(position);
   position *= share;
-  const ComplexVector mean = ComplexVector::Constant(track.size(), track.roots.mean());
-  return in_order_of(mean + share * (departure.roots - mean),
+  return in_order_of(track.roots + share * (departure.roots - track.roots),
                      block_roots(evaluate_series(track.functions, share * departure.distance)));
 }
 

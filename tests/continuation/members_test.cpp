@@ -1,6 +1,5 @@
-// What the stages that look for special points share: sets of modes, members of a block, points with a
-// choice of tracks.
-#include "continuation/event_tools.hpp"
+// Sets of modes, and members of a block.
+#include "continuation/tracks/members.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,24 +39,6 @@ TEST_F(PointOfFour, MembersAreNamedByTheirIndicesInTheBlock) {
   EXPECT_EQ(both[0], node.tracks[1].roots[1]);
   EXPECT_EQ(both[1], node.tracks[1].roots[0]);
   EXPECT_TRUE(roots_of(node.tracks[1], {}).empty());
-}
-
-TEST_F(PointOfFour, WithSomeTracksIsTheSamePointWithThoseInTheOrderAskedFor) {
-  const PathNode some = with_tracks(node, {2, 0});
-  ASSERT_EQ(some.tracks.size(), 2U);
-  EXPECT_EQ(some.tracks[0].roots[0], node.tracks[2].roots[0]);
-  EXPECT_EQ(some.tracks[1].modes, node.tracks[0].modes);
-  EXPECT_EQ(some.p, node.p);
-  EXPECT_EQ(some.path.parameters, node.path.parameters);
-  EXPECT_EQ(some.pencil.K[1], node.pencil.K[1]);
-  EXPECT_EQ(some.linearization.M.size(), node.linearization.M.size());
-  EXPECT_EQ(some.basis.is_identity, node.basis.is_identity);
-}
-
-TEST_F(PointOfFour, WithoutTracksKeepsItsPencil) {
-  const PathNode none = with_tracks(node, {});
-  EXPECT_TRUE(none.tracks.empty());
-  EXPECT_EQ(none.pencil.size(), 4);
 }
 
 }  // namespace

@@ -1,0 +1,100 @@
+// Events close to each other, and steps that are cut short: each of these was wrong once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+const Event* find(const RecordedTrace& trace, EventKind kind) {
+  const auto& events = trace.result.events;
+  const auto found =
+      std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.kind == kind; });
+  return found == events.end() ? nullptr : &*found;
+}
+
+Setting family(const std::string& from, const std::string& to, const std::string& C, const std::string& K,
+               const OptionTexts& overrides = {}) {
+  return make_setting("[trace]\nparameter = \"p\"\nfrom = " + from + "\nto = " + to +
+                          "\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nC = " + C + "\nK = " + K + "\n",
+                      overrides);
+}
+
+// s^2 + (2 + p) s + 1: its pair meets at p = 0, s = -1. s^2 + p s + 4: flutter at p = 0, s = 2j.
+TEST(LostEvents, FlutterBesideACollisionOfOtherModes) {
+  const RecordedTrace trace =
+      record_trace(family("-0.5", "0.7", "[ [[2, 0], [0, 0]], [[1, 0], [0, 1]] ]", "[ [[1, 0], [0, 4]] ]"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  const Event* flutter = find(trace, EventKind::flutter);
+  ASSERT_NE(flutter, nullptr);
+  EXPECT_NEAR(flutter->p, 0.0, 1e-12);
+  EXPECT_NEAR(flutter->s.imag(), 2.0, 1e-12);
+  EXPECT_EQ(flutter->direction, -1);
+  const Event* collision = find(trace, EventKind::collision);
+  ASSERT_NE(collision, nullptr);
+  EXPECT_NEAR(collision->s.real(), -1.0, 1e-8);
+}
+
+// s^2 + 2 d s + 1 - p: the pair meets at p = 1 - d^2, and one of the two real roots is zero at p = 1.
+class DivergenceBehindCollision : public testing::TestWithParam<double> {};
+
+TEST_P(DivergenceBehindCollision, IsAnEventOfItsOwn) {
+  const double d = GetParam();
+  const std::string C = "[ [[" + std::to_string(2.0 * d) + ", 0], [0, 0.1]] ]";
+  const RecordedTrace trace = record_trace(family("0", "1.5", C, "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  const Event* collision = find(trace, EventKind::collision);
+  const Event* divergence = find(trace, EventKind::divergence);
+  ASSERT_NE(collision, nullptr);
+  ASSERT_NE(divergence, nullptr);
+  EXPECT_NEAR(collision->p, 1.0 - d * d, 1e-10);
+  EXPECT_NEAR(divergence->p, 1.0, 1e-10);
+  EXPECT_EQ(divergence->direction, 1);
+}
+
+// From far apart to a distance in p of 1e-8, about the root of rounding.
+INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision, testing::Values(0.1, 1e-2, 1e-3, 1e-4),
+                         [](const auto& info) { return "case_" + std::to_string(info.index); });
+
+// Without damping the pair meets at zero, and what leaves the axis there is one event, not two.
+TEST(LostEvents, CollisionAtZeroIsNoDivergenceToo) {
+  const RecordedTrace trace =
+      record_trace(family("0", "1.5", "[ [[0, 0], [0, 0]] ]", "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
+  ASSERT_NE(find(trace, EventKind::collision), nullptr);
+  EXPECT_EQ(find(trace, EventKind::divergence), nullptr);
+}
+
+// Modes 1 and 2 meet at p = 1/2, where a step is cut. There, mode 3 passes a bump a thousandth as wide as the
+// range, which the step that was cut has not seen.
+TEST(LandedSteps, AreJudgedAnew) {
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-6\n[matrix_family]\n"
+      "M = [ [[1, 0, 0], [0, 1, 0], [0, 0, 1]] ]\n"
+      "K = [ [[1, \"p\", 0], [\"-p\", 2, 0], [0, 0, \"9 + exp(-((p - 0.5) / 1e-3)^2)\"]] ]\n");
+  const RecordedTrace trace = record_trace(setting);
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  for (int i = -40; i <= 40; ++i) {
+    const double p = 0.5 + 1e-4 * i;
+    const double expected = std::sqrt(9.0 + std::exp(-std::pow((p - 0.5) / 1e-3, 2)));
+    const ComplexVector found = trace.eigenvalues_at(p);
+    double nearest = INFINITY;
+    for (const Complex s : found) nearest = std::min(nearest, std::abs(s - Complex(0.0, expected)));
+    EXPECT_LT(nearest, 1e-6 * expected) << "at p = " << p;
+  }
+}
+
+// Every stored step ends at the point that follows it, however often it was cut on its way.
+TEST(LandedSteps, EndAtTheirPoints) {
+  const RecordedTrace trace = record_trace(scene_setting("ground_resonance"));
+  ASSERT_EQ(trace.steps.size() + 1, trace.nodes.size());
+  for (std::size_t i = 0; i < trace.steps.size(); ++i) {
+    EXPECT_DOUBLE_EQ(trace.nodes[i].p + trace.steps[i].length, trace.nodes[i + 1].p);
+    EXPECT_EQ(trace.steps[i].parameter(1, 0), trace.nodes[i + 1].p);
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test

@@ -1,0 +1,71 @@
+// No hard case loses or invents an event when a threshold that decides what is found is a third of its value,
+// or three times as large. veering.widest is left out: it says which veerings count, so that other ones are
+// asked for; and the thresholds of the start of a trace, which end it with a message.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hard_cases/run_case.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr int random_samples = 20;  // eigenvalues do not depend on the thresholds
+
+/// Names of all thresholds that are varied.
+std::vector<std::string> threshold_names() {
+  std::vector<std::string> names;
+  Thresholds::fields(Thresholds{}, [&](const std::string& name, double) {
+    if (name != "veering.widest") names.push_back(name);
+  });
+  return names;
+}
+
+Thresholds changed(const std::string& name, double factor) {
+  Thresholds thresholds;
+  Thresholds::fields(thresholds, [&](const std::string& other, double& value) {
+    if (other == name) value *= factor;
+  });
+  return thresholds;
+}
+
+std::string in_words(const CaseReport& report) {
+  std::string text = report.completed ? "" : "ended early: " + report.message + "; ";
+  for (const std::string& event : report.missing) text += "missing " + event + "; ";
+  for (const std::string& event : report.invented) text += "invented " + event + "; ";
+  return text;
+}
+
+class ThresholdCase : public testing::TestWithParam<HardCase> {};
+
+TEST_P(ThresholdCase, NothingIsLostByAFactorOfThree) {
+  const CaseReference reference = make_reference(GetParam(), random_samples);
+  std::string found;
+  for (const std::string& name : threshold_names()) {
+    for (const double factor : {1.0 / 3.0, 3.0}) {
+      RunSetting setting;
+      setting.thresholds = changed(name, factor);
+      const std::string report = in_words(run_case(reference, setting));
+      if (!report.empty()) found += name + (factor > 1.0 ? " * 3: " : " / 3: ") + report + "\n";
+    }
+  }
+  EXPECT_TRUE(found.empty()) << found;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ThresholdCase, testing::ValuesIn(hard_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+/// The list of thresholds names each of them once.
+TEST(Thresholds, AreListedOnce) {
+  std::vector<std::string> names;
+  Thresholds::fields(Thresholds{}, [&](const std::string& name, double value) {
+    names.push_back(name);
+    EXPECT_GT(value, 0.0) << name;
+  });
+  EXPECT_EQ(names.size() * sizeof(double), sizeof(Thresholds));
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+}  // namespace
+}  // namespace eigentrail::test
