@@ -5,6 +5,7 @@
 
 #include "continuation/events/criterion.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -30,8 +31,10 @@ TEST(CriteriaOf, DefaultsAreStabilityAndExtrema) {
 
 TEST(CriteriaOf, EveryRatioAndHarmonicIsOne) {
   EventOptions options;
-  options.damping_ratios = {0.02, -0.1};
-  options.harmonics = {1.0, 3.0};
+  options.wanted = {{EventKind::damping_ratio, 0.02},
+                    {EventKind::damping_ratio, -0.1},
+                    {EventKind::resonance, 1.0},
+                    {EventKind::resonance, 3.0}};
   options.extrema = false;
   const auto criteria = criteria_of(options);
   ASSERT_EQ(criteria.size(), 5U);
@@ -104,7 +107,7 @@ TEST(EventOptions, TracedParameterIsTheExcitation) {
 
 TEST(EventOptions, KeepEveryValueOnceAndNoDampingRatioOfZero) {
   const Setting setting = oscillator("p = 1", "damping_ratio = [0.1, 0, 0.1, -0.2]\nextrema = false");
-  EXPECT_EQ(setting.options.events.damping_ratios, (std::vector<double>{0.1, -0.2}));
+  EXPECT_EQ(setting.options.events.values(EventKind::damping_ratio), (std::vector<double>{0.1, -0.2}));
   EXPECT_FALSE(setting.options.events.extrema);
 }
 
@@ -117,15 +120,35 @@ TEST(EventOptions, RefuseWhatHasNoMeaning) {
   EXPECT_THROW(oscillator("p = 1", "harmonic = [1]"), InputError);
 }
 
-TEST(EventName, EveryKindHasItsOwn) {
-  std::vector<std::string> names;
-  for (const EventKind kind : {EventKind::flutter, EventKind::divergence, EventKind::collision,
-                               EventKind::crossing, EventKind::veering, EventKind::fold, EventKind::pitchfork,
-                               EventKind::damping_ratio, EventKind::resonance, EventKind::extremum}) {
-    for (const std::string& other : names) EXPECT_NE(event_name(kind), other);
-    names.push_back(event_name(kind));
-    EXPECT_NE(names.back(), "unknown");
-  }
+TEST(CriterionValue, LogDecrementVanishesWhereADecayingOscillationHasIt) {
+  // s = -0.2 + 4j falls by exp(0.2 T) over the period T = 2 pi / 4.
+  const Complex s(-0.2, 4.0);
+  const double decrement = 0.2 * 2.0 * M_PI / 4.0;
+  const Criterion criterion{EventKind::log_decrement, decrement};
+  EXPECT_NEAR(criterion_value(criterion, s, Chart::finite, 0.0), 0.0, 1e-15);
+  EXPECT_NEAR(criterion_value(criterion, 1.0 / s, Chart::reciprocal, 0.0), 0.0, 1e-15);
+  EXPECT_LT(criterion_value({EventKind::log_decrement, 0.9 * decrement}, s, Chart::finite, 0.0), -1e-3);
+  // Of a growing oscillation it is negative; small ones are 2 pi times the damping ratio.
+  EXPECT_NEAR(criterion_value({EventKind::log_decrement, -decrement}, {0.2, 4.0}, Chart::finite, 0.0), 0.0,
+              1e-15);
+  EXPECT_NEAR(criterion_value({EventKind::log_decrement, 2e-6 * M_PI}, {-1e-6, 1.0}, Chart::finite, 0.0), 0.0,
+              1e-15);
+}
+
+// s^2 + p s + 1: zeta = p / 2, and the decrement is 2 pi zeta / sqrt(1 - zeta^2).
+TEST(LogDecrement, IsLocatedOnATrace) {
+  const double zeta = 0.125;
+  const double decrement = 2.0 * M_PI * zeta / std::sqrt(1.0 - zeta * zeta);
+  const RecordedTrace trace = record_trace(
+      make_setting("[trace]\nparameter = \"p\"\nfrom = 0.1\nto = 1\n[matrix_family]\nM = [ [[1]] ]\n"
+                   "C = [ [[0]], [[1]] ]\nK = [ [[1]] ]\n[events]\nlog_decrement = " +
+                   exact_text(decrement) + "\n"));
+  ASSERT_EQ(trace.result.events.size(), 1U);
+  const Event& event = trace.result.events[0];
+  EXPECT_EQ(event.kind, EventKind::log_decrement);
+  EXPECT_NEAR(event.p, 2.0 * zeta, 1e-12);
+  EXPECT_EQ(event.value, decrement);
+  EXPECT_EQ(event.direction, -1) << "the mode decays faster there";
 }
 
 TEST(EventLine, CountsModesFromOneAndKeepsEveryDigit) {

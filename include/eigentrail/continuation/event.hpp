@@ -20,6 +20,7 @@ enum class EventKind {
   damping_ratio,  ///< the damping ratio of a pair has a value that was asked for
   resonance,      ///< Im s of a pair is a multiple of the excitation frequency
   extremum,       ///< the damping ratio of a pair is least or largest
+  log_decrement,  ///< the logarithmic decrement of a pair has a value that was asked for
 };
 
 struct Event {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "eigentrail/core/series.hpp"
 
@@ -9,6 +10,11 @@ namespace eigentrail {
 namespace {
 
 using RealSeries = Series<double, max_order>;
+
+/// The damping ratio of a logarithmic decrement: delta = 2 pi zeta / sqrt(1 - zeta^2).
+double ratio_of_decrement(double decrement) {
+  return decrement / std::hypot(2.0 * std::numbers::pi, decrement);
+}
 
 /// The function of mu = re + im j and the excitation, all of them numbers or all of them series.
 template <class Scalar>
@@ -19,6 +25,8 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
   switch (criterion.kind) {
     case EventKind::damping_ratio:
       return re + criterion.value * sqrt(square);
+    case EventKind::log_decrement:
+      return re + ratio_of_decrement(criterion.value) * sqrt(square);
     case EventKind::resonance:
       return chart == Chart::finite ? im - criterion.value * excitation
                                     : -im - criterion.value * (excitation * square);

@@ -14,11 +14,12 @@ namespace eigentrail {
 ///
 ///   flutter        Re mu                    real roots too: their divergence
 ///   damping_ratio  Re mu + value |mu|       pairs only, as the following
+///   log_decrement  Re mu + zeta |mu|        with zeta = value / sqrt(4 pi^2 + value^2)
 ///   resonance      Im s - value excitation  times |mu|^2 in the reciprocal chart
 ///   extremum       Re mu / |mu|             its extrema
 struct Criterion {
   EventKind kind = EventKind::flutter;
-  double value = 0.0;  ///< the damping ratio, or the harmonic
+  double value = 0.0;  ///< the damping ratio, the decrement, or the harmonic
 
   bool asks_for_extrema() const { return kind == EventKind::extremum; }
   bool asks_for_pairs() const { return kind != EventKind::flutter; }

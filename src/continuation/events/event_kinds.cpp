@@ -50,6 +50,10 @@ std::string extremum_remark(const EventFacts& facts) {
   return (facts.direction > 0 ? "least damping ratio " : "largest damping ratio ") + rounded(facts.value);
 }
 
+std::string decrement_remark(const EventFacts& facts) {
+  return "decrement " + rounded(facts.value) + turns(facts, ", falling", ", rising");
+}
+
 /// Modes of damping ratio zero are those on the imaginary axis, which are flutter.
 bool is_ratio(double value) {
   return std::abs(value) < 1.0;
@@ -59,7 +63,11 @@ bool is_harmonic(double value) {
   return value > 0.0 && std::isfinite(value);
 }
 
-constexpr std::array<EventKindInfo, 10> kinds{{
+bool is_finite(double value) {
+  return std::isfinite(value);
+}
+
+constexpr std::array<EventKindInfo, 11> kinds{{
     {EventKind::flutter, "flutter", "flutter", "x", true, stability_remark},
     {EventKind::divergence, "divergence", "divergence", "cross", true, stability_remark},
     {EventKind::collision, "collision", "collision", "star", true, collision_remark},
@@ -84,6 +92,14 @@ constexpr std::array<EventKindInfo, 10> kinds{{
      {"harmonics", "where Im s is this multiple of the excitation frequency", "must be positive", is_harmonic,
       true}},
     {EventKind::extremum, "extremum", "extremum", "triangle-down-open", false, extremum_remark},
+    {EventKind::log_decrement,
+     "log_decrement",
+     "logarithmic decrement",
+     "hexagon-open",
+     false,
+     decrement_remark,
+     {"log_decrement", "where the logarithmic decrement of a pair has this value", "must be a finite number",
+      is_finite}},
 }};
 
 }  // namespace

@@ -125,8 +125,8 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
     meeting.kind = EventKind::collision;  // two exceptional points close to each other; this one is nearer
   } else {
     meeting.kind = EventKind::veering;
-    // Mirror images are one point, seen from both sides of the axis; others are two points, of which the first
-    // is nearer.
+    // Mirror images are one point, seen from both sides of the axis; others are two points, of which the
+    // first is nearer.
     const bool around = std::abs(first - std::conj(second)) <= thresholds.beside_axis * separation;
     if (around) meeting.offset = 0.5 * (first + second).real();
     meeting.half_width =
