@@ -18,7 +18,7 @@ struct EventsArguments {
   bool sensitivity = false;
 };
 
-void print_csv(const LociFile& loci) {
+void print_events_csv(const LociFile& loci) {
   std::printf("kind,parameter,real,imag,modes\n");
   for (const LociEvent& event : loci.events) {
     std::printf("%s,%s,%s,%s,%s\n", event.kind.c_str(), exact_text(event.parameter).c_str(),
@@ -26,7 +26,7 @@ void print_csv(const LociFile& loci) {
   }
 }
 
-void print_json(const LociFile& loci) {
+void print_events_json(const LociFile& loci) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const LociEvent& event : loci.events) {
     nlohmann::ordered_json row{{"kind", event.kind},
@@ -50,7 +50,7 @@ void print_json(const LociFile& loci) {
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
-void print_for_people(const LociFile& loci) {
+void print_events_table(const LociFile& loci) {
   if (loci.events.empty()) {
     std::printf("no special points between %s = %s and %s\n", loci.parameter.c_str(),
                 exact_text(loci.lowest()).c_str(), exact_text(loci.highest()).c_str());
@@ -86,13 +86,13 @@ void print_sensitivities(const LociFile& loci) {
 int run_events(const EventsArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
   if (arguments.csv) {
-    print_csv(loci);
+    print_events_csv(loci);
   } else if (arguments.json) {
-    print_json(loci);
+    print_events_json(loci);
   } else if (arguments.sensitivity) {
     print_sensitivities(loci);
   } else {
-    print_for_people(loci);
+    print_events_table(loci);
   }
   return done;
 }
