@@ -19,7 +19,7 @@ struct EventsArguments {
   bool sensitivity = false;
 };
 
-void print_csv(const LociFile& loci) {
+void print_events_csv(const LociFile& loci) {
   std::printf("kind,parameter,real,imag,modes\n");
   for (const LociEvent& event : loci.events) {
     std::printf("%s,%s,%s,%s,%s\n", event.kind.c_str(), exact_text(event.parameter).c_str(),
@@ -27,7 +27,7 @@ void print_csv(const LociFile& loci) {
   }
 }
 
-void print_json(const LociFile& loci) {
+void print_events_json(const LociFile& loci) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const LociEvent& event : loci.events) {
     nlohmann::ordered_json row{{"kind", event.kind},
@@ -58,7 +58,7 @@ std::string remark_on(const LociEvent& event) {
   return kind->remark({event.half_width, event.puiseux, event.direction, event.value});
 }
 
-void print_for_people(const LociFile& loci) {
+void print_events_table(const LociFile& loci) {
   if (loci.events.empty()) {
     std::printf("no special points between %s = %s and %s\n", loci.parameter.c_str(),
                 exact_text(loci.lowest()).c_str(), exact_text(loci.highest()).c_str());
@@ -93,13 +93,13 @@ void print_sensitivities(const LociFile& loci) {
 int run_events(const EventsArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
   if (arguments.csv) {
-    print_csv(loci);
+    print_events_csv(loci);
   } else if (arguments.json) {
-    print_json(loci);
+    print_events_json(loci);
   } else if (arguments.sensitivity) {
     print_sensitivities(loci);
   } else {
-    print_for_people(loci);
+    print_events_table(loci);
   }
   return done;
 }

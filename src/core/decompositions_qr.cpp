@@ -4,4 +4,3 @@ template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
-template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;

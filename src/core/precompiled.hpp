@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "core/precompiled_kernels.hpp"
+
 extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
 extern template class Eigen::FullPivLU<Eigen::MatrixXd>;
@@ -24,7 +26,6 @@ extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
-extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
 extern template class Eigen::RealSchur<Eigen::MatrixXd>;

@@ -1,6 +1,7 @@
 #include "model/assembly.hpp"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "model/scatter.hpp"
 
@@ -50,35 +51,61 @@ void add_weighted(Scatter<Real, Q>& sum, const PathValues<Series<Real, Q>>& valu
   }
 }
 
-template <class Element, class Base>
-std::array<Vec3<Base>, max_arguments> positions(const Placed<Element>& placed,
-                                                const PathValues<Base>& values) {
+/// An element's moving vectors. What follows knows nothing of the element's kind, so that the compiler makes
+/// it once per order and not once per order and kind.
+struct Joined {
+  const std::vector<Place>& arguments;
+  const Quantity& strength;
+};
+
+template <class Base>
+std::array<Vec3<Base>, max_arguments> positions(const Joined& joined, const PathValues<Base>& values) {
   std::array<Vec3<Base>, max_arguments> result;
-  for (std::size_t i = 0; i < placed.arguments.size(); ++i) result[i] = values.vector(placed.arguments[i]);
+  for (std::size_t i = 0; i < joined.arguments.size(); ++i) result[i] = values.vector(joined.arguments[i]);
   return result;
 }
 
-/// The derivative of an element's force in each direction gives columns of M, C or K.
+/// The derivative of an element's force in one direction is a column of M, C or K.
+template <class Real, int Q>
+void add_column(const Joined& joined, int component, const ElementView<Series<Series<Real, Q>, 1>>& view,
+                const PathValues<Series<Real, Q>>& values, Scatter<Real, Q>& matrix, bool& finite) {
+  const Place& from = joined.arguments[static_cast<std::size_t>(component / 3)];
+  for (std::size_t i = 0; i < joined.arguments.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      add_weighted<Real, Q>(matrix, values, joined.arguments[i], axis, from, component % 3,
+                            values.times(joined.strength, -view.force(i)[axis][1]), finite);
+    }
+  }
+}
+
+template <class Real, int Q>
+void add_force(const Joined& joined, const ElementView<Series<Real, Q>>& view,
+               const PathValues<Series<Real, Q>>& values, BasicSteadyResidual<Real>& sum, bool& finite) {
+  for (std::size_t i = 0; i < joined.arguments.size(); ++i) {
+    for (const Term& row : joined.arguments[i].terms) {
+      for (int axis = 0; axis < 3; ++axis) {
+        add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
+                           values.times(row.weight, values.times(joined.strength, -view.force(i)[axis])),
+                           finite);
+      }
+    }
+  }
+}
+
 template <class Real, int Q, class Element>
 bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
                      LinearizationScatter<Real, Q>& sum) {
   using Base = Series<Real, Q>;
-  using Scalar = Series<Base, 1>;
   bool finite = true;
-  const auto all = positions(placed, values);
+  const Joined joined{placed.arguments, placed.strength};
+  const auto all = positions(joined, values);
   const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
   const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
     const int components = depends ? 3 * static_cast<int>(arguments.size()) : 0;
     for (int component = 0; component < components; ++component) {
-      const Place& from = placed.arguments[static_cast<std::size_t>(component / 3)];
-      ElementView<Scalar> view(values, arguments, Seed{motion, component});
+      ElementView<Series<Base, 1>> view(values, arguments, Seed{motion, component});
       placed.element.force(view);
-      for (std::size_t i = 0; i < arguments.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-          add_weighted<Real, Q>(matrix, values, placed.arguments[i], axis, from, component % 3,
-                                values.times(placed.strength, -view.force(i)[axis][1]), finite);
-        }
-      }
+      add_column<Real, Q>(joined, component, view, values, matrix, finite);
     }
   };
   differentiate(Element::depends.acceleration, Motion::acceleration, sum.M);
@@ -92,27 +119,24 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
                     BasicSteadyResidual<Real>& sum) {
   using Base = Series<Real, Q>;
   bool finite = true;
-  const auto all = positions(placed, values);
+  const Joined joined{placed.arguments, placed.strength};
+  const auto all = positions(joined, values);
   ElementView<Base> view(values, std::span<const Vec3<Base>>(all.data(), placed.arguments.size()));
   placed.element.force(view);
-  for (std::size_t i = 0; i < placed.arguments.size(); ++i) {
-    for (const Term& row : placed.arguments[i].terms) {
-      for (int axis = 0; axis < 3; ++axis) {
-        add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
-                           values.times(row.weight, values.times(placed.strength, -view.force(i)[axis])),
-                           finite);
-      }
-    }
-  }
+  add_force<Real, Q>(joined, view, values, sum, finite);
   return finite;
 }
 
 /// The shares of a difference: visit(term, sign).
 template <class Visit>
 void for_each_share(const Difference& difference, Visit visit) {
-  for (const Term& term : difference.first.terms) visit(term, 1.0);
-  if (!difference.second) return;
-  for (const Term& term : difference.second->terms) visit(term, -1.0);
+  double sign = 1.0;
+  for (const Place* place : {&difference.first, difference.second ? &*difference.second : nullptr}) {
+    if (place != nullptr) {
+      for (const Term& term : place->terms) visit(term, sign);
+    }
+    sign = -1.0;
+  }
 }
 
 template <class Base>

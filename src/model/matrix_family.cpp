@@ -5,7 +5,6 @@
 #include <iterator>
 
 namespace eigentrail {
-namespace {
 
 /// SI values of the parameters along the path, the variable among them.
 template <class Scalar>
@@ -13,6 +12,8 @@ struct ParameterSeries {
   Scalar variable;
   std::vector<Scalar> si;
 };
+
+namespace {
 
 template <class Real, int Q>
 ParameterSeries<Series<Real, Q>> parameter_series(const Parameters& parameters, int variable,

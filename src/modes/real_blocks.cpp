@@ -113,7 +113,7 @@ std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k) {
   Matrix parts(Z.rows(), 2 * Z.cols());
   parts << Z.real(), Z.imag();
   if (k > Z.rows() || !parts.allFinite()) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Matrix> directions(parts.transpose() * parts);
+  const Eigen::SelfAdjointEigenSolver<Matrix> directions(Matrix(parts.transpose() * parts));
   const Vector& squares = directions.eigenvalues();  // ascending
   const Eigen::Index left_out = squares.size() - k;
   const double least = squares[left_out];

@@ -17,7 +17,7 @@ namespace {
 /// What exceeds the usual size of the largest eigenvalue by this much is on its way to infinity.
 constexpr double beyond = 100.0;
 /// No eigenvalue is known better than to this share of itself.
-constexpr double known = 1e-12;
+constexpr double known_share = 1e-12;
 
 /// How closely the curves are met, as a share of the range of their real and imaginary parts: as well as it
 /// can be, and what still is enough to read numbers off where that takes too much room.
@@ -150,7 +150,7 @@ PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, do
       size.add(std::abs(s));
     }
   }
-  const double least = std::max(known * size.high, std::numeric_limits<double>::min());
+  const double least = std::max(known_share * size.high, std::numeric_limits<double>::min());
   return {close.degree, std::max(close.share * real.range(), least),
           std::max(close.share * imag.range(), least), largest};
 }

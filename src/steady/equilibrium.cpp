@@ -9,15 +9,12 @@
 #include "core/positive_or_one.hpp"
 #include "eigentrail/steady/relaxation.hpp"
 #include "steady/kinsol_solver.hpp"
+#include "steady/rounding.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// Corrections below this fraction of the scale are rounding.
-constexpr double rounding = 1e-14;
-/// Corrections that no longer shrink are accepted as rounding below this fraction of the scale.
-constexpr double rounding_floor = 1e-9;
-/// Residuals below this fraction of the scale are.
+/// Residuals below this fraction of the scale are rounding.
 constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
 
@@ -147,8 +144,8 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     const bool solved =
         residual.force.col(0).lpNorm<Eigen::Infinity>() <= rounded * scales.force &&
         (residual.constraint.col(0).cwiseAbs().array() <= rounded * scales.constraint.array()).all();
-    const double moves = rounding / result.kkt.constraints().independence();
-    return solved ? std::max(rounding_floor, moves) : rounding_floor;
+    const double moves = newton_rounding / result.kkt.constraints().independence();
+    return solved ? std::max(newton_rounding_floor, moves) : newton_rounding_floor;
   };
   double last = INFINITY;
   SteadyResidual residual;
@@ -164,7 +161,7 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
     if (!std::isfinite(size)) return false;
     result.x += dx;
     result.lambda += dl;
-    if (size <= rounding) return true;
+    if (size <= newton_rounding) return true;
     if (size > 0.5 * last) return size < floor(residual);
     last = size;
   }
@@ -212,7 +209,7 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   report_residual(model, residual, scales, result.report);
   // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last
   // correction.
-  const bool converged = polished && result.report.residual < rounding_floor;
+  const bool converged = polished && result.report.residual < newton_rounding_floor;
   result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
   if (!converged) result.report.message = failure_message(kinsol, result.report);
   return result;

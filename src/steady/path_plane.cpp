@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "core/positive_or_one.hpp"
+#include "steady/rounding.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr double rounding = 1e-14;
-constexpr double rounding_floor = 1e-9;
 constexpr int most_corrections = 30;
 
 /// Derivative of the steady equations with respect to the traced parameter alone.
@@ -125,7 +124,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
-    if (size <= rounding || (size > 0.5 * last && size < rounding_floor)) {
+    if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.status = SteadyStatus::converged;
       result.report.message.clear();
       return result;

@@ -13,40 +13,40 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 34> reserved = {"point",
-                                              "step",
-                                              "curve",
-                                              "corner",
-                                              "coordinate",
-                                              "parameter",
-                                              "function",
-                                              "end",
-                                              "order",
-                                              "bound",
-                                              "member",
-                                              "eigenvalue",
-                                              "tangent",
-                                              "other_unstable",
-                                              "mode_shape",
-                                              "equilibrium",
-                                              "flags",
-                                              "point_curve",
-                                              "step_point",
-                                              "step_curve",
-                                              "step_length",
-                                              "dense_output",
-                                              "curve_kind",
-                                              "curve_mode",
-                                              "curve_begin",
-                                              "curve_end",
-                                              "curve_closed",
-                                              "curve_first",
-                                              "curve_points",
-                                              "curve_extent",
-                                              "corner_kind",
-                                              "corner_parameter",
-                                              "corner_eigenvalue",
-                                              "corner_curve"};
+const std::array<std::string, 34> boundary_names = {"point",
+                                                    "step",
+                                                    "curve",
+                                                    "corner",
+                                                    "coordinate",
+                                                    "parameter",
+                                                    "function",
+                                                    "end",
+                                                    "order",
+                                                    "bound",
+                                                    "member",
+                                                    "eigenvalue",
+                                                    "tangent",
+                                                    "other_unstable",
+                                                    "mode_shape",
+                                                    "equilibrium",
+                                                    "flags",
+                                                    "point_curve",
+                                                    "step_point",
+                                                    "step_curve",
+                                                    "step_length",
+                                                    "dense_output",
+                                                    "curve_kind",
+                                                    "curve_mode",
+                                                    "curve_begin",
+                                                    "curve_end",
+                                                    "curve_closed",
+                                                    "curve_first",
+                                                    "curve_points",
+                                                    "curve_extent",
+                                                    "corner_kind",
+                                                    "corner_parameter",
+                                                    "corner_eigenvalue",
+                                                    "corner_curve"};
 
 std::vector<std::int64_t> count_to(std::size_t n) {
   std::vector<std::int64_t> list(n);
@@ -268,7 +268,7 @@ void BoundaryFile::write_corners() {
 
 void check_boundary_names(const Scene& scene, const BoundaryOptions& options) {
   for (const std::string& name : {options.trace.parameter, options.second}) {
-    if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
+    if (std::find(boundary_names.begin(), boundary_names.end(), name) != boundary_names.end())
       throw scene_error(scene, scene.parameters.at(name).where,
                         "[parameters] " + name + ": a parameter of the plane cannot be called '" + name +
                             "', the boundary file has a dataset of that name; rename it");

@@ -12,9 +12,9 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 11> reserved = {"unstable",       "margin",    "damping_ratio", "line_status",
-                                              "line_reached",   "line_work", "axis_point",    "axis_line",
-                                              "axis_parameter", "axis_kind", "axis_frequency"};
+const std::array<std::string, 11> map_names = {"unstable",       "margin",    "damping_ratio", "line_status",
+                                               "line_reached",   "line_work", "axis_point",    "axis_line",
+                                               "axis_parameter", "axis_kind", "axis_frequency"};
 
 /// The names of the two parameters are those of the dimensions.
 class MapFile {
@@ -138,7 +138,7 @@ void MapFile::write_axis_points() {
 void check_map_names(const MapSetup& setup) {
   const Scene& scene = setup.trace.scene;
   for (const std::string& name : {setup.trace.options.parameter, setup.options.second}) {
-    if (std::find(reserved.begin(), reserved.end(), name) == reserved.end()) continue;
+    if (std::find(map_names.begin(), map_names.end(), name) == map_names.end()) continue;
     throw scene_error(scene, scene.parameters.at(name).where,
                       "[parameters] " + name + ": a parameter of the map cannot be called '" + name +
                           "', the file has a dataset of that name; rename it");

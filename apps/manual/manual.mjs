@@ -1,0 +1,84 @@
+// Writes the manual page from what the program's own --help says: node manual.mjs PROGRAM VERSION OUTPUT.gz
+import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
+import { gzipSync } from "node:zlib";
+
+const [program, version, output] = process.argv.slice(2);
+const help = (...words) => execFileSync(program, [...words, "--help"], { encoding: "utf8" }).trimEnd().split("\n");
+
+/// Text as troff prints it unchanged.
+const plain = (text) => text.replace(/\\/g, "\\e").replace(/-/g, "\\-").replace(/^([.'])/, "\\&$1");
+
+/// Lines of a help text as { heading, lines }; what stands before the first heading has none.
+function sections(lines) {
+  const result = [{ heading: "", lines: [] }];
+  for (const line of lines) {
+    const heading = line.match(/^(\w[\w ]*):$/);
+    if (heading) result.push({ heading: heading[1], lines: [] });
+    else if (line === "" && result.at(-1).heading) result.push({ heading: "", lines: [] });
+    else result.at(-1).lines.push(line);
+  }
+  return result.filter((section) => section.heading || section.lines.some((line) => line !== ""));
+}
+
+/// "  name   text" and, of long names, the text on a line of its own, as tagged paragraphs.
+function tagged(lines) {
+  const items = [];
+  for (const line of lines) {
+    const [, name, text] = line.match(/^ {2}(\S.*?)(?: {2,}(.*))?$/) ?? [];
+    if (name) items.push({ name, text: text ? [text] : [] });
+    else items.at(-1).text.push(line.trim());
+  }
+  return items.flatMap(({ name, text }) => [".TP", `.B ${plain(name)}`, plain(text.join(" "))]);
+}
+
+/// Indented lines as they are, others as paragraphs.
+function paragraphs(lines) {
+  const result = [];
+  for (const line of lines.filter((text) => text !== "")) {
+    if (line.startsWith("  ")) result.push(".nf", plain(line), ".fi");
+    else result.push(".PP", plain(line));
+  }
+  return result;
+}
+
+function command(name, about) {
+  const [head, ...rest] = sections(help(name));
+  const usage = head.lines.find((line) => line.startsWith("Usage: ")).slice("Usage: ".length);
+  const lists = ["Positionals", "Options"];
+  const body = rest.flatMap(({ heading, lines }) =>
+    lists.includes(heading)
+      ? tagged(lines.filter((line) => !/^ {2}-h,--help /.test(line)))
+      : paragraphs(heading ? [`${heading}:`, ...lines] : lines),
+  );
+  return [`.SS ${name}`, plain(about), ".PP", `.B ${plain(usage)}`, ...body];
+}
+
+const [head, ...rest] = sections(help());
+const about = head.lines[0];
+const commands = rest.find((section) => section.heading === "Subcommands").lines.map((line) => line.match(/^ {2}(\S+) +(.*)$/));
+const ends = rest.filter((section) => !section.heading).flatMap((section) => section.lines).join(" ");
+const page = [
+  `.TH EIGENTRAIL 1 "" "eigentrail ${version}" "User Commands"`,
+  ".SH NAME",
+  `eigentrail \\- ${plain(about.replace(/^F/, "f").replace(/\.$/, ""))}`,
+  ".SH SYNOPSIS",
+  ".B eigentrail",
+  ".I COMMAND",
+  "[\\fIOPTIONS\\fR]",
+  ".PP",
+  ".B eigentrail",
+  "[\\fICOMMAND\\fR]",
+  ".B \\-\\-help",
+  ".SH DESCRIPTION",
+  plain(about),
+  "A scene file says what the system is and which parameter changes; the result is a file of labelled loci of known accuracy.",
+  "Begin with",
+  ".BR \"eigentrail new my_scene.toml\" .",
+  ".SH COMMANDS",
+  ...commands.flatMap(([, name, text]) => command(name, text)),
+  ".SH EXIT STATUS",
+  plain(ends.replace(/^Exit codes: /, "")),
+  "",
+];
+writeFileSync(output, gzipSync(page.join("\n"), { level: 9 }));

@@ -1,0 +1,114 @@
+#include "core/thread_pool.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <system_error>
+
+namespace eigentrail {
+
+/// What one call has to do. Its members but `next_` are guarded by the pool's mutex.
+class ThreadPool::Batch {
+ public:
+  Batch(std::size_t count, std::size_t seats, const std::function<void(std::size_t)>& work)
+      : count_(count), work_(work), seats_(seats) {}
+
+  /// Takes pieces until none is left; called without the pool's mutex.
+  std::exception_ptr take_pieces() {
+    try {
+      for (std::size_t i = next_++; i < count_; i = next_++) work_(i);
+    } catch (...) {
+      next_ = count_;
+      return std::current_exception();
+    }
+    return nullptr;
+  }
+
+  /// A helper takes a seat; whether another is left.
+  bool join() {
+    ++inside_;
+    return --seats_ > 0;
+  }
+
+  void leave(std::exception_ptr failure) {
+    note(std::move(failure));
+    // Under the mutex: the batch is gone as soon as its owner knows that nobody is inside.
+    if (--inside_ == 0) empty_.notify_one();
+  }
+
+  void note(std::exception_ptr failure) {
+    if (!failure_) failure_ = std::move(failure);
+  }
+
+  void wait_for_helpers(std::unique_lock<std::mutex>& lock) {
+    empty_.wait(lock, [this] { return inside_ == 0; });
+  }
+
+  const std::exception_ptr& failure() const { return failure_; }
+
+ private:
+  const std::size_t count_;
+  const std::function<void(std::size_t)>& work_;
+  std::atomic<std::size_t> next_{0};
+  std::size_t seats_;
+  std::size_t inside_ = 0;
+  std::exception_ptr failure_;
+  std::condition_variable empty_;
+};
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  work_or_end_.notify_all();
+}
+
+void ThreadPool::run(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work) {
+  const std::size_t helpers = count == 0 ? 0 : std::min(threads, count) - 1;
+  Batch batch(count, helpers, work);
+  if (helpers > 0) {
+    const std::lock_guard lock(mutex_);
+    make_helpers(helpers);
+    open_.push_back(&batch);
+  }
+  for (std::size_t i = 0; i < helpers; ++i) work_or_end_.notify_one();
+  std::exception_ptr failure = batch.take_pieces();
+  if (helpers > 0) {
+    std::unique_lock lock(mutex_);
+    open_.remove(&batch);
+    batch.note(std::move(failure));
+    batch.wait_for_helpers(lock);
+    failure = batch.failure();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::size_t ThreadPool::n_helpers() const {
+  const std::lock_guard lock(mutex_);
+  return helpers_.size();
+}
+
+/// What cannot be had is not missed: the work is done by those that there are.
+void ThreadPool::make_helpers(std::size_t wanted) {
+  try {
+    while (helpers_.size() < wanted) helpers_.emplace_back([this] { help(); });
+  } catch (const std::system_error&) {
+  }
+}
+
+void ThreadPool::help() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    work_or_end_.wait(lock, [this] { return ends_ || !open_.empty(); });
+    if (ends_) return;
+    Batch& batch = *open_.front();
+    if (!batch.join()) open_.pop_front();
+    lock.unlock();
+    std::exception_ptr failure = batch.take_pieces();
+    lock.lock();
+    batch.leave(std::move(failure));
+  }
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,73 @@
+"""The Debian package: what is in it, and that it works from where it is unpacked."""
+
+import gzip
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+BUILD = Path(os.environ["EIGENTRAIL_BUILD"])
+SCENE = Path(os.environ["EIGENTRAIL_DATA"]) / "scenes" / "rotating_mass.toml"
+
+
+def run(*command, **settings):
+    return subprocess.run(command, check=True, capture_output=True, text=True, **settings).stdout
+
+
+class DebianPackage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        folder = Path(cls.folder.name)
+        run(os.environ["CPACK"], "--config", BUILD / "CPackConfig.cmake", "-B", folder)
+        (cls.package,) = folder.glob("eigentrail_*.deb")
+        cls.root = folder / "root"
+        run("dpkg-deb", "-x", cls.package, cls.root)
+
+    def field(self, name):
+        return run("dpkg-deb", "-f", self.package, name).strip()
+
+    def test_holds_program_library_reader_and_manual(self):
+        for name in (
+            "bin/eigentrail",
+            "lib/libeigentrail.a",
+            "include/eigentrail/continuation/trace.hpp",
+            "lib/cmake/eigentrail/eigentrail-config.cmake",
+            "lib/python3/dist-packages/eigentrail/__init__.py",
+            "share/man/man1/eigentrail.1.gz",
+            "share/doc/eigentrail/copyright",
+            "share/doc/eigentrail/changelog.gz",
+        ):
+            self.assertTrue((self.root / "usr" / name).is_file(), name)
+        self.assertFalse((self.root / "usr/share/eigentrail").exists(), "the reader is there twice")
+        self.assertEqual([path.name for path in self.root.iterdir()], ["usr"])
+
+    def test_depends_on_the_libraries_of_the_program(self):
+        depends = self.field("Depends")
+        for library in ("libc6", "libhdf5", "liblapacke", "libsundials-kinsol"):
+            self.assertIn(library, depends)
+        self.assertIn("python3-xarray", self.field("Recommends"))
+
+    def test_program_and_reader_work_together(self):
+        program = self.root / "usr/bin/eigentrail"
+        self.assertEqual(run(program, "--version").split(), ["eigentrail", self.field("Version")])
+        loci = Path(self.folder.name) / "out.h5"
+        run(program, "trace", SCENE, "-o", loci, "--to", "90", "--quiet")
+        reader = self.root / "usr/lib/python3/dist-packages"
+        script = "import sys, eigentrail; print(eigentrail.open(sys.argv[1]).sizes['node'])"
+        nodes = run("/usr/bin/python3", "-c", script, loci, env={**os.environ, "PYTHONPATH": str(reader)})
+        self.assertGreater(int(nodes), 1)
+
+    def test_manual_names_every_command(self):
+        manual = gzip.decompress((self.root / "usr/share/man/man1/eigentrail.1.gz").read_bytes()).decode()
+        help_text = run(self.root / "usr/bin/eigentrail", "--help")
+        names = help_text.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()
+        self.assertGreater(len(names), 5)
+        for line in names:
+            self.assertIn(f".SS {line.split()[0]}\n", manual)
+
+
+if __name__ == "__main__":
+    unittest.main()
