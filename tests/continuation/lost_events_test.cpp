@@ -57,7 +57,7 @@ TEST_P(DivergenceBehindCollision, IsAnEventOfItsOwn) {
 
 // From far apart to a distance in p of 1e-8, about the root of rounding.
 INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision, testing::Values(0.1, 1e-2, 1e-3, 1e-4),
-                         [](const auto& info) { return "case_" + std::to_string(info.index); });
+                         [](const auto& checked) { return "case_" + std::to_string(checked.index); });
 
 // Without damping the pair meets at zero, and what leaves the axis there is one event, not two.
 TEST(LostEvents, CollisionAtZeroIsNoDivergenceToo) {

@@ -11,11 +11,12 @@ namespace eigentrail::test {
 namespace {
 
 constexpr int random_samples = 20;  // eigenvalues do not depend on the thresholds
+constexpr Thresholds defaults;
 
 /// Names of all thresholds that are varied.
 std::vector<std::string> threshold_names() {
   std::vector<std::string> names;
-  Thresholds::fields(Thresholds{}, [&](const std::string& name, double) {
+  Thresholds::fields(defaults, [&](const std::string& name, double) {
     if (name != "veering.widest") names.push_back(name);
   });
   return names;
@@ -53,12 +54,12 @@ TEST_P(ThresholdCase, NothingIsLostByAFactorOfThree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ThresholdCase, testing::ValuesIn(hard_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& checked) { return checked.param.name; });
 
 /// The list of thresholds names each of them once.
 TEST(Thresholds, AreListedOnce) {
   std::vector<std::string> names;
-  Thresholds::fields(Thresholds{}, [&](const std::string& name, double value) {
+  Thresholds::fields(defaults, [&](const std::string& name, double value) {
     names.push_back(name);
     EXPECT_GT(value, 0.0) << name;
   });

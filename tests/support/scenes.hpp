@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/model/build.hpp"
 

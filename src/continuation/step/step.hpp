@@ -13,6 +13,8 @@ struct Step {
   const PathNode* left = nullptr;  ///< the last point of the trace, which outlives the step
   PathNode right;
   double h = 0.0;  ///< signed length, in the coordinate along the path
+  /// Length of the accurate step that was cut to this one; 0 where it is not part of one.
+  double whole = 0.0;
 };
 
 /// Whether a step is taken, and if not, what stands against it.

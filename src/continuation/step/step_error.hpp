@@ -18,7 +18,7 @@ constexpr double least_relative_gap = 0.1;
 double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
 
 /// The worst of all tracks, and of the parameter where the coordinate is not the parameter itself: an
-/// accepted verdict up to an error of one.
+/// accepted verdict up to an error of one. A short part of an accurate step is accurate.
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step);
 
 }  // namespace eigentrail

@@ -10,9 +10,9 @@
 namespace eigentrail {
 namespace {
 
-/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a defective eigenvalue. Below this
-/// share of the largest one, the second smallest singular value does: a semisimple one, whose vectors are any of a
-/// plane. The root of rounding, to which a double eigenvalue is known.
+/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a defective eigenvalue. Below
+/// this share of the largest one, the second smallest singular value does: a semisimple one, whose vectors
+/// are any of a plane. The root of rounding, to which a double eigenvalue is known.
 constexpr double multiple = 1e-8;
 
 /// A mode with both its vectors, and P'(s).

@@ -201,6 +201,7 @@ bool TraceLoop::advance() {
     return commit(std::move(*landed), verdict.certified);
   }
   const double cut = landed->step.h;
+  landed->step.whole = h;  // its error was accepted; if it is uncertified, too
   const Verdict anew = judge(landed->step);
   if (!is_taken(anew, cut)) {
     if (find_remedy(anew, cut, std::move(landed->step))) return true;

@@ -27,8 +27,8 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
-/// A root of a series means nothing where the last term is this share of the largest one: there the series has
-/// not yet begun to converge.
+/// A root of a series means nothing where the last term is this share of the largest one: there the series
+/// has not yet begun to converge.
 constexpr double last_term = 0.3;
 
 /// Whether a series still tells something at z.
@@ -44,17 +44,21 @@ bool converges_at(const ComplexVector& series, Complex z) {
   return term <= last_term * largest;
 }
 
+enum class Doubtful { counts, is_left_out };
+
 /// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
 /// is the square of the radius that blocks extend around their means: the discriminant of what lies between
-/// their rims is nearer to zero by so much.
-double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h,
-                        double limit) {
+/// their rims is nearer to zero by so much. `doubtful` says what becomes of meetings where the series do not
+/// converge.
+double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h, double limit,
+                        Doubtful doubtful) {
   ComplexVector delta = discriminant_series(a, b);
   if (spread > 0.0 && delta[0] != 0.0) delta[0] -= spread * delta[0] / std::abs(delta[0]);
   if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;
   for (const Complex root : polynomial_roots(delta)) {
-    if (converges_at(delta, root)) nearest = std::min(nearest, distance_to_step(root, h));
+    if (doubtful == Doubtful::counts || converges_at(delta, root))
+      nearest = std::min(nearest, distance_to_step(root, h));
   }
   return nearest;
 }
@@ -102,7 +106,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   std::vector<Partner> partners;
   const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
     if (other.size() == 0) return;
-    partner.distance = meeting_distance(mean, other, spread, h, limit);
+    partner.distance = meeting_distance(mean, other, spread, h, limit, Doubtful::is_left_out);
     if (partner.distance <= limit) partners.push_back(partner);
   };
   // A member may as well meet the conjugate of another track: both are near the real axis then.
@@ -114,8 +118,8 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const ComplexVector series = mean_in(other, track.pair.chart);
     if (i != index) consider(series, spread, {false, i});
     if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
-    nearest_conjugate =
-        std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h, limit));
+    nearest_conjugate = std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h,
+                                                                     limit, Doubtful::is_left_out));
   }
   if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
   std::sort(partners.begin(), partners.end(),
@@ -199,23 +203,30 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
 
 namespace {
 
-/// Which eigenvalues of a block still belong together: connected by meetings within the reach.
-std::vector<std::vector<int>> groups(const Track& track, double h, double reach) {
+/// Two eigenvalues of a block that differ by less, relative to the block or to the reference if that is
+/// larger, are not told apart: the square root of rounding, to which a double eigenvalue is known.
+constexpr double told_apart = 1e-7;
+
+/// Which eigenvalues of a block still belong together: connected by meetings within the reach. `reference` is
+/// the size below which eigenvalues count as zero: without it the two zeros at which a pair passes through
+/// the origin would be compared with nothing but their own rounding.
+std::vector<std::vector<int>> groups(const Track& track, double reference, double h, double reach) {
   const Eigen::Index k = track.size();
   std::vector<int> group(static_cast<std::size_t>(k));
   std::iota(group.begin(), group.end(), 0);
   std::vector<ComplexVector> series;
   for (const Complex root : track.roots) series.push_back(root_series(track.functions, root));
   const double limit = reach * std::abs(h);
-  const double scale = std::max(track.pair.Lambda.norm(), 1e-300);
+  const double scale = std::max(track.pair.Lambda.norm(), reference);
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       const auto& a = series[static_cast<std::size_t>(i)];
       const auto& b = series[static_cast<std::size_t>(j)];
       const bool apart =
-          std::abs(track.roots[i] - track.roots[j]) > 1e-7 * scale && a.size() > 0 && b.size() > 0;
-      const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit) < limit ||
-                          meeting_distance(a, b, 0.0, -h, limit) < limit;
+          std::abs(track.roots[i] - track.roots[j]) > told_apart * scale && a.size() > 0 && b.size() > 0;
+      // In doubt they stay together: close behind a meeting of three or more no series converges.
+      const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit, Doubtful::counts) < limit ||
+                          meeting_distance(a, b, 0.0, -h, limit, Doubtful::counts) < limit;
       if (!linked) continue;
       const int from = group[static_cast<std::size_t>(i)];
       const int to = group[static_cast<std::size_t>(j)];
@@ -335,7 +346,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
     Track& track = node.tracks[i];
     std::vector<Track> parts;
     if (track.size() > 1) {
-      auto members = groups(track, h, reach);
+      auto members = groups(track, problem.reference(track.pair.chart), h, reach);
       const bool comparable =
           left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
       if (members.size() == 1 && comparable) {
