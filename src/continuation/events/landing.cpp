@@ -279,6 +279,7 @@ std::optional<LandedStep> land(StepSolver& solver, Step step, bool on_any_terms)
   LandedStep landed{{}, landing.take_meetings()};
   std::optional<Step> cut = landing.take_cut();
   landed.step = cut ? std::move(*cut) : std::move(step);
+  for (const MeetingOnEnd& meeting : landed.meetings) landed.step.meeting.push_back(meeting.track);
   return landed;
 }
 

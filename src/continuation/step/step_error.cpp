@@ -14,10 +14,19 @@ namespace {
 /// the root of the distance in p, so p must be known better than they are.
 constexpr double parameter_accuracy = 1e-5;
 
-/// A part of an accurate step is short up to this share of its length. The truncation error of the interpolant
-/// falls at least with the fourth power of the length, to 1e-12 of what was accepted for the whole. An estimate
-/// above that shows the rounding of two points that are close to each other, and no shorter step lowers it.
-constexpr double short_part = 1e-3;
+/// Truncation errors of a part of an accurate step, relative to those of the whole. Where the part's are
+/// smaller by this factor it is accurate, even if the whole was estimated a million times too well. A larger
+/// estimate shows the rounding of two points that are close to each other, or a gap between eigenvalues that
+/// closes at the end of the part, and a shorter step would not lower it.
+constexpr double negligible_share = 1e-6;
+
+bool is_short_part(const PathProblem& problem, const Step& step) {
+  if (step.whole == 0.0) return false;
+  return std::pow(std::abs(step.h / step.whole), 2.0 * problem.order + 2.0) <= negligible_share;
+}
+
+/// In t: as far from an end of the step on which eigenvalues meet the error is looked at.
+constexpr double beside_meeting = 0.1;
 
 double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const auto row = [&](const PathNode& node) {
@@ -35,8 +44,12 @@ double track_error(const PathProblem& problem, double tolerance, const Step& ste
   const Vector errors = (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
   const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
   const double smallest = place_of_least_magnitude(dense.series(0.0, degree));
+  // Where the roots of a block meet, no bound of single eigenvalues holds; the functions are accurate there.
+  const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
+  const double begin = track.departure ? beside_meeting : 0.0;
+  const double end = meets ? 1.0 - beside_meeting : 1.0;
   double worst = 0.0;
-  for (const double t : {0.0, 0.5, 1.0, smallest}) {
+  for (const double t : {begin, 0.5, end, smallest}) {
     const ComplexVector functions = dense(t);
     // The smallest member has its error relative to itself.
     const double size = block_roots(functions).cwiseAbs().minCoeff();
@@ -51,7 +64,7 @@ double track_error(const PathProblem& problem, double tolerance, const Step& ste
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step) {
   Verdict worst{Verdict::Kind::inaccurate, -1, 0.0,
                 "the error of the dense output stays above the tolerance"};
-  if (step.whole != 0.0 && std::abs(step.h) <= short_part * std::abs(step.whole)) return {};
+  if (is_short_part(problem, step)) return {};
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
     const double error = track_error(problem, tolerance, step, i);
     if (error <= worst.error) continue;
