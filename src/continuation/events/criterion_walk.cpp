@@ -82,8 +82,7 @@ class CriterionWalk {
 
   RealSight look(double distance);
   Ending ending(const ComplexVector& series, int look) const;
-  bool passes_meeting(double distance, double move) const;
-  double move_from_meeting(double distance) const;
+  std::optional<double> move_behind_meeting(double distance, double move) const;
   void finish(double offset, double distance, int looks);
   void record(double offset, bool located, int looks);
   int direction(double offset) const;
@@ -113,18 +112,17 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
                                                                                : Ending::passed;
 }
 
-/// Whether a move leads back over the meeting that the step begins on.
-bool CriterionWalk::passes_meeting(double distance, double move) const {
-  const bool begins_on_meeting = step_.left->tracks[member_.track].departure.has_value();
-  return begins_on_meeting && distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
-}
-
-/// The move to a zero beside a meeting that the step begins on. From there the criterion varies like the root
-/// of the distance, g = g_m + c sqrt(d), and Newton's method overshoots.
-double CriterionWalk::move_from_meeting(double distance) const {
-  const Complex root = step_.left->tracks[member_.track].roots[static_cast<Eigen::Index>(member_.index)];
+/// A move to a zero between the meeting that the step begins on and a place near it. From the meeting the
+/// criterion varies like the root of the distance, g = g_m + c sqrt(d), and Newton's method overshoots. Empty
+/// where that is not so.
+std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
+  const Track& track = step_.left->tracks[member_.track];
+  const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
+  if (!track.departure || target_.sought != Sought::zero || !overshoots) return std::nullopt;
+  const Complex root = track.roots[static_cast<Eigen::Index>(member_.index)];
   const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
-  const double share = at_meeting * g_[0] < 0.0 ? at_meeting / (g_[0] - at_meeting) : 0.5;
+  if (at_meeting * g_[0] >= 0.0) return std::nullopt;
+  const double share = at_meeting / (g_[0] - at_meeting);
   return (share * share - 1.0) * distance;
 }
 
@@ -147,17 +145,17 @@ RealSight CriterionWalk::look(double distance) {
   }
   const RootOfSeries root = root_near_zero(is_zero ? g_ : derivative(g_));
   const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(step_.h);
-  double move = useful ? root.offset : is_zero ? -g_[0] / g_[1] : -0.5 * g_[1] / g_[2];
-  const bool overshoots = is_zero && passes_meeting(distance, move);
-  if (overshoots) move = move_from_meeting(distance);
+  const double newton = useful ? root.offset : is_zero ? -g_[0] / g_[1] : -0.5 * g_[1] / g_[2];
+  const std::optional<double> behind_meeting = move_behind_meeting(distance, newton);
+  const double move = behind_meeting.value_or(newton);
   moved_ = std::abs(series[1] * move);
   const double share = (distance + move) / step_.h;
   if (!(share > -way_outside && share < 1.0 + way_outside)) return {RealSight::Kind::failed};
   // One correction more would square what is left.
   const double range = search_.frame().coordinate_range();
   const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
-  const bool settled =
-      !overshoots && ((useful && root.doubt <= resolution) || std::abs(move) <= extremum_resolution * range);
+  const bool settled = !behind_meeting && ((useful && root.doubt <= resolution) ||
+                                           std::abs(move) <= extremum_resolution * range);
   return {settled ? RealSight::Kind::settled : RealSight::Kind::seen, move};
 }
 
