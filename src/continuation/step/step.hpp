@@ -12,7 +12,7 @@ namespace eigentrail {
 struct Step {
   const PathNode* left = nullptr;  ///< the last point of the trace, which outlives the step
   PathNode right;
-  double h = 0.0;  ///< signed length, in the coordinate along the path
+  double h = 0.0;                         ///< signed length, in the coordinate along the path
   std::vector<std::size_t> meeting = {};  ///< tracks whose eigenvalues meet on the right end
   /// Length of the accurate step that was cut to this one; 0 where it is not part of one.
   double whole = 0.0;
