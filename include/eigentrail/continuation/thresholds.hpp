@@ -29,8 +29,9 @@ struct MeetingThresholds {
   /// Of the step: exceptional points this far off the real axis get a point of the trace of their own. They
   /// are so near that the dense output does not tell on which side of the axis they lie.
   double narrow = 3e-3;
-  /// Roots of a discriminant off the real axis by this share of their separation: two exceptional points on
-  /// the axis, not a pair beside it.
+  /// Of their separation: two roots of a discriminant that are mirror images of each other, to this accuracy,
+  /// are one exceptional point and its conjugate. Decides how the place of a veering is averaged, not its
+  /// kind.
   double beside_axis = 1e-3;
   /// Of the reach: a single exceptional point no farther off the axis lies on it.
   double on_axis = 1e-9;

@@ -118,7 +118,8 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
 std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
   const Track& track = step_.left->tracks[member_.track];
   const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
-  if (!track.departure || target_.sought != Sought::zero || !overshoots) return std::nullopt;
+  if (!track.departure || mode_->is_mean || target_.sought != Sought::zero || !overshoots)
+    return std::nullopt;
   const Complex root = track.roots[static_cast<Eigen::Index>(member_.index)];
   const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
   if (at_meeting * g_[0] >= 0.0) return std::nullopt;

@@ -99,35 +99,32 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
   return roots;
 }
 
-/// From the roots nearest to the point: one root on the axis, two that coincide there, or roots beside it.
+/// Kind and place of a meeting, from the roots of the discriminant nearest to the point. A root is an
+/// exceptional point; on the real axis it is a collision, beside it a veering. A double root on the axis is a
+/// crossing, or a collision where the block is defective.
 void classify(const std::vector<Complex>& roots, double reach, double resolution, double noise,
               bool defective, const MeetingThresholds& thresholds, Meeting& meeting) {
   const Complex first = roots[0];
   const bool has_second =
       roots.size() > 1 && std::abs(roots[1]) <= 1e3 * std::max(std::abs(first), resolution);
-  meeting.offset = first.real();
-  if (!has_second) {
-    const bool on_axis = std::abs(first.imag()) <= std::max(noise, thresholds.on_axis * reach);
-    meeting.kind = on_axis ? EventKind::collision : EventKind::veering;
-    meeting.half_width = on_axis ? 0.0 : std::abs(first.imag());
-    return;
-  }
-  const Complex second = roots[1];
+  const Complex second = has_second ? roots[1] : first;
   const double separation = 0.5 * std::abs(first - second);
-  if (separation <= 10.0 * resolution &&
-      std::abs((first + second).imag()) > 20.0 * std::max(resolution, noise)) {
-    meeting.found = false;  // they coincide at a complex parameter and pass each other on the real axis
-  } else if (separation <= 10.0 * resolution) {
+  // The slope of the discriminant, which `noise` is divided by, vanishes halfway between two roots.
+  const double on_axis = has_second ? resolution : std::max(noise, thresholds.on_axis * reach);
+  meeting.offset = first.real();
+  if (has_second && separation <= 10.0 * resolution) {
+    // A double root at a complex parameter: the eigenvalues pass each other on the real axis.
+    meeting.found = std::abs((first + second).imag()) <= 20.0 * std::max(resolution, noise);
     meeting.kind = defective ? EventKind::collision : EventKind::crossing;
     meeting.offset = 0.5 * (first + second).real();
-  } else if (std::max(std::abs(first.imag()), std::abs(second.imag())) <=
-             thresholds.beside_axis * separation) {
-    meeting.kind = EventKind::collision;  // two exceptional points close to each other; this one is nearer
+  } else if (std::abs(first.imag()) <= on_axis) {
+    meeting.kind = EventKind::collision;
   } else {
     meeting.kind = EventKind::veering;
     // Mirror images are one point, seen from both sides of the axis; others are two points, of which the
     // first is nearer.
-    const bool around = std::abs(first - std::conj(second)) <= thresholds.beside_axis * separation;
+    const bool around =
+        has_second && std::abs(first - std::conj(second)) <= thresholds.beside_axis * separation;
     if (around) meeting.offset = 0.5 * (first + second).real();
     meeting.half_width =
         around ? 0.5 * (std::abs(first.imag()) + std::abs(second.imag())) : std::abs(first.imag());

@@ -65,7 +65,8 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
     series[0] += eigenvalue_remainder(PencilAtPoint(beside->node.pencil, chart), single->pair);
     s = series[0];
   }
-  if (of_pair && there.pair.is_real && there.size() == 2) {
+  const bool is_mean = of_pair && there.pair.is_real && there.size() == 2;
+  if (is_mean) {
     // The real part of a conjugate pair is its mean, smooth also where the pair is defective.
     series = mean_series(there.series.Lambda);
     s.real(series[0].real());
@@ -75,7 +76,7 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
     series = series.conjugate().eval();
   }
   const double gap = there.roots.size() > 1 ? least_gap(there.roots) : INFINITY;
-  return NearbyMode{std::move(*beside), s, std::move(series), gap};
+  return NearbyMode{std::move(*beside), s, std::move(series), gap, is_mean};
 }
 
 }  // namespace eigentrail

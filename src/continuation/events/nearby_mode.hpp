@@ -10,6 +10,7 @@ struct NearbyMode {
   Complex root;          ///< of its chart, upper member of a pair
   ComplexVector series;  ///< of that; empty where the root is not simple
   double gap = 0.0;      ///< to the next one in the block
+  bool is_mean = false;  ///< the series is the mean of a conjugate pair, smooth also where the pair meets
 };
 
 /// The eigenvalue of a track of `left` that is expected at distance h. `of_pair`: the real part of a complex
