@@ -8,9 +8,11 @@ namespace eigentrail {
 
 /// Zeros and extrema of functions of single eigenvalues (criteria).
 struct CriterionThresholds {
-  /// |Re s| / max(|s|, reference) that counts as zero. Eigenvalues of systems without damping stay on the
-  /// imaginary axis but for rounding times the condition of the pencil, 1e-16 times up to 1e5 or so.
+  /// |Re s| / max(|s|, reference) that counts as zero at most. Eigenvalues of systems without damping stay on
+  /// the imaginary axis but for rounding times the condition of the eigenvalue, ...
   double on_axis = 1e-9;
+  /// ... that is, for so many times 2.2e-16 times the condition.
+  double roundings = 1000.0;
   /// The same at a double root, where an eigenvalue is known to the root of rounding only.
   double double_root_on_axis = 1e-6;
   /// A mode that comes so close to the axis, in units of the dense output's error, may touch it between two
@@ -95,6 +97,7 @@ struct Thresholds {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     visit("criterion.on_axis", self.criterion.on_axis);
+    visit("criterion.roundings", self.criterion.roundings);
     visit("criterion.double_root_on_axis", self.criterion.double_root_on_axis);
     visit("criterion.near_axis", self.criterion.near_axis);
     visit("criterion.extremum", self.criterion.extremum);

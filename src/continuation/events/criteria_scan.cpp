@@ -96,7 +96,8 @@ class TrackScan {
     const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
     const double value = on_step_.value(criterion, s, t);
     // Undamped modes stay on the axis but for rounding.
-    const double on_axis = std::max(search_.thresholds().criterion.on_axis * size, on_step_.noise());
+    const double on_axis =
+        std::max(axis_width(search_.thresholds().criterion, track()) * size, on_step_.noise());
     if (!criterion.asks_for_extrema() && std::abs(value) <= on_axis) {
       history.skip();
       return;

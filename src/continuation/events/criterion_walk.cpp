@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/nearby_mode.hpp"
@@ -139,7 +140,8 @@ RealSight CriterionWalk::look(double distance) {
   g_ = criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
   const bool is_zero = target_.sought == Sought::zero;
   // A mode that stays on the axis crosses it by rounding only.
-  const double still = search_.thresholds().criterion.on_axis * std::abs(series[1]);
+  const double still =
+      axis_width(search_.thresholds().criterion, mode_->solved.node.tracks.front()) * std::abs(series[1]);
   if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
     ending_ = Ending::passed;
     return {RealSight::Kind::absent};
@@ -191,7 +193,8 @@ void CriterionWalk::finish(double offset, double distance, int looks) {
     return;
   }
   const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
-  if (std::abs(value) <= search_.thresholds().criterion.on_axis * scale) {
+  if (std::abs(value) <=
+      axis_width(search_.thresholds().criterion, mode_->solved.node.tracks.front()) * scale) {
     record(offset, true, looks);
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
@@ -287,6 +290,11 @@ double CriteriaOnStep::noise() const {
   constexpr double safety = 10.0;
   const double level = safety * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
   return least_gap(track_.roots) <= level ? level : 0.0;
+}
+
+double axis_width(const CriterionThresholds& thresholds, const Track& track) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return std::min(thresholds.on_axis, thresholds.roundings * epsilon * std::max(track.pair.condition, 1.0));
 }
 
 Vector excitation_at(const EventSearch& search, const PathNode& node) {

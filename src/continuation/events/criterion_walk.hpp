@@ -52,6 +52,10 @@ class CriteriaOnStep {
   double begin_ = 0.0;
 };
 
+/// |Re s| / max(|s|, reference) that counts as zero for the eigenvalues of a track: what rounding leaves of
+/// it by the condition of the track, at most `on_axis`.
+double axis_width(const CriterionThresholds& thresholds, const Track& track);
+
 /// The excitation frequency at a point as a series.
 Vector excitation_at(const EventSearch& search, const PathNode& node);
 
