@@ -18,7 +18,7 @@ ComplexVector normalize_shape(const ComplexVector& v, const SystemMatrix& M, con
     Mv = v;
     square = v.squaredNorm();
   }
-  // The reference has unit norm, so the overlap lies between 0 and sqrt(square).
+  // The reference has unit norm, so |anchor| lies between 0 and sqrt(square).
   Complex anchor = reference.size() == v.size() ? reference.dot(Mv) : Complex(0.0);
   if (std::abs(anchor) <= 1e-8 * std::sqrt(square)) {
     Eigen::Index largest = 0;
