@@ -25,10 +25,10 @@ std::vector<std::array<double, 2>> gauss_points(int n) {
   return points;
 }
 
-/// What all strips of a blade share.
+/// Data that all strips of a blade share.
 struct Blade {
   int body = 0;
-  ExpressionVector root, tip, leading, lift;  ///< in the body's axes
+  ExpressionVector root, tip, leading, lift;  ///< in body axes
   int strips = usual_strips;
 };
 
