@@ -76,8 +76,9 @@ struct Draft {
   Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
   /// The same without fixed places.
   Place read_moving_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
-  /// Reads a direction [x, y, z] of the frame, an axis "blade.x" of a body, or { body = "blade", along = [x,
-  /// y, z] }. Returns the components of its unit vector in the axes of its carrier.
+  /// Reads a direction [x, y, z] of the frame, an axis "blade.x" of a body, or
+  /// { body = "blade", along = [x, y, z] }. Returns the components of its unit vector in the axes of its
+  /// carrier.
   ExpressionVector read_direction(TableReader& table, const std::string& key, Carrier& carrier);
   int read_body(TableReader& table, const std::string& key);
 

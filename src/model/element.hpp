@@ -85,12 +85,12 @@ struct QuantityField {
   std::optional<double> otherwise = std::nullopt;  ///< default value; absent: the key is required
 };
 
-/// Kinematic quantities on which a force depends; it is not differentiated by the others.
+/// Kinematic quantities on which a force depends. It is differentiated only with respect to these.
 struct Dependence {
   bool position = false;
   bool velocity = false;
   bool acceleration = false;
-  bool turning = false;  ///< the force by velocities depends on positions, so C changes with the equilibrium
+  bool turning = false;  ///< C depends on positions and thus changes with the equilibrium
 };
 
 enum class Motion { position, velocity, acceleration };

@@ -62,6 +62,7 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d a = draft.vector_at(axes[0], i);
     const Eigen::Vector3d b = draft.vector_at(axes[1], i);
+    // Sine of the angle between the axes.
     if (a.cross(b).norm() > 1e-9 * a.norm() * b.norm()) continue;
     table.fail(keys[given[1]],
                "must not be parallel to " + keys[given[0]] + "; it is" + Draft::where_on_trace(i));

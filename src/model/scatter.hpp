@@ -11,8 +11,8 @@
 namespace eigentrail {
 
 /// Number of coordinates from which matrices are sparse. For chains of rods, sparse and dense matrices take
-/// the same time at about 80 coordinates (docs/developers/performance.md). Below the limit, results of dense
-/// models stay equal to the last bit.
+/// the same time at about 80 coordinates (docs/developers/performance.md). Below the limit, matrices are
+/// dense so that results do not change between versions, not even in the last bit.
 inline constexpr int sparse_from = 100;
 
 /// Sum of entries of a matrix whose coefficients are power series of order Q.

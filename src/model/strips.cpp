@@ -10,7 +10,7 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_strips = 64;
-constexpr int usual_strips = 4;
+constexpr int usual_strips = 4;  ///< default: exact for loads of degree up to 7 along the span
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1] (Golub & Welsch 1969).
 std::vector<std::array<double, 2>> gauss_points(int n) {

@@ -8,6 +8,7 @@
 namespace eigentrail {
 namespace {
 
+/// Limits of the corrector; beyond them the pairs are corrected one by one.
 constexpr int most_refactorizations = 4;
 /// Larger blocks are corrected one by one: clusters of three and more need the full accuracy of their own
 /// factors.
@@ -148,7 +149,9 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
     const double size = largest_change(pairs, dZ, dLambda, reference);
     if (!std::isfinite(size)) return false;
     const double contraction = size / last;
+    // Second condition: corrections at the rounding level do not decrease any more.
     if (size <= options.tolerance || (contraction > 0.5 && size < 1e-10)) return true;
+    // In the chord method the error of single modes decreases by about the same factor in each iteration.
     if (all_single && std::isfinite(last) && contraction < options.refactor_contraction &&
         size * contraction <= 0.1 * options.tolerance)
       return true;

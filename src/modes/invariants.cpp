@@ -53,7 +53,7 @@ double least_gap(const ComplexVector& roots) {
 }
 
 Vector function_rounding(const ComplexMatrix& Lambda) {
-  constexpr double roundings = 1e-15;
+  constexpr double roundings = 1e-15;  // relative error of Lambda by rounding
   const Eigen::Index k = Lambda.rows();
   const double size = roundings * Lambda.norm();
   Vector rounding = Vector::Constant(k <= 2 ? k : k * k, size);

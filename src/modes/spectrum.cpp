@@ -14,6 +14,7 @@ namespace {
 
 /// An eigenvalue of the scaled pencil with |beta| below this fraction of |alpha| is infinite.
 constexpr double infinite = 1e-13;
+/// A matrix with a pivot below this fraction of the largest one is singular to working precision.
 constexpr double singular_pivot = 1e-15;
 /// Reciprocal condition of M above which M is inverted: the digits that the eigenvalues lose do not matter,
 /// because they are corrected later.

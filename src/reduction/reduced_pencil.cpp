@@ -45,7 +45,8 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   }
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
-  // Dense models use Eigen's products, not BLAS, so that their results stay equal to the last bit.
+  // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
+  // even in the last bit.
   if (is_sparse(B)) return transposed_product(T, BT, count);
   MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {

@@ -7,6 +7,7 @@
 namespace eigentrail {
 namespace {
 
+/// Reciprocal condition of the tangent stiffness up to which it counts as singular: the rounding level.
 constexpr double singular = 1e-14;
 
 double one_norm(const Matrix& matrix) {

@@ -124,6 +124,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const Vector reaction = result.linearization.A[0].transposed_times(dl) + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
+    // Small corrections that grow show divergence; large ones may grow far from the solution.
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.status = SteadyStatus::converged;

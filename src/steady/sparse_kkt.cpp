@@ -10,6 +10,7 @@
 namespace eigentrail {
 namespace {
 
+/// Iterations for the norm of the inverse tangent stiffness, of which only the magnitude is needed.
 constexpr int power_iterations = 4;
 
 /// [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`.

@@ -19,6 +19,7 @@
 
 namespace eigentrail {
 
+/// A truncated power series with coefficients of type T up to h^Order.
 template <class T, int Order>
 class Series {
  public:

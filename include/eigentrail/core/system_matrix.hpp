@@ -12,6 +12,7 @@
 
 namespace eigentrail {
 
+/// A real matrix in dense or sparse storage.
 template <class Real>
 class BasicSystemMatrix {
  public:

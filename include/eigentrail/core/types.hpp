@@ -36,7 +36,7 @@ struct BasicPath {
 };
 using Path = BasicPath<double>;
 
-/// Coefficient k of a series, zero when the series is shorter.
+/// Coefficient k of row `row` of a series; zero if the series is shorter.
 template <class Derived>
 typename Derived::Scalar coefficient(const Eigen::MatrixBase<Derived>& series, Eigen::Index row,
                                      Eigen::Index k) {

@@ -53,8 +53,8 @@ struct Structure {
 };
 
 /// A point (one triple of coordinates) or a body (four triples: its origin and its directors) of a multibody
-/// model. Its mass matrix is the Kronecker product G x 1 of its constant moments G (1 x 1 or 4 x 4) and the 3
-/// x 3 identity.
+/// model. Its mass matrix is the Kronecker product of its constant moments G (1 x 1 or 4 x 4) and the 3 x 3
+/// identity matrix.
 struct MassCarrier {
   std::string name;
   Eigen::Index first_triple = 0;

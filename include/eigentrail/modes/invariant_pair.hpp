@@ -92,6 +92,7 @@ class PairFactorization {
   double slope_scale_, border_scale_;
 };
 
+/// Outcome of a correction; `singular` means that a number is not finite.
 enum class PairStatus { converged, not_converged, singular };
 
 struct InvariantPair {

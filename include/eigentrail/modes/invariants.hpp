@@ -30,7 +30,7 @@ ComplexVector block_roots(const ComplexVector& functions);
 /// square root.
 Vector function_rounding(const ComplexMatrix& Lambda);
 
-/// Bound of the error of the eigenvalues for given errors of the functions, 1/s. Near a meeting of
+/// Estimate of the largest error of an eigenvalue for given errors of the functions, 1/s. Near a meeting of
 /// eigenvalues a distance smaller than `least_gap` is replaced by `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
 

@@ -18,7 +18,7 @@ struct [[nodiscard]] Spectrum {
   SpectrumStatus status = SpectrumStatus::not_converged;
   std::vector<StartingMode> modes;  ///< finite modes in the order of increasing |s|
   int n_infinite = 0;               ///< number of infinite eigenvalues (singular mass matrix)
-  double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), the typical magnitude of eigenvalues
+  double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), or |C| / |M| if K = 0: typical |s|
 };
 
 /// Solves (s^2 M + s C + K) z = 0 by the QZ algorithm. The pencil is scaled by s = gamma mu and by a common

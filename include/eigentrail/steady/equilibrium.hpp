@@ -15,6 +15,7 @@ struct SteadyOptions {
   bool relax = true;  ///< if KINSOL fails, start again from a relaxed guess (relaxation.hpp)
 };
 
+/// Outcome of a solution; `not_finite` means that the model returned a number that is not finite.
 enum class SteadyStatus { converged, not_converged, not_finite };
 
 /// Work of the solver and the result of its checks; complete also after a failure.
@@ -28,6 +29,7 @@ struct SteadyReport {
   std::string message;         ///< reason of a failure
 };
 
+/// An equilibrium with its linearization, for a model with n coordinates and m constraints.
 struct [[nodiscard]] Equilibrium {
   SteadyStatus status = SteadyStatus::not_converged;
   Vector x;                     ///< n

@@ -1,5 +1,5 @@
-// Follower force of given magnitude P whose direction rotates with the line between two places: f = P R(axis,
-// angle) (to - from) / |to - from|, R a rotation (Rodrigues' formula).
+// Follower force of given magnitude P whose direction rotates with the line between two places:
+// f = P R(axis, angle) (to - from) / |to - from|, R a rotation (Rodrigues' formula).
 #pragma once
 
 #include "model/element.hpp"

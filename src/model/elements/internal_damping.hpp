@@ -1,6 +1,6 @@
 // Internal damping of a rotating shaft in a frame that does not rotate. The damping acts on velocities
-// relative to the shaft, which rotates with speed w about the axis e: f = -c (d' - w e x d), d = point -
-// about. The second term is circulatory and makes the shaft unstable at high speed.
+// relative to the shaft, which rotates with speed w about the axis e: f = -c (d' - w e x d) with
+// d = point - about. The second term is circulatory and makes the shaft unstable at high speed.
 #pragma once
 
 #include "model/element.hpp"

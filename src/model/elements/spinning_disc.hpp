@@ -29,7 +29,7 @@ struct SpinningDisc {
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     const Vec3<Scalar> e = at.position(axis);
-    // Division by |e|^3 makes the force independent of the length of the axis.
+    // Division by |e|^3 makes the moment on the body independent of the length of the axis.
     const Scalar size = e.norm();
     const Scalar momentum = at.value(polar_inertia) * at.value(speed) / (size * size * size);
     at.add_force(axis, momentum * e.cross(at.velocity(axis)));
