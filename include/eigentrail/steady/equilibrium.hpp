@@ -10,8 +10,8 @@ namespace eigentrail {
 
 struct SteadyOptions {
   int max_iterations = 200;  ///< limit of KINSOL's iterations, >= 1
-  double tolerance =
-      1e-12;  ///< KINSOL stops when the residual of every equation is below this fraction of its scale, > 0
+  /// KINSOL stops when the residual of every equation is below this fraction of its scale; > 0.
+  double tolerance = 1e-12;
   bool relax = true;  ///< if KINSOL fails, start again from a relaxed guess (relaxation.hpp)
 };
 
