@@ -18,8 +18,8 @@ struct Parameter {
   double value = 0.0;   ///< in `unit`; not used if the parameter is derived
   std::string unit;     ///< as written; empty: SI or dimensionless
   double factor = 1.0;  ///< SI value = factor * value
-  std::optional<Expression> definition =
-      {};  ///< derived parameter: its value in `unit`, from the SI values of the others
+  /// Derived parameter: its value in `unit`, from the SI values of the others.
+  std::optional<Expression> definition = {};
   SourceLocation where = {};
 };
 
