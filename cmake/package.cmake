@@ -1,5 +1,5 @@
-# The Debian package: cpack, or ./bootstrap package. What `cmake --install` installs goes to /usr, but the Python reader
-# to where Debian's interpreter looks.
+# The Debian package, made by cpack or ./bootstrap package. It contains what `cmake --install` installs, under
+# /usr; the Python reader goes to the folder in which Debian's interpreter searches.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eigentrail)
 set(CPACK_PACKAGE_VENDOR "the maintainers of eigentrail")
@@ -16,8 +16,9 @@ and a reader of its files for Python.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_STRIP_FILES ON)
-# Libraries that the program is linked to, with their versions. The reader and the static library need more, not
-# everybody needs them.
+# Depends on the libraries to which the program is linked, with their versions. The Python reader and the
+# static library need further packages, which are only recommended or suggested because not every user needs
+# them.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-h5netcdf, python3-h5py, python3-numpy, python3-pandas, python3-xarray")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS

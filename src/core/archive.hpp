@@ -1,8 +1,9 @@
-// Values as bytes and back: the state that a trace goes on from.
+// Serialization of values to bytes and back, for the state from which a trace is resumed.
 //
-// A struct lists its members once, fields(self, visit), found by argument or as a static member; writing and
-// reading both go through that list. Reading trusts nothing: every count is checked against the bytes that
-// are left, so damaged input ends in an ArchiveError and never in memory that is not there.
+// A struct lists its members once, in fields(self, visit), a static member function or a function that is
+// found by argument-dependent lookup. Writing and reading both use that list. Reading does not trust its
+// input: every count is checked against the number of bytes left, so damaged input raises an ArchiveError and
+// never accesses memory out of bounds.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ class ArchiveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// T, or const T: what a list of fields is of.
+/// T or const T: the type of `self` in a list of fields.
 template <class Self, class T>
 concept SameAs = std::is_same_v<std::remove_const_t<Self>, T>;
 
@@ -116,7 +117,8 @@ class ArchiveWriter {
   std::string bytes_;
 };
 
-/// Throws ArchiveError when the bytes are not those of the values asked for.
+/// Reads values in the order in which ArchiveWriter wrote them. Throws ArchiveError if the bytes do not match
+/// the types read.
 class ArchiveReader {
  public:
   explicit ArchiveReader(std::string_view bytes) : left_(bytes) {}
@@ -126,7 +128,7 @@ class ArchiveReader {
     (read(values), ...);
   }
 
-  /// All bytes must have been read.
+  /// Throws ArchiveError if bytes are left.
   void finish() const {
     if (!left_.empty()) throw ArchiveError("more bytes than there are values");
   }
@@ -138,7 +140,7 @@ class ArchiveReader {
     left_.remove_prefix(size);
   }
 
-  /// A number of items that take `size` bytes each, at least.
+  /// Reads the number of items that follow, each of at least `size` bytes.
   std::size_t count(std::size_t size) {
     std::uint64_t n = 0;
     read(n);
@@ -167,7 +169,7 @@ class ArchiveReader {
   }
   template <class T>
   void read(std::vector<T>& items) {
-    // Items are made one by one: however large they are, no more of them than the bytes hold.
+    // Items are appended one by one, so a damaged count cannot allocate more items than the bytes can hold.
     const std::size_t n = count(1);
     items.clear();
     for (std::size_t i = 0; i < n; ++i) read(items.emplace_back());

@@ -10,10 +10,11 @@
 namespace eigentrail {
 namespace {
 
-/// Leading coefficients below this fraction of the largest are rounding: dividing by them would spoil all
-/// roots.
+/// Leading coefficients below this fraction of the largest one are taken for rounding errors. Division by
+/// such a coefficient would spoil all roots.
 constexpr double negligible = 1e-13;
 
+/// Index of the highest coefficient that counts as nonzero.
 Eigen::Index significant(const ComplexVector& coefficients) {
   const double largest = coefficients.cwiseAbs().maxCoeff();
   Eigen::Index top = coefficients.size() - 1;
@@ -21,8 +22,8 @@ Eigen::Index significant(const ComplexVector& coefficients) {
   return top;
 }
 
-/// Eigenvalues u of A - u B, by the QZ algorithm: a small leading coefficient, which stands in B, does
-/// not spoil them as it would after a division.
+/// Eigenvalues u of A - u B by the QZ algorithm. A small leading coefficient of the polynomial appears in B
+/// and does not spoil the eigenvalues, as a division by it would.
 std::vector<Complex> finite_eigenvalues(ComplexMatrix A, ComplexMatrix B) {
   const auto n = static_cast<lapack_int>(A.rows());
   ComplexVector alpha(n);
@@ -56,7 +57,8 @@ std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients) {
   if (!coefficients.allFinite()) return {};
   const Eigen::Index top = significant(coefficients);
   if (top == 0) return {};
-  // u T_0 = T_1, u T_k = (T_{k-1} + T_{k+1}) / 2; c_n T_n in the last row, replaced through the polynomial.
+  // Recurrence: u T_0 = T_1, u T_k = (T_{k-1} + T_{k+1}) / 2. In the last row the polynomial itself replaces
+  // c_n T_n.
   ComplexMatrix colleague = ComplexMatrix::Zero(top, top);
   for (Eigen::Index k = 0; k < top; ++k) {
     if (k > 0) colleague(k, k - 1) = 0.5;
@@ -95,7 +97,7 @@ bool has_no_root_within(const ComplexVector& coefficients, double radius) {
 
 namespace {
 
-/// Coefficients about another point, by Horner's scheme.
+/// Coefficients of the same polynomial in powers of h - to, by Horner's scheme.
 ComplexVector shifted(ComplexVector coefficients, Complex to) {
   for (Eigen::Index begin = 0; begin + 1 < coefficients.size(); ++begin) {
     for (Eigen::Index k = coefficients.size() - 1; k-- > begin;) coefficients[k] += to * coefficients[k + 1];
@@ -103,12 +105,12 @@ ComplexVector shifted(ComplexVector coefficients, Complex to) {
   return coefficients;
 }
 
-/// `patience` is the number of discs that may still be tried.
+/// `patience` is the number of discs that may still be tried; each call uses one.
 bool excludes_roots(const ComplexVector& coefficients, const Rectangle& rectangle, int& patience) {
   if (--patience < 0) return false;
   const double radius = std::hypot(rectangle.half_width, rectangle.half_height);
   if (has_no_root_within(shifted(coefficients, rectangle.center), radius)) return true;
-  // Halves, across the longer side.
+  // Bisect the rectangle across its longer side and test both halves.
   const bool wide = rectangle.half_width > rectangle.half_height;
   Rectangle half = rectangle;
   (wide ? half.half_width : half.half_height) *= 0.5;
@@ -139,6 +141,7 @@ ComplexVector in_powers(const ComplexVector& chebyshev) {
 }  // namespace
 
 bool has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle) {
+  // At most 40 discs: a limit on the cost, not on correctness.
   int patience = 40;
   return excludes_roots(coefficients, rectangle, patience);
 }

@@ -36,7 +36,8 @@ void ComplexLu::solve_adjoint_in_place(ComplexVector& b) const {
 void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {
   const auto n = static_cast<int>(factors_.rows());
   const int next = 1;
-  const char diagonal = triangle == 'L' ? 'U' : 'N';  // of ones, or its own
+  // L has a unit diagonal that is not stored, U stores its own
+  const char diagonal = triangle == 'L' ? 'U' : 'N';
   ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, b.data(), &next);
 }
 

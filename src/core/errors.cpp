@@ -7,8 +7,8 @@
 namespace eigentrail {
 namespace {
 
-constexpr std::size_t longest_misprint = 200;  ///< longer names are not compared letter by letter
-constexpr std::size_t most_listed = 100;       ///< names in a message
+constexpr std::size_t longest_misprint = 200;  ///< characters; longer names get no suggestion
+constexpr std::size_t most_listed = 100;       ///< largest number of names in a message
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -26,7 +26,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// A name of which no letter is left is another name, not a misprint.
+/// Whether a candidate may be meant by a misspelt name. If the edit distance equals the length, no character
+/// is kept; the candidate is then meant only if it differs in case alone.
 bool resembles(std::string_view name, std::string_view candidate, std::size_t distance) {
   if (distance < std::max(name.size(), candidate.size())) return true;
   const auto same_letter = [](unsigned char a, unsigned char b) {
@@ -42,7 +43,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::size_t best = limit + 1;
   std::string nearest;
   for (const std::string& candidate : candidates) {
-    // Lengths alone tell these apart; comparing texts of thousands of characters would take seconds.
+    // The difference of the lengths is a lower bound of the distance. Comparing texts of thousands of
+    // characters would take seconds.
     if (std::max(candidate.size(), name.size()) - std::min(candidate.size(), name.size()) > limit) continue;
     if (name.size() > longest_misprint) continue;
     const std::size_t distance = edit_distance(name, candidate);

@@ -3,8 +3,8 @@
 namespace eigentrail {
 namespace {
 
-// Functions of binary128 in the C library. Its header declares them under types that differ from compiler to
-// compiler; the names are fixed (ISO/IEC TS 18661-3).
+// Functions of the C library for binary128. They are declared here by their standard names (ISO/IEC TS
+// 18661-3), because the types in the C library's header differ between compilers.
 extern "C" {
 Binary128 binary128_abs(Binary128) noexcept __asm__("fabsf128");
 Binary128 binary128_floor(Binary128) noexcept __asm__("floorf128");

@@ -37,7 +37,7 @@ Handle memory_type(ElementType type) {
 
 namespace {
 
-/// Errors are reported by our exceptions; HDF5's own stack dump on stderr is switched off.
+/// Errors are reported by exceptions; HDF5's own error messages on stderr are switched off.
 void silence_error_stack() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -69,7 +69,8 @@ Hdf5File Hdf5File::open(const std::string& path) {
 
 namespace {
 
-/// Properties of a file that never reaches the disk by itself. HDF5 does not bear errors of writing.
+/// Access properties of a file that stays in memory and is never written to disk by HDF5, because HDF5 does
+/// not recover from write errors. Memory grows in increments of 1 MiB.
 Handle memory_access() {
   constexpr std::size_t increment = 1u << 20u;
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
@@ -77,7 +78,7 @@ Handle memory_access() {
   return access;
 }
 
-/// HDF5 takes files of one name for one file.
+/// HDF5 treats files of equal name as the same file, so every name gets a running number.
 std::string unique_name(const std::string& name) {
   static std::atomic<std::uint64_t> count{0};
   return name + "#" + std::to_string(++count);

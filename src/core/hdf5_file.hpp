@@ -1,4 +1,5 @@
-// The part of HDF5 that eigentrail uses, with handles that close themselves and every return code checked.
+// The part of HDF5 that eigentrail uses. Identifiers are closed automatically and every return code is
+// checked.
 #pragma once
 
 #include <complex>
@@ -14,13 +15,13 @@
 
 namespace eigentrail {
 
-/// An HDF5 call that failed: what was tried, on which object, in which file.
+/// A failed HDF5 call. The message says what was tried, on which object and in which file.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Complex numbers are the compound {r, i} that h5py reads as complex128.
+/// Complex numbers are stored as the compound {r, i}, which h5py reads as complex128.
 enum class ElementType { real, complex, integer, text };
 
 using Shape = std::vector<std::uint64_t>;
@@ -29,22 +30,24 @@ struct DatasetSpec {
   std::string name;
   ElementType type = ElementType::real;
   Shape shape;
-  bool growing = false;  ///< all dimensions are unlimited; the data are chunked; what was never written reads
-                         ///< as NaN (numbers) or -1 (integers)
+  /// All dimensions are unlimited and the data are chunked; elements that were never written read as NaN
+  /// (real, complex) or -1 (integer).
+  bool growing = false;
   std::map<std::string, std::string> attributes;
 };
 
 /// An open HDF5 file. Not thread-safe.
 class Hdf5File {
  public:
-  /// Creates `path`; throws Hdf5Error when it exists already or cannot be created. Switches off, for the
-  /// whole process, HDF5's own printing of errors: they are reported by exceptions.
+  /// Creates `path`. Throws Hdf5Error if it exists or cannot be created. Switches HDF5's own printing of
+  /// errors off for the whole process; errors are reported by exceptions.
   static Hdf5File create(const std::string& path);
-  /// Begins a file in memory; `name` is for messages.
+  /// Creates an empty file in memory; `name` is used in messages.
   static Hdf5File in_memory(const std::string& name);
-  /// Goes on with one, in memory, from its bytes. Throws Hdf5Error when they are none.
+  /// Opens a file in memory for reading and writing, from the bytes `image`. Throws Hdf5Error if they are not
+  /// a valid HDF5 file; `name` is used in messages.
   static Hdf5File from_image(const std::string& name, std::string_view image);
-  /// Opens `path` for reading. Throws Hdf5Error when it is missing or no HDF5 file.
+  /// Opens `path` for reading. Throws Hdf5Error if it does not exist or is not a valid HDF5 file.
   static Hdf5File open(const std::string& path);
 
   Hdf5File(Hdf5File&&) noexcept;
@@ -53,37 +56,39 @@ class Hdf5File {
 
   void create_dataset(const DatasetSpec& spec);
 
-  /// Makes a growing dataset longer along one dimension; what is new reads as NaN or -1 until it is written.
+  /// Extends a growing dataset along one dimension to `size`; new elements read as NaN or -1 until they are
+  /// written.
   void extend(const std::string& dataset, unsigned dimension, std::uint64_t size);
 
-  /// Writes whole rows (first index) from `first_row` on, growing the dataset when it must. Data are
+  /// Writes whole rows (first index) from `first_row` on and extends the dataset if necessary. Data are
   /// row-major.
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<double>& data);
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Complex>& data);
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::int64_t>& data);
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::string>& data);
 
-  /// Makes a one-dimensional dataset the scale of a dimension; `label` is the dimension's name.
+  /// Makes a one-dimensional dataset a dimension scale (the coordinates of a dimension); `label` is the name
+  /// of the dimension.
   void make_scale(const std::string& dataset, const std::string& label);
   void attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension);
 
-  /// Root attributes.
+  /// Attributes of the root group; an existing attribute is replaced.
   void set_attribute(const std::string& name, const std::string& value);
   void set_attribute(const std::string& name, double value);
   void set_attribute(const std::string& name, std::int64_t value);
 
   void flush();
 
-  /// The bytes of the file as it would be on disk.
+  /// The bytes of the file as they would be on disk.
   std::string image();
 
   bool has(const std::string& dataset) const;
-  /// Names of what a group holds, in alphabetical order; "/" is the root.
+  /// Names of the members of a group in alphabetical order; "/" is the root group.
   std::vector<std::string> members(const std::string& group) const;
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
-  /// One row (first index).
+  /// Reads one row (first index).
   std::vector<Complex> read_complex_row(const std::string& dataset, std::uint64_t row) const;
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;
   std::vector<std::string> read_texts(const std::string& dataset) const;
@@ -92,7 +97,7 @@ class Hdf5File {
   std::string text_attribute(const std::string& name) const;
   double real_attribute(const std::string& name) const;
   std::int64_t integer_attribute(const std::string& name) const;
-  /// A text attribute of a dataset, empty when there is none.
+  /// A text attribute of a dataset; empty if it does not exist.
   std::string text_attribute(const std::string& dataset, const std::string& name) const;
   std::vector<std::string> attribute_names() const;
 
@@ -102,7 +107,7 @@ class Hdf5File {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Number of elements of a shape.
+/// Number of elements of a shape, limited to 2^31 + 1 so that large shapes do not overflow.
 std::uint64_t element_count(const Shape& shape);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// What reading and writing of HDF5 files share: identifiers that close themselves, and types of elements.
+// Shared by reading and writing of HDF5 files: identifiers that are closed automatically, and element types.
 #pragma once
 
 #include <hdf5.h>
@@ -10,7 +10,7 @@
 
 namespace eigentrail {
 
-/// An HDF5 identifier with its closing function.
+/// Owns an HDF5 identifier and closes it with the given function.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -31,14 +31,14 @@ class Handle {
   Close close_;
 };
 
-/// Throws Hdf5Error for the code of a failed call.
+/// Throws Hdf5Error if a call returned a negative (error) code.
 inline void check(herr_t code, const std::string& action) {
   if (code < 0) throw Hdf5Error("HDF5 could not " + action);
 }
 
 Handle text_type();
 Handle complex_type();
-/// The type of elements in memory.
+/// The HDF5 type of an element in memory.
 Handle memory_type(ElementType type);
 
 struct Hdf5File::Implementation {
@@ -49,13 +49,13 @@ struct Hdf5File::Implementation {
     return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
   }
 
-  /// Whole rows of `count` elements in all, growing the dataset when it must.
+  /// Writes `count` elements, a whole number of rows, from `first_row` on; extends the dataset if necessary.
   void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
              const void* data);
 
   Shape shape(const std::string& name) const;
 
-  /// All elements, or those of one row.
+  /// Reads all elements, or those of one row.
   template <class Element>
   std::vector<Element> read(const std::string& name, ElementType type) const;
   template <class Element>

@@ -3,10 +3,12 @@
 namespace eigentrail {
 namespace {
 
-/// Most elements that are read from one dataset; more is refused before memory is asked for.
+/// Largest number of elements that is read from one dataset; larger ones are refused before memory is
+/// allocated.
 constexpr std::uint64_t max_elements = std::uint64_t{1} << 31U;
 
-/// Opens an attribute that holds one value; an array would be read past the end of that value.
+/// Opens an attribute that holds a single value. Reading an array into one value would write beyond its
+/// memory.
 Handle open_scalar_attribute(hid_t object, const std::string& name) {
   Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
   const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of attribute " + name);
@@ -101,7 +103,7 @@ Shape Hdf5File::shape(const std::string& dataset) const {
 }
 
 bool Hdf5File::has(const std::string& dataset) const {
-  // A path exists when every part of it does.
+  // A path exists if all its leading parts exist.
   for (std::size_t slash = dataset.find('/', 1);; slash = dataset.find('/', slash + 1)) {
     if (H5Lexists(implementation_->file, dataset.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;

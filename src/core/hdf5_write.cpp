@@ -8,11 +8,12 @@
 namespace eigentrail {
 namespace {
 
-/// Before the names of all complex datasets in the order of the alphabet, in which netCDF reads.
+/// netCDF reads objects in alphabetical order. This name precedes those of all complex datasets, so netCDF
+/// knows the type before it reads them.
 constexpr const char* complex_type_name = "complex128";
 
-/// The type of a dataset. That of complex numbers has a name in the file: netCDF passes over compounds
-/// without one.
+/// The type of a dataset in the file. The complex type is stored as a named type, because netCDF ignores
+/// datasets whose compound type has no name.
 Handle stored_type(hid_t file, ElementType type) {
   if (type != ElementType::complex) return memory_type(type);
   const std::string action = "name the type of complex numbers";
@@ -39,8 +40,8 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
   write_attribute(object, name, text_type(), &text);
 }
 
-/// Rows per chunk for about 16 KiB, at least one: files have some thirty growing datasets, and most are
-/// small.
+/// Rows per chunk: about 16 KiB, between 1 and 1024 rows. Files have about thirty growing datasets, most of
+/// them small.
 hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
   std::uint64_t row = element_size;
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
@@ -84,7 +85,7 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
   std::vector<hsize_t> limits = dims;
   const Handle type = stored_type(implementation_->file, spec.type);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
-  // Without the time of day the same results are the same bytes.
+  // Without time stamps, equal results give equal bytes.
   check(H5Pset_obj_track_times(properties, false), action);
   if (spec.growing) {
     std::fill(limits.begin(), limits.end(), H5S_UNLIMITED);

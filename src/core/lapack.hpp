@@ -1,4 +1,4 @@
-// LAPACK's C interface, without the macros of C's complex numbers.
+// LAPACK's C interface with std::complex, without the macros of C's complex numbers.
 #pragma once
 
 #include <complex>

@@ -1,4 +1,4 @@
-// Arithmetic of power series with matrix coefficients, truncated.
+// Arithmetic of truncated power series with matrix coefficients.
 #pragma once
 
 #include <Eigen/LU>
@@ -16,7 +16,7 @@ Coefficient evaluate_series(const std::vector<Coefficient>& series, double h) {
   return value;
 }
 
-/// The first `count` coefficients of A(h) B(h); those that a factor lacks are zero.
+/// The first `count` coefficients of A(h) B(h); missing coefficients of A and B are zero.
 template <class Coefficient>
 std::vector<Coefficient> multiply_series(const std::vector<Coefficient>& A, const std::vector<Coefficient>& B,
                                          std::size_t count) {
@@ -27,7 +27,7 @@ std::vector<Coefficient> multiply_series(const std::vector<Coefficient>& A, cons
   return product;
 }
 
-/// A(h)^-1 with as many coefficients as A has; A(0) must be regular.
+/// A(h)^-1 with as many coefficients as A has; A(0) must be nonsingular.
 template <class Coefficient>
 std::vector<Coefficient> inverse_series(const std::vector<Coefficient>& A) {
   const Eigen::PartialPivLU<Coefficient> lu(A[0]);

@@ -8,8 +8,8 @@
 namespace eigentrail {
 namespace {
 
-/// One pool for the whole process, made when it is first needed: the steps of a trace share their work
-/// several times each, and traces may run side by side.
+/// One pool for the whole process, created on first use. Each step of a trace distributes work several times,
+/// and traces may run at the same time.
 ThreadPool& pool() {
   static ThreadPool pool;
   return pool;
@@ -18,7 +18,7 @@ ThreadPool& pool() {
 }  // namespace
 
 void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& work) {
-  if (jobs == 1 || count <= 1) {  // without the pool, where nothing is shared
+  if (jobs == 1 || count <= 1) {  // no pool needed
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }

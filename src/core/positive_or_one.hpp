@@ -1,11 +1,11 @@
-// Scales that may be divided by.
+// Scales that are safe to divide by.
 #pragma once
 
 #include <cmath>
 
 namespace eigentrail {
 
-/// A magnitude as a scale; one where it is zero or not finite, and thus tells nothing.
+/// `size` if it is positive and finite, otherwise 1.
 inline double positive_or_one(double size) {
   return size > 0.0 && std::isfinite(size) ? size : 1.0;
 }

@@ -1,6 +1,6 @@
-// What most files include, parsed once per target, and the decompositions that most of them use, compiled
-// once (decompositions_*.cpp). No file depends on it: the build without it (preset dev) is the same program,
-// later.
+// Precompiled header: what most files include is parsed once per target, and the decompositions that most of
+// them use are compiled once (decompositions_*.cpp). No file may depend on it: builds without it (preset dev)
+// give the same program and only take longer.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -34,7 +34,7 @@ extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
 extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 
-// Members that are templates themselves
+// Member functions that are templates themselves
 extern template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
 extern template Eigen::ComplexSchur<Eigen::MatrixXcd>& Eigen::ComplexSchur<Eigen::MatrixXcd>::compute(

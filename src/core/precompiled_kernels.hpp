@@ -1,6 +1,6 @@
-// The kernels of Eigen's dense products and triangular solves, compiled once (precompiled_kernels.cpp) and
-// not in every file that multiplies matrices. These are inner names of Eigen 3.4; with a later one every file
-// compiles its own again.
+// Explicit instantiations of the kernels of Eigen's dense products and triangular solves, compiled once
+// (precompiled_kernels.cpp) and not in every file that multiplies matrices. The names are internal to Eigen
+// 3.4; with later versions every file compiles its own kernels.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "core/products.hpp"
 
-// The Fortran interface: the C one is not in every BLAS.
+// BLAS by its Fortran interface: not every BLAS has the C interface.
 extern "C" {
 void dgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
             const double* alpha, const double* A, const int* stride_A, const double* B, const int* stride_B,
@@ -42,14 +42,15 @@ ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   return y;
 }
 
-/// A x or A^T x of one complex column.
+/// A x (form 'N') or A^T x (form 'T') for a complex vector x, given as a matrix of one column.
 ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
   const auto rows = static_cast<int>(A.rows());
   const auto columns = static_cast<int>(A.cols());
   const double one = 1.0, zero = 0.0;
-  const int next = 2;  // real and imaginary parts stand in every other place
+  const int next = 2;  // real and imaginary parts alternate in memory
   ComplexMatrix y(form == 'N' ? rows : columns, 1);
-  // std::complex<double> is an array of two doubles ([complex.numbers]).
+  // The standard guarantees that std::complex<double> can be read as an array of two doubles
+  // ([complex.numbers]).
   const auto* const from = reinterpret_cast<const double*>(x.data());
   auto* const to = reinterpret_cast<double*>(y.data());
   for (const int part : {0, 1})
@@ -57,7 +58,7 @@ ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
   return y;
 }
 
-/// The same of several.
+/// The same for any number of columns.
 ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   const Eigen::Index columns = X.cols();
   if (A.size() == 0) return ComplexMatrix::Zero(form == 'N' ? A.rows() : A.cols(), columns);

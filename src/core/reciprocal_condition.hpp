@@ -6,8 +6,8 @@
 
 namespace eigentrail {
 
-/// Reciprocal condition number, estimated; 0 where a pivot vanishes, which Eigen's own estimate (3.4) does
-/// not notice.
+/// Estimate of the reciprocal condition number in the 1-norm; 0 if a pivot is zero, which Eigen's own
+/// estimate (3.4) does not detect.
 inline double reciprocal_condition(const Eigen::PartialPivLU<Matrix>& lu) {
   return lu.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0 ? lu.rcond() : 0.0;
 }

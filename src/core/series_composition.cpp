@@ -7,7 +7,8 @@ Vector reversion(const Vector& sigma) {
   Vector h = Vector::Zero(count);
   h[1] = 1.0 / sigma[1];
   for (Eigen::Index k = 2; k < count; ++k) {
-    // sigma(h(u)) = u: coefficient k with h_k = 0 is what h_k has to remove.
+    // In coefficient k of sigma(h(u)) = u the unknown h_k appears only in sigma_1 h_k. The sum is that
+    // coefficient with h_k = 0; h_k cancels it.
     Vector power = Vector::Zero(count);
     power[0] = 1.0;
     double sum = 0.0;

@@ -1,4 +1,4 @@
-// A change of the variable of power series: reversion and composition, truncated.
+// Change of the variable of truncated power series: reversion and composition.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,15 @@
 
 namespace eigentrail {
 
-/// Coefficients of the inverse function of sigma(h), both zero at zero; sigma_1 must not vanish.
+/// Coefficients of the inverse function h(u) of u = sigma(h); both have constant term 0. sigma_1 must not be
+/// zero.
 Vector reversion(const Vector& sigma);
 
-/// Row j: coefficients of h(u)^j.
+/// Table of powers: row j holds the coefficients of h(u)^j. Square, of the size of h.
 Matrix power_table(const Vector& h);
 
-/// Series with the coefficients as columns, composed with h(u) in place; a constant stays one column.
+/// Composes a series, whose coefficients are columns, with h(u) in place; `powers` is the power table of h. A
+/// constant series keeps its single column.
 template <class Series>
 void compose_columns(Series& series, const Matrix& powers) {
   if (series.cols() <= 1) return;

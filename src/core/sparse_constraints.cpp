@@ -38,7 +38,8 @@ Matrix SparseConstraints::pseudo_inverse_times(const Matrix& B) const {
 }
 
 Matrix SparseConstraints::allowed_part(const Matrix& X) const {
-  // Twice is enough: what the first time leaves of the row space is rounding of X, the second time of that.
+  // One repetition is enough: the first projection leaves a part in the row space of the size of the rounding
+  // error of X, the second one the rounding error of that part.
   Matrix Y = X - S_transposed_ * normal_.solve(S_ * X);
   Y -= S_transposed_ * normal_.solve(S_ * Y);
   return Y;

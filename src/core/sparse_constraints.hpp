@@ -1,10 +1,11 @@
-// Sparse constraint Jacobian A (m x n) of full row rank, by its normal equations:
+// Factorization of a sparse constraint Jacobian A (m x n) of full row rank by its normal equations:
 //
 //     S = D A,  S S^T = P^T L E L^T P,    A+ = S^T (S S^T)^-1 D,    (A^T)+ = D (S S^T)^-1 S
 //
-// with D scaling the rows to unit length. Pivot i, an entry of E, is the squared distance of row i to the
-// span of those before it. The normal equations square the condition; where a pivot is small they are not
-// used, and one refinement makes up for the rest.
+// D scales the rows to unit length, P is a fill-reducing permutation. Pivot i, an entry of the diagonal E, is
+// the squared distance of row i from the span of the rows before it. The normal equations square the
+// condition number: they are not used if a pivot is small, and one step of iterative refinement restores the
+// digits that they lose otherwise.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -17,14 +18,15 @@ namespace eigentrail {
 
 class SparseConstraints {
  public:
-  /// A row closer to the others than this leaves A to the rank-revealing factorization: the normal equations
-  /// then lose six of sixteen digits, which the refinement brings back.
+  /// Smallest distance of a unit row from the span of the rows before it, relative to the largest. Below it A
+  /// is left to the rank-revealing factorization. At this limit the normal equations lose six of sixteen
+  /// digits, which the refinement restores.
   static constexpr double least_independence = 1e-3;
 
-  /// Factors A; null where its rows are not safely independent.
+  /// Factors A. Null if A has zero rows, more rows than columns, or rows that are not clearly independent.
   static std::shared_ptr<const SparseConstraints> factor(const SparseMatrix& A);
 
-  /// As of ConstraintFactorization.
+  /// As in ConstraintFactorization.
   double independence() const { return independence_; }
   const Matrix& null_basis() const;
   Matrix allowed_part(const Matrix& X) const;
@@ -41,7 +43,7 @@ class SparseConstraints {
   double independence_ = 1.0;
   Eigen::SimplicialLDLT<SparseMatrix> normal_;
   mutable std::once_flag asked_;
-  mutable Matrix null_basis_;  ///< empty until it is asked for
+  mutable Matrix null_basis_;  ///< empty until null_basis() is called
 };
 
 }  // namespace eigentrail

@@ -7,13 +7,15 @@
 
 namespace eigentrail {
 
-/// What one call has to do. Its members but `next_` are guarded by the pool's mutex.
+/// The work of one call of run. The pool's mutex guards all members but `next_`, which is atomic. `seats_` is
+/// the number of helper threads that may still join.
 class ThreadPool::Batch {
  public:
   Batch(std::size_t count, std::size_t seats, const std::function<void(std::size_t)>& work)
       : count_(count), work_(work), seats_(seats) {}
 
-  /// Takes pieces until none is left; called without the pool's mutex.
+  /// Works until no piece is left; the caller must not hold the pool's mutex. Returns the exception if a
+  /// piece throws.
   std::exception_ptr take_pieces() {
     try {
       for (std::size_t i = next_++; i < count_; i = next_++) work_(i);
@@ -24,7 +26,7 @@ class ThreadPool::Batch {
     return nullptr;
   }
 
-  /// A helper takes a seat; whether another is left.
+  /// A helper joins. Returns whether another helper may join.
   bool join() {
     ++inside_;
     return --seats_ > 0;
@@ -32,7 +34,7 @@ class ThreadPool::Batch {
 
   void leave(std::exception_ptr failure) {
     note(std::move(failure));
-    // Under the mutex: the batch is gone as soon as its owner knows that nobody is inside.
+    // The mutex must be held here: the batch is destroyed as soon as its owner sees that no helper is inside.
     if (--inside_ == 0) empty_.notify_one();
   }
 
@@ -89,7 +91,7 @@ std::size_t ThreadPool::n_helpers() const {
   return helpers_.size();
 }
 
-/// What cannot be had is not missed: the work is done by those that there are.
+/// If the system cannot start more threads, those that exist do the work.
 void ThreadPool::make_helpers(std::size_t wanted) {
   try {
     while (helpers_.size() < wanted) helpers_.emplace_back([this] { help(); });

@@ -1,7 +1,8 @@
-// Threads that are made once and wait for work.
+// Threads that are created once and wait for work.
 //
-// oneTBB would do; but its library is not compiled for the thread sanitizer, which then takes its own
-// hand-over of tasks for races. Told to overlook those it would overlook ours, too.
+// Intel's oneTBB could do this, but its library is not compiled for the thread sanitizer, which then reports
+// its internal transfer of tasks as data races. Suppressing these reports would also hide races of
+// eigentrail.
 #pragma once
 
 #include <condition_variable>
@@ -14,8 +15,9 @@
 
 namespace eigentrail {
 
-/// Shares pieces of work among the thread that asks for it and helpers. Who asks works, too, and waits only
-/// for helpers that have begun: work may ask for more work, at worst it does it alone.
+/// Distributes pieces of work between the calling thread and helper threads. The caller works as well, and
+/// waits only for helpers that have begun. Work may therefore request further work without a deadlock: in the
+/// worst case the caller does all of it.
 class ThreadPool {
  public:
   ThreadPool() = default;
@@ -23,12 +25,12 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Calls work(0) ... work(count - 1), in no particular order, by at most `threads` >= 1 threads at once.
-  /// After an exception nothing new is begun; it is rethrown when all have ended. May be called by many
-  /// threads.
+  /// Calls work(0) ... work(count - 1) in no particular order, on at most `threads` >= 1 threads at once.
+  /// After an exception no new call begins; the exception is rethrown when all running calls have ended. May
+  /// be called from several threads at once.
   void run(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work);
 
-  /// Helpers made so far: as many as were wanted at once.
+  /// Number of helper threads created so far.
   std::size_t n_helpers() const;
 
  private:
@@ -39,7 +41,7 @@ class ThreadPool {
 
   mutable std::mutex mutex_;
   std::condition_variable work_or_end_;
-  std::list<Batch*> open_;  ///< those that helpers may join, oldest first
+  std::list<Batch*> open_;  ///< batches that helpers may join, oldest first
   bool ends_ = false;
   std::vector<std::jthread> helpers_;
 };

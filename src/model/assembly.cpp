@@ -20,7 +20,7 @@ std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
   return series;
 }
 
-/// Adds a series to an entry of a matrix series and notes whether all its coefficients are finite.
+/// Adds a series to an entry of a matrix series. Sets `finite` to false if a coefficient is not finite.
 template <class Real, int Q>
 void add_entry(Scatter<Real, Q>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
   using std::isfinite;
@@ -37,8 +37,8 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Adds entry (i, j) of a block in rows of `to` and columns of `from`: weight_to weight_from value for every
-/// two of their shares.
+/// Adds entry (i, j) of a 3 x 3 block whose rows belong to `to` and whose columns belong to `from`: weight_to
+/// weight_from value for every pair of their terms.
 template <class Real, int Q>
 void add_weighted(Scatter<Real, Q>& sum, const PathValues<Series<Real, Q>>& values, const Place& to, int i,
                   const Place& from, int j, const Series<Real, Q>& value, bool& finite) {
@@ -51,8 +51,8 @@ void add_weighted(Scatter<Real, Q>& sum, const PathValues<Series<Real, Q>>& valu
   }
 }
 
-/// An element's moving vectors. What follows knows nothing of the element's kind, so that the compiler makes
-/// it once per order and not once per order and kind.
+/// The moving vectors and strength of an element. The functions below do not depend on the type of the
+/// element, so the compiler instantiates them once per order and not once per order and type.
 struct Joined {
   const std::vector<Place>& arguments;
   const Quantity& strength;
@@ -65,7 +65,7 @@ std::array<Vec3<Base>, max_arguments> positions(const Joined& joined, const Path
   return result;
 }
 
-/// The derivative of an element's force in one direction is a column of M, C or K.
+/// Adds the derivative of an element's force in one direction, a column of M, C or K.
 template <class Real, int Q>
 void add_column(const Joined& joined, int component, const ElementView<Series<Series<Real, Q>, 1>>& view,
                 const PathValues<Series<Real, Q>>& values, Scatter<Real, Q>& matrix, bool& finite) {
@@ -127,7 +127,7 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
   return finite;
 }
 
-/// The shares of a difference: visit(term, sign).
+/// Calls visit(term, sign) for all terms of a difference.
 template <class Visit>
 void for_each_share(const Difference& difference, Visit visit) {
   double sign = 1.0;
@@ -145,7 +145,7 @@ Vec3<Base> value_of(const Difference& difference, const PathValues<Base>& values
   return difference.second ? Vec3<Base>(first - values.vector(*difference.second)) : first;
 }
 
-/// One row of c, and what its gradient is made of: visit(term, g) for all g = dc / d(triple).
+/// Value of one row of c. Calls visit(column, g) for every term of its gradient g = dc / dx_column.
 template <class Real, int Q, class Visit>
 Series<Real, Q> evaluate_row(const ConstraintRow& row, const PathValues<Series<Real, Q>>& values,
                              Visit visit) {
@@ -169,7 +169,8 @@ Series<Real, Q> evaluate_row(const ConstraintRow& row, const PathValues<Series<R
   return a.dot(b) - offset;
 }
 
-/// Rows of A, and (A^T lambda)_/x (Eq. 18): lambda a_/q b_/q' for every two shares, and its transpose.
+/// Adds the rows of A and (A^T lambda)_/x (Eq. 18): for every pair of terms of a and b, lambda a_/q b_/q' and
+/// its transpose.
 template <class Real, int Q>
 bool linearize_constraint(const Constraint& constraint, const PathValues<Series<Real, Q>>& values,
                           LinearizationScatter<Real, Q>& sum) {
@@ -196,7 +197,7 @@ bool linearize_constraint(const Constraint& constraint, const PathValues<Series<
   return finite;
 }
 
-/// c, and A^T lambda.
+/// Adds c, and A^T lambda to the forces.
 template <class Real, int Q>
 bool constraint_residual(const Constraint& constraint, const PathValues<Series<Real, Q>>& values,
                          BasicSteadyResidual<Real>& sum) {

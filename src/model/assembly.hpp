@@ -1,16 +1,16 @@
-// Evaluation of all elements of a multibody model in series of order Q along a path; Real is double, or
-// Extended for references.
+// Evaluates all elements of a multibody model as power series of order Q along a path. Real is double, or
+// Extended for reference solutions.
 #pragma once
 
 #include "model/registry.hpp"
 
 namespace eigentrail {
 
-/// What a multibody model is made of. Counters of constraint kinds follow those of elements.
+/// The data of a multibody model. Counters of constraint kinds follow those of elements.
 struct MultibodyData {
   Elements elements;
   std::vector<Constraint> constraints;
-  std::vector<Expression> quantities;  ///< by slot
+  std::vector<Expression> quantities;  ///< by Quantity::slot
   Parameters parameters;
   int n_coordinates = 0;
   int n_constraints = 0;
@@ -27,8 +27,8 @@ class Assembly {
  private:
   using Base = Series<Real, Q>;
 
-  /// Calls one of the two for everything the scene has, and counts it. The fault names the first that is not
-  /// finite.
+  /// Calls add_force or add_rows for every element and constraint and counts the calls. The fault names the
+  /// first one whose result is not finite.
   template <class Force, class Rows>
   EvaluationFault visit_all(std::vector<std::uint64_t>& counts, Force add_force, Rows add_rows) const;
 

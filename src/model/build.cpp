@@ -10,7 +10,7 @@
 namespace eigentrail {
 namespace {
 
-/// Entries of the matrices that depend on parameters are numbers all along the range.
+/// Checks that the entries of the matrices that depend on parameters are finite at the points to be checked.
 void check_entries(const Scene& scene, const ModelRequest& request) {
   Draft draft(scene, request);
   TableReader table = draft.reader(*tables(scene, "matrix_family").front(), "[matrix_family]");

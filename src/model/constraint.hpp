@@ -1,10 +1,11 @@
-// Ideal constraints as data. Every row is the product of two vectors that are linear in the coordinates,
+// Ideal constraints as data. Every row is the scalar product of two vectors that are linear in the
+// coordinates,
 //
 //     c = (a1 - a2) . (b1 - b2) - offset,
 //
-// or one component of such a vector, c = (a1 - a2)_i - offset: lengths, right angles, coinciding places. With
-// points and directors as coordinates all joints are made of these, so A is linear and (A^T lambda)_/x
-// constant in x, and both are written down without differentiation.
+// or one component of such a vector, c = (a1 - a2)_i - offset. Lengths, right angles and coinciding places
+// have this form. With points and directors as coordinates, all joints consist of such rows. A is then linear
+// in x and (A^T lambda)_/x is constant in x; both are formed without differentiation.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace eigentrail {
 
-/// first - second, or first alone.
+/// first - second, or only first.
 struct Difference {
   Place first;
   std::optional<Place> second;
@@ -26,12 +27,12 @@ struct Difference {
 
 struct ConstraintRow {
   Difference a;
-  std::optional<Difference> b;  ///< absent: the row is component `axis` of a
+  std::optional<Difference> b;  ///< if absent, the row is component `axis` of a
   int axis = 0;
   Quantity offset;
 };
 
-/// A constraint of the scene: its rows, one multiplier each.
+/// A constraint of the scene: its rows, with one multiplier each.
 struct Constraint {
   int kind = 0;  ///< index into constraint_kinds()
   std::string label;

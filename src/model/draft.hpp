@@ -1,4 +1,4 @@
-// What a multibody scene is read into, and what its tables may refer to.
+// Intermediate data of reading a multibody scene, and the places and names to which its tables may refer.
 #pragma once
 
 #include <map>
@@ -14,13 +14,13 @@ namespace eigentrail {
 /// A body as the scene describes it.
 struct BodyDraft {
   std::string name;
-  int triple = 0;                                   ///< of the origin; the directors follow
-  ExpressionVector position;                        ///< of the origin, starting guess
+  int triple = 0;             ///< index of the coordinate triple of the origin; those of the directors follow
+  ExpressionVector position;  ///< of the origin, starting guess
   ExpressionRotation rotation;                      ///< starting guess
-  std::map<std::string, ExpressionVector> markers;  ///< in the body's axes
+  std::map<std::string, ExpressionVector> markers;  ///< in body axes
 };
 
-/// The body that a place or direction moves with; none: a point, or the frame.
+/// What a place or direction moves with: a body, a point, or neither (the frame).
 struct Carrier {
   int body = -1;
   int point = -1;
@@ -35,65 +35,69 @@ struct Draft {
   const ModelRequest& request;
   std::vector<Vector> check_at;  ///< SI values of the parameters at the points that the request lists
   std::set<int> used;
-  std::string begun;           ///< the table that is being read, for messages about what is made of it
-  SourceLocation begun_where;  ///< its place
-  std::size_t operations = 0;  ///< in all quantities
+  /// Label of the table that is being read; used in messages about expressions formed from it.
+  std::string begun;
+  SourceLocation begun_where;  ///< position of this table
+  std::size_t operations = 0;  ///< number of operations in all quantities
   MultibodyData data;
-  std::vector<std::string> points;  ///< by triple, before those of bodies
+  std::vector<std::string> points;  ///< points by triple; the bodies follow them
   std::vector<BodyDraft> bodies;
-  std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of their names
+  std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of mass_names
   std::vector<std::string> mass_names;
-  std::vector<Expression> guess;  ///< one per coordinate
+  std::vector<Expression> guess;  ///< starting guess, one per coordinate
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
-  std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by the joint's label
-  std::map<std::string, Quantity> strengths;                    ///< by effect, where they are asked for
+  std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by label of the joint
+  std::map<std::string, Quantity> strengths;                    ///< by effect; empty unless requested
   std::vector<std::string> strength_names;                      ///< in the order of their parameters
 
   TableReader reader(const Table& table, const std::string& label);
 
   Quantity quantity(const Expression& expression);
-  /// What multiplies the forces of an effect.
+  /// The quantity that multiplies the forces of an effect; without slot if strengths are not requested.
   Quantity strength(const std::string& effect);
-  /// The scene's parameters and those of the strengths.
+  /// The parameters of the scene and those of the strengths.
   Parameters parameters() const;
   std::array<Quantity, 3> vector(const ExpressionVector& e) {
     return {quantity(e[0]), quantity(e[1]), quantity(e[2])};
   }
 
-  // Places and directions. `carrier`, where given, becomes what they move with.
+  // Places and directions. On return, `carrier` (if given) is what they move with.
 
   Place point_place(int point) const { return {{{point, {}}}, {}, -1}; }
   Place fixed_place(const ExpressionVector& at) { return {{}, vector(at), -1}; }
-  /// The place `at`, in the axes of a body.
+  /// The place with coordinates `at` in the axes of a body.
   Place on_body(int body, const ExpressionVector& at);
-  /// The direction `along`, in the axes of the carrier.
+  /// The direction with components `along` in the axes of the carrier.
   Place direction_on(const Carrier& carrier, const ExpressionVector& along);
   std::array<Place, 3> directors(int body) const;
 
-  /// A name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
+  /// Reads a name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
   Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
   /// The same without fixed places.
   Place read_moving_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
-  /// A direction [x, y, z] of the frame, an axis "blade.x" of a body, or { body = "blade", along = [x, y, z]
-  /// }. Returns its components in the axes of its carrier, as unit vector.
+  /// Reads a direction [x, y, z] of the frame, an axis "blade.x" of a body, or
+  /// { body = "blade", along = [x, y, z] }. Returns the components of its unit vector in the axes of its
+  /// carrier.
   ExpressionVector read_direction(TableReader& table, const std::string& key, Carrier& carrier);
   int read_body(TableReader& table, const std::string& key);
 
-  /// Components in the frame, at the starting guess, of a direction in the axes of a carrier; and back.
+  /// Components in the frame, at the starting guess, of a direction given in the axes of a carrier; and the
+  /// reverse.
   ExpressionVector in_frame(const Carrier& carrier, const ExpressionVector& along) const;
   ExpressionVector in_axes_of(const Carrier& carrier, const ExpressionVector& along) const;
 
   /// Adds the rows of a constraint; `label` names its multipliers.
   void add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows);
 
-  // Numbers and vectors whose values are checked; `otherwise`, where the key may be left out.
+  // Numbers and vectors whose values are checked. `otherwise` is the default value; without it the key is
+  // required.
 
   Expression read_number(TableReader& table, const std::string& key, Range range,
                          std::optional<double> otherwise = std::nullopt) const;
   ExpressionVector read_vector(TableReader& table, const std::string& key, Range range,
                                std::optional<ExpressionVector> otherwise = std::nullopt) const;
-  /// A position to start from: finite where the trace begins, which is all that is asked of it.
+  /// Reads a starting position. It only has to be finite where the trace begins.
   ExpressionVector read_guess(TableReader& table, const std::string& key) const;
 
   // Checks at the points of the trace that the request lists.
@@ -101,7 +105,7 @@ struct Draft {
   std::vector<double> check_values(const Expression& expression) const;
   void check_range(const TableReader& reader, const std::string& key, const Expression& expression,
                    Range range) const;
-  /// A vector of finite components; of non-zero length where `range` asks for more than any value.
+  /// All components must be finite; the length must not be zero unless `range` is Range::any.
   void check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
                    Range range) const;
   Eigen::Vector3d vector_at(const ExpressionVector& v, std::size_t i) const;
@@ -112,14 +116,14 @@ struct Draft {
   Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
 };
 
-/// A name for the i-th table of a kind: "spring 2".
+/// A name for the table with index i of a kind: "spring 2" for i = 1.
 std::string numbered(std::string_view name, std::size_t index);
 
-/// Reads [[body]] tables (read_bodies.cpp), and the tables of all constraints (read_constraints.cpp).
+/// Read the [[body]] tables (read_bodies.cpp) and the tables of all constraints (read_constraints.cpp).
 void read_bodies(Draft& draft);
 void read_constraints(Draft& draft);
 
-/// Every kind of constraint, with its keys; the counters of a run are in this order.
+/// A kind of constraint with its keys. The counters of a run are in the order of constraint_kinds().
 struct ConstraintKind {
   std::string_view name;
   std::string_view description;

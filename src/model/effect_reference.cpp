@@ -1,4 +1,4 @@
-// What a scene can say about each effect, collected from the registry.
+// Describes the keys of all effects, collected from the registry.
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/registry.hpp"
@@ -7,7 +7,7 @@
 namespace eigentrail {
 namespace {
 
-/// Collects an element's keys.
+/// Collects the keys of an element.
 class HelpCollector {
  public:
   explicit HelpCollector(std::vector<FieldHelp>& fields) : fields_(fields) {}
@@ -42,7 +42,7 @@ class HelpCollector {
   std::vector<FieldHelp>& fields_;
 };
 
-/// Keys of a table that is no single element.
+/// Keys of a table that has its own reader.
 template <class Element>
 std::vector<FieldHelp> table_fields() {
   if constexpr (std::is_same_v<Element, PointMass>) {

@@ -1,13 +1,14 @@
-// What an element (one effect of the scene) is made of, and what it sees when it is evaluated.
+// Parts of an element (one effect of the scene), and the interface through which it is evaluated.
 //
 // An element is a struct with
-//   name, description, contribution        facts that `explain` and the structure flags are derived from
-//   depends                                which of position, velocity, acceleration its force uses
+//   name, description, contribution        from these `explain` and the structure flags are derived
+//   depends                                which of position, velocity, acceleration the force depends on
 //   fields(self, visit)                    its data, listed once: scene keys, units, roles, help
-//   force(at)                              its physics, written once for every scalar
-// Its force acts through moving vectors: places of points and bodies, and directions that turn with bodies.
-// All are linear in the coordinates, so a derivative takes three directions per vector, however many
-// coordinates the vector is made of. Adding an effect: one file in elements/ and one line in registry.hpp.
+//   force(at)                              its force, written once for every scalar type
+// The force acts on moving vectors: positions of points and places on bodies, and directions that rotate with
+// bodies. All are linear in the coordinates. Differentiation therefore takes three directions per vector,
+// independent of the number of coordinates that form it. A new effect needs one file in elements/ and one
+// line in registry.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,43 +28,43 @@ namespace eigentrail {
 template <class Scalar>
 using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
 
-/// Most moving vectors that one element may join.
+/// Largest number of moving vectors of one element.
 inline constexpr int max_arguments = 4;
 
-/// A number that may depend on the parameters; `slot` is its place in the table of values of an evaluation.
+/// A number that may depend on the parameters. `slot` is its index in the table of values of an evaluation.
 struct Quantity {
   Expression expression;
   int slot = -1;
 };
 
-/// A share of a moving vector: a weight times a triple of coordinates. No slot: the weight is one.
+/// One term of a moving vector: a weight times a triple of coordinates. A weight without slot is one.
 struct Term {
   int triple = -1;
   Quantity weight;
 };
 
 /// A vector of the scene: fixed in the frame, or moving with a point or a body. The position of a point is
-/// its triple; a place on a body is origin + sum a_i director_i, a direction on it sum b_i director_i: both
-/// linear in the coordinates.
+/// its triple; a place on a body is origin + sum a_i director_i; a direction on a body is sum b_i director_i.
+/// All are linear in the coordinates.
 struct Place {
-  std::vector<Term> terms;  ///< empty: fixed
+  std::vector<Term> terms;  ///< empty if the vector is fixed
   std::array<Quantity, 3> fixed;
-  int argument = -1;  ///< which of its element's moving vectors it is
+  int argument = -1;  ///< index into the moving vectors of its element; -1 if fixed
 
   bool moves() const { return !terms.empty(); }
 };
 
-/// A coordinate direction: 0 x, 1 y, 2 z.
+/// A coordinate axis: 0 x, 1 y, 2 z.
 struct Axis {
   int index = 0;
 };
 
-/// Where a quantity enters the equations; decides what is constant along a path.
+/// Where a quantity enters the equations; determines what is constant along a path.
 struct Enters {
   bool mass = false;
   bool damping = false;
-  bool force = false;       ///< steady force, and with it the stiffness
-  bool constraint = false;  ///< c, and with it A
+  bool force = false;       ///< steady force, and therefore the stiffness
+  bool constraint = false;  ///< c, and therefore A
 };
 inline constexpr Enters enters_mass{.mass = true};
 inline constexpr Enters enters_damping{.damping = true};
@@ -71,31 +72,30 @@ inline constexpr Enters enters_force{.force = true};
 inline constexpr Enters enters_damping_and_force{.damping = true, .force = true};
 inline constexpr Enters enters_constraint{.constraint = true};
 
-/// Values for which a quantity makes sense. Of a vector, positive means of non-zero length.
+/// Allowed values of a quantity. For a vector, positive means of nonzero length.
 enum class Range { any, non_negative, positive };
 
-/// A quantity's entry in an element's list of fields.
+/// Entry of a quantity in the list of fields of an element.
 struct QuantityField {
   std::string_view key;
   std::string_view unit;
   Enters enters;
   std::string_view help;
   Range range = Range::any;
-  std::optional<double> otherwise =
-      std::nullopt;  ///< value when the scene is silent; absent: the key is required
+  std::optional<double> otherwise = std::nullopt;  ///< default value; absent: the key is required
 };
 
-/// Kinematic quantities a force depends on; the others are never differentiated.
+/// Kinematic quantities on which a force depends. It is differentiated only with respect to these.
 struct Dependence {
   bool position = false;
   bool velocity = false;
   bool acceleration = false;
-  bool turning = false;  ///< what it takes from velocities depends on positions: C follows the equilibrium
+  bool turning = false;  ///< C depends on positions and thus changes with the equilibrium
 };
 
 enum class Motion { position, velocity, acceleration };
 
-/// One direction of differentiation: a component of a moving vector's position, velocity or acceleration.
+/// A direction of differentiation: a component of the position, velocity or acceleration of a moving vector.
 struct Seed {
   Motion motion = Motion::position;
   int component = -1;  ///< 3 * argument + axis; -1: none
@@ -103,7 +103,7 @@ struct Seed {
 
 namespace detail {
 
-/// The series along the path beneath a scalar that may carry a derivative.
+/// The series along the path on which a scalar with a derivative is built.
 template <class Scalar>
 struct BaseOf {
   using type = Scalar;
@@ -115,7 +115,7 @@ struct BaseOf<Series<Series<Real, Q>, 1>> {
 
 }  // namespace detail
 
-/// Series along the path that an evaluation starts from.
+/// Power series along the path of all data of an evaluation.
 template <class Base>
 struct PathValues {
   std::vector<Vec3<Base>> triples;  ///< coordinates
@@ -133,21 +133,21 @@ struct PathValues {
     return sum;
   }
 
-  /// weight value; no slot: the weight is one.
+  /// weight * value; a weight without slot is one.
   template <class Value>
   Value times(const Quantity& weight, const Value& value) const {
     return weight.slot < 0 ? value : Value(values[weight.slot] * value);
   }
 };
 
-/// What an element sees and writes to during one evaluation. Scalar is Series<Real, Q> (values along the
-/// path), or that nested once: with the derivative in direction `seed`.
+/// Input and output of an element during one evaluation. Scalar is Series<Real, Q> (values along the path),
+/// or a series of it of order 1: with the derivative in direction `seed`.
 template <class Scalar>
 class ElementView {
  public:
   using Base = typename detail::BaseOf<Scalar>::type;
 
-  /// `arguments` are the positions of the element's moving vectors.
+  /// `arguments` are the positions of the moving vectors of the element.
   ElementView(const PathValues<Base>& path, std::span<const Vec3<Base>> arguments, Seed seed = {})
       : path_(path), arguments_(arguments), seed_(seed) {
     for (std::size_t i = 0; i < arguments.size(); ++i) force_[i].setZero();
@@ -159,7 +159,7 @@ class ElementView {
     return {value(vector[0]), value(vector[1]), value(vector[2])};
   }
 
-  /// Position in the frame, m; of a direction the direction itself.
+  /// Position in the frame, m; for a direction its components.
   Vec3<Scalar> position(const Place& place) const {
     if (place.argument < 0) return value(place.fixed);
     const Vec3<Base>& at = arguments_[static_cast<std::size_t>(place.argument)];
@@ -167,15 +167,15 @@ class ElementView {
             seeded(at[2], Motion::position, place, 2)};
   }
 
-  /// Velocity relative to the frame, m/s: zero at the steady state, present as a direction of
+  /// Velocity relative to the frame, m/s. Its value is zero at the steady state; it serves as a direction of
   /// differentiation.
   Vec3<Scalar> velocity(const Place& place) const { return rate(place, Motion::velocity); }
 
-  /// Acceleration relative to the frame, m/s^2: likewise.
+  /// Acceleration relative to the frame, m/s^2; likewise zero.
   Vec3<Scalar> acceleration(const Place& place) const { return rate(place, Motion::acceleration); }
 
-  /// Adds a force, N, on a place; on a fixed place it does nothing. On a direction it is what does work on
-  /// its change, N m.
+  /// Adds a force (N) at a place; without effect on a fixed place. At a direction, it is the generalized
+  /// force (N m) that does work on changes of the direction.
   void add_force(const Place& place, const Vec3<Scalar>& force) {
     if (place.argument >= 0) force_[static_cast<std::size_t>(place.argument)] += force;
   }

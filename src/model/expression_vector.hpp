@@ -9,7 +9,7 @@ namespace eigentrail {
 
 using ExpressionVector = std::array<Expression, 3>;
 
-/// Columns: the axes of a body in the frame.
+/// Rotation of a body; its columns are the axes of the body in the frame.
 using ExpressionRotation = std::array<ExpressionVector, 3>;
 
 inline ExpressionVector operator+(const ExpressionVector& a, const ExpressionVector& b) {
@@ -31,12 +31,12 @@ inline ExpressionVector normalized(const ExpressionVector& a) {
   return (Expression(1.0) / sqrt(dot(a, a))) * a;
 }
 
-/// Components in the frame of a vector given in the axes of a body, R a.
+/// R a: components in the frame of a vector a given in body axes.
 inline ExpressionVector turned(const ExpressionRotation& R, const ExpressionVector& a) {
   return a[0] * R[0] + a[1] * R[1] + a[2] * R[2];
 }
 
-/// Components in the axes of a body of a vector given in the frame, R^T a.
+/// R^T a: components in body axes of a vector a given in the frame.
 inline ExpressionVector turned_back(const ExpressionRotation& R, const ExpressionVector& a) {
   return {dot(R[0], a), dot(R[1], a), dot(R[2], a)};
 }

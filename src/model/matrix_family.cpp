@@ -6,7 +6,7 @@
 
 namespace eigentrail {
 
-/// SI values of the parameters along the path, the variable among them.
+/// SI values of the parameters along the path, and the variable of the family.
 template <class Scalar>
 struct ParameterSeries {
   Scalar variable;
@@ -30,14 +30,15 @@ ParameterSeries<Series<Real, Q>> parameter_series(const Parameters& parameters, 
   return result;
 }
 
-/// Coefficients of the polynomial along the path up to h^order, trailing zeros dropped.
+/// Coefficients of the polynomial along the path up to h^order, without trailing zeros.
 template <class Real, int Q>
 auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
               const ParameterSeries<Series<Real, Q>>& parameters, int order, bool& finite) {
   using std::isfinite;
   using Scalar = Series<Real, Q>;
   using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  std::size_t count = 1;  // matrices of zeros would cost more than the others
+  // only as many coefficients as are nonzero: zero matrices would cost as much as others
+  std::size_t count = 1;
   const auto look_at = [&](const Scalar& factor) {
     for (int k = 0; k <= order; ++k) {
       finite = finite && isfinite(factor[k]);
@@ -73,7 +74,7 @@ auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Inde
 
 enum class Symmetry { symmetric, skew, none };
 
-/// Symmetry of all coefficients; entries that are expressions count as unsymmetric off the diagonal.
+/// Symmetry of all coefficients. Off the diagonal, entries that are expressions count as unsymmetric.
 Symmetry symmetry(const MatrixPolynomial& polynomial) {
   bool symmetric = true;
   bool skew = true;
@@ -145,7 +146,7 @@ Structure MatrixFamily::structure(int traced_parameter) const {
 
 EvaluationFault MatrixFamily::residual(const Path& path, int order, SteadyResidual& result,
                                        EvaluationCounts&) const {
-  // x = 0 and lambda = 0 solve A^T lambda + K x = 0, A x = 0 for every parameter.
+  // x = 0 and lambda = 0 solve A^T lambda + K x = 0, A x = 0 for all parameters.
   if (!path.x.isZero(0.0) || !path.lambda.isZero(0.0)) {
     throw std::invalid_argument("MatrixFamily: expected the equilibrium x = 0, lambda = 0");
   }

@@ -1,4 +1,4 @@
-// Model given by its matrices: (M(p) s^2 + C(p) s + K(p)) z = 0, optionally with constraints A(p) x = 0.
+// A model given by matrices: (M(p) s^2 + C(p) s + K(p)) z = 0, optionally with constraints A(p) x = 0.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,8 @@
 
 namespace eigentrail {
 
-/// A matrix polynomial in the family's variable; coefficients are numbers plus entries that are expressions.
+/// A matrix polynomial in the variable of the family. Its coefficients are constant matrices plus entries
+/// that are expressions of parameters.
 struct MatrixPolynomial {
   struct Entry {
     int power = 0;
@@ -17,7 +18,7 @@ struct MatrixPolynomial {
     Expression expression;
   };
   std::vector<Matrix> coefficients;  ///< by power, lowest first
-  std::vector<Entry> entries;        ///< added to the numbers
+  std::vector<Entry> entries;        ///< added to the constant matrices
 
   bool empty() const { return coefficients.empty(); }
 };
@@ -25,7 +26,7 @@ struct MatrixPolynomial {
 class MatrixFamily final : public Model {
  public:
   /// `variable` is the index of the parameter whose powers multiply the coefficients. C and A may be empty.
-  /// Shapes are n x n, of A m x n; the caller has checked them.
+  /// M, C and K are n x n, A is m x n; the caller must have checked the shapes.
   MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
                MatrixPolynomial K, MatrixPolynomial A);
 
@@ -51,7 +52,7 @@ class MatrixFamily final : public Model {
   MatrixPolynomial M_, C_, K_, A_;
 };
 
-/// Reads [matrix_family] of a scene.
+/// Reads [matrix_family] of a scene. Throws InputError for every fault in it.
 std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere);
 
 }  // namespace eigentrail

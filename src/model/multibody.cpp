@@ -5,7 +5,7 @@
 namespace eigentrail {
 namespace {
 
-/// Collects into `enters` the roles of all quantities that depend on the traced parameter.
+/// Adds the roles of all quantities that depend on the traced parameter to `enters`.
 class TracedRoles {
  public:
   TracedRoles(const Parameters& parameters, int traced, Enters& enters)
@@ -48,7 +48,8 @@ class TracedRoles {
     }
   }
 
-  Enters place_role;  ///< what places enter: what the element at hand depends on, or constraints
+  /// Role of the weights and coordinates of places, for the current element or for constraints.
+  Enters place_role;
 
  private:
   void sides(const Difference& difference) {
@@ -129,7 +130,8 @@ Structure Multibody::structure(int traced_parameter) const {
     roles.constraint(constraint);
     curved_constraints = curved_constraints || is_curved(constraint);
   }
-  // Masses of the registry do not depend on x; K and A follow the equilibrium, and so does some damping.
+  // Masses do not depend on x. K and curved constraints (A) change with the equilibrium, and so do some
+  // damping matrices.
   result.fixed_equilibrium = !changes.force && !changes.constraint;
   result.constant_mass = !changes.mass;
   result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);

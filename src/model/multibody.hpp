@@ -1,4 +1,5 @@
-// Model of points joined by elements. Coordinates: x, y, z of every point, in the order of the scene.
+// Model of points and rigid bodies with elements and constraints. Coordinates: x, y, z of every point in the
+// order of the scene, then origin and three directors of every body.
 #pragma once
 
 #include "model/assembly.hpp"

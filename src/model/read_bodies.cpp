@@ -7,7 +7,7 @@
 namespace eigentrail {
 namespace {
 
-/// Rodrigues' formula for a unit axis: R v = cos v + sin (k x v) + (1 - cos) (k . v) k.
+/// Rotation about the unit axis k by Rodrigues' formula: R v = cos v + sin (k x v) + (1 - cos) (k . v) k.
 ExpressionRotation about_axis(const ExpressionVector& k, const Expression& angle) {
   const Expression c = cos(angle);
   const Expression s = sin(angle);
@@ -32,7 +32,7 @@ ExpressionRotation read_axis_angle(Draft& draft, TableReader table) {
   return about_axis(normalized(axis), angle);
 }
 
-/// Turns one after the other about the axes of the body, each as the turns before have left it.
+/// Three successive rotations, each about an axis of the body as rotated by the ones before (intrinsic).
 ExpressionRotation read_euler(Draft& draft, TableReader table) {
   const std::string sequence = table.text("sequence");
   const ExpressionVector angles = draft.read_vector(table, "angles", Range::any);
@@ -51,7 +51,8 @@ ExpressionRotation read_euler(Draft& draft, TableReader table) {
   return R;
 }
 
-/// Two of the axes; the first of them exactly, the second as near as a right angle allows.
+/// Orientation from two of the axes. The first one is met exactly; of the second, the part normal to the
+/// first is used.
 ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector<std::size_t>& given) {
   const std::array<std::string, 3> keys = {"x_axis", "y_axis", "z_axis"};
   std::array<ExpressionVector, 2> axes;
@@ -61,6 +62,7 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d a = draft.vector_at(axes[0], i);
     const Eigen::Vector3d b = draft.vector_at(axes[1], i);
+    // Sine of the angle between the axes.
     if (a.cross(b).norm() > 1e-9 * a.norm() * b.norm()) continue;
     table.fail(keys[given[1]],
                "must not be parallel to " + keys[given[0]] + "; it is" + Draft::where_on_trace(i));
@@ -95,7 +97,7 @@ ExpressionRotation read_orientation(Draft& draft, TableReader& table) {
 
 using ExpressionMatrix = std::array<std::array<Expression, 3>, 3>;
 
-/// [Ixx, Iyy, Izz], or a symmetric matrix; about the centre of mass, in the body's axes.
+/// Reads [Ixx, Iyy, Izz] or a symmetric matrix, about the centre of mass in body axes.
 ExpressionMatrix read_inertia(Draft& draft, TableReader& table) {
   ExpressionMatrix J;
   if (!table.has("inertia")) return J;
@@ -114,8 +116,8 @@ ExpressionMatrix read_inertia(Draft& draft, TableReader& table) {
   return J;
 }
 
-/// A mass distribution has second moments tr(J)/2 - J that are not negative: each principal moment of inertia
-/// is at most the sum of the other two.
+/// Checks the inertia. A mass distribution has positive semidefinite second moments tr(J)/2 - J: each
+/// principal moment of inertia is at most the sum of the other two.
 void check_inertia(const Draft& draft, const TableReader& table, const ExpressionMatrix& J) {
   for (std::size_t k = 0; k < draft.request.check_at.size(); ++k) {
     Eigen::Matrix3d inertia;
@@ -134,7 +136,7 @@ void check_inertia(const Draft& draft, const TableReader& table, const Expressio
   }
 }
 
-/// G of a body: moments of mass about its origin.
+/// Moments G of a body about its origin.
 MassDistribution mass_distribution(Draft& draft, int body, const Expression& mass,
                                    const ExpressionVector& centre, const ExpressionMatrix& J) {
   MassDistribution masses;
@@ -165,7 +167,7 @@ void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const Expre
   }
 }
 
-/// The six products of directors: unit vectors at right angles.
+/// The six constraints on the products of directors: unit vectors at right angles.
 void add_directors(Draft& draft, int body) {
   const std::array<Place, 3> d = draft.directors(body);
   std::vector<ConstraintRow> rows;

@@ -1,4 +1,4 @@
-// Every kind of constraint: its keys, and the rows that it is made of.
+// All kinds of constraints: their keys, and the rows that they consist of.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 using Rows = std::vector<ConstraintRow>;
 using Angles = std::vector<HingeAngle>;
 
-/// The two sides of a joint: where it sits on either.
+/// A joint: the places that it connects, and what they move with.
 struct Joint {
   Carrier from_carrier, to_carrier;
   Place from, to;
@@ -35,16 +35,16 @@ Joint read_sides(Draft& draft, TableReader& table, bool needs_axes) {
   return joint;
 }
 
-/// A direction on either side of a joint: equal at the starting guess.
+/// A direction that is fixed on both sides of a joint and the same at the starting guess.
 struct SharedDirection {
-  ExpressionVector from, to;  ///< components in the axes of the sides
+  ExpressionVector from, to;  ///< components in the axes of either side
 };
 
 SharedDirection shared(const Draft& draft, const Joint& joint, const ExpressionVector& from) {
   return {from, draft.in_axes_of(joint.to_carrier, draft.in_frame(joint.from_carrier, from))};
 }
 
-/// An axis and two directions across it, right-handed, on both sides of a joint.
+/// An axis and two directions normal to it, right-handed, on both sides of a joint.
 struct JointAxes {
   SharedDirection axis, first, second;
 };
@@ -56,13 +56,14 @@ JointAxes read_axes(Draft& draft, TableReader& table, const Joint& joint, const 
     table.fail(key, "must be a direction of one of the joined bodies, or [x, y, z] in the frame");
   const ExpressionVector in_frame = draft.in_frame(carrier, along);
   const ExpressionVector axis = draft.in_axes_of(joint.from_carrier, in_frame);
-  // Any direction that is far from the axis will do, as long as it is the same all along the trace.
+  // Any direction that is not close to the axis serves, as long as the choice is the same along the whole
+  // trace.
   Eigen::Index least = 0;
   draft.vector_at(axis, 0).cwiseAbs().minCoeff(&least);
   const ExpressionVector first = normalized(cross(axis, unit_vector(static_cast<std::size_t>(least))));
   JointAxes axes{shared(draft, joint, axis), shared(draft, joint, first),
                  shared(draft, joint, cross(axis, first))};
-  // The axis as the scene gives it keeps its components where it is given.
+  // If the scene gives the axis on the second body, its components there are used exactly.
   if (carrier.body >= 0 && carrier.body == joint.to_carrier.body) axes.axis.to = along;
   return axes;
 }
@@ -76,7 +77,7 @@ class RowBuilder {
     for (int i = 0; i < 3; ++i) rows.push_back({{joint_.to, joint_.from}, {}, i, draft_.quantity(0.0)});
   }
 
-  /// A direction of one side is normal to one of the other.
+  /// A direction of one side is normal to a direction of the other side.
   void normal(const ExpressionVector& on_from, const ExpressionVector& on_to) {
     rows.push_back({{draft_.direction_on(joint_.from_carrier, on_from), {}},
                     Difference{draft_.direction_on(joint_.to_carrier, on_to), {}},
@@ -84,7 +85,7 @@ class RowBuilder {
                     draft_.quantity(0.0)});
   }
 
-  /// The distance from -> to along a direction of the first side.
+  /// The distance from -> to, along a direction of the first side.
   void along(const ExpressionVector& on_from, const Expression& distance = 0.0) {
     rows.push_back({{draft_.direction_on(joint_.from_carrier, on_from), {}},
                     Difference{joint_.to, joint_.from},
@@ -92,19 +93,19 @@ class RowBuilder {
                     draft_.quantity(distance)});
   }
 
-  /// The axes stay parallel.
+  /// The axes of both sides stay parallel.
   void parallel(const JointAxes& axes) {
     normal(axes.axis.from, axes.first.to);
     normal(axes.axis.from, axes.second.to);
   }
 
-  /// The place on the second side stays on the axis of the first.
+  /// The place on the second side stays on the axis of the first side.
   void on_axis(const JointAxes& axes) {
     along(axes.first.from);
     along(axes.second.from);
   }
 
-  /// The second side is turned by an angle about the axis, from where the starting guess has it.
+  /// The second side is rotated about the axis by an angle from its orientation in the starting guess.
   void turned_by(const JointAxes& axes, const Expression& angle) {
     normal(cos(angle) * axes.second.from - sin(angle) * axes.first.from, axes.first.to);
   }
@@ -179,7 +180,7 @@ Rows read_universal(Draft& draft, TableReader& table, Angles& angles) {
   RowBuilder builder(draft, joint);
   builder.coincide();
   builder.normal(axes.axis.from, cross.axis.to);
-  // About either axis the other one shows the angle, since it stays across.
+  // For each of the two axes, the other axis shows the angle, because it stays normal to the first.
   const Place first = draft.direction_on(joint.from_carrier, axes.axis.from);
   const Place second = draft.direction_on(joint.to_carrier, cross.axis.to);
   angles.push_back({first, draft.direction_on(joint.from_carrier, cross.axis.from), second});

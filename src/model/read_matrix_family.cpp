@@ -22,7 +22,8 @@ struct FamilyReader {
     table.fail(key, message);
   }
 
-  /// The polynomial written in the scene; its numbers go to the coefficients, its expressions to the entries.
+  /// The polynomial as written in the scene. Constants are stored in the coefficients, expressions as
+  /// entries.
   MatrixPolynomial from_scene(const std::string& key) {
     const auto matrices = table.matrices(key);
     if (matrices.empty()) fail(key, "expected at least one matrix");
@@ -58,7 +59,7 @@ struct FamilyReader {
     }
   }
 
-  /// Counts the numbers of all matrices, zeros among them.
+  /// Counts the numbers of all matrices, zeros included.
   void count(std::size_t numbers) {
     n_numbers += numbers;
     if (n_numbers > limits::matrix_numbers) {
@@ -67,7 +68,7 @@ struct FamilyReader {
     }
   }
 
-  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file; powers that are not there are zero.
+  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file; absent powers are zero.
   MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) {
     MatrixPolynomial polynomial;
     if (!file.has("/" + key)) return polynomial;
@@ -108,7 +109,7 @@ struct FamilyReader {
                                       static_cast<Eigen::Index>(shape[1]));
   }
 
-  /// A misspelt group would otherwise be a matrix that is silently zero.
+  /// Rejects unknown groups: a misspelt one would otherwise count as a matrix that is zero.
   void reject_unknown_groups(const Hdf5File& file) const {
     const std::vector<std::string> known = {"M", "C", "K", "A"};
     for (const std::string& name : file.members("/")) {
@@ -133,8 +134,8 @@ struct FamilyReader {
   }
 };
 
-/// The file named in a scene, beside the scene; it may not lead out of the scene's folder, not by links
-/// either.
+/// Path of the file that the scene names, relative to the folder of the scene. The file must be in that
+/// folder or below it, also after symbolic links are resolved.
 std::string beside_scene(const FamilyReader& reader, const std::string& name) {
   namespace fs = std::filesystem;
   const fs::path path(name);
@@ -146,7 +147,7 @@ std::string beside_scene(const FamilyReader& reader, const std::string& name) {
   std::error_code error;
   const fs::path folder = fs::canonical(beside.empty() ? "." : beside, error);
   const fs::path file = error ? fs::path() : fs::canonical(folder / path, error);
-  // A file that is missing is reported where it is opened.
+  // A missing file is reported when it is opened.
   const bool within =
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   if (!error && !within) {
@@ -156,7 +157,7 @@ std::string beside_scene(const FamilyReader& reader, const std::string& name) {
   return (beside / path).string();
 }
 
-/// The parameter whose powers multiply the coefficients: the one that the scene itself traces.
+/// Index of the parameter whose powers multiply the coefficients: the one that [trace] of the scene names.
 int variable_index(const Scene& scene) {
   for (const Table* trace : tables(scene, "trace")) {
     const Value* name = trace->find("parameter");

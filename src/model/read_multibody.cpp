@@ -11,7 +11,7 @@
 namespace eigentrail {
 namespace {
 
-/// Fills an element's fields from its table.
+/// Reads the fields of an element from its table.
 class FieldReader {
  public:
   FieldReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {}
@@ -34,7 +34,7 @@ class FieldReader {
     directors = draft_.directors(draft_.read_body(table_, std::string(key)));
   }
 
-  /// The angle of a joint; a universal joint has two, and `about` says which.
+  /// The angle of a joint. A universal joint has two; the key `about` selects one.
   void joint(std::string_view key_view, HingeAngle& angle, std::string_view) {
     const std::string key(key_view);
     const std::string name = table_.text(key);
@@ -84,7 +84,7 @@ class FieldReader {
   TableReader& table_;
 };
 
-/// Gives the moving vectors among an element's fields their places in its list of arguments.
+/// Collects the moving vectors of an element, each once, and stores their indices in Place::argument.
 class ArgumentCollector {
  public:
   explicit ArgumentCollector(std::vector<Place>& arguments) : arguments_(arguments) {}
@@ -117,7 +117,7 @@ class ArgumentCollector {
   std::vector<Place>& arguments_;
 };
 
-/// Adds an element, unless its effect is switched off.
+/// Adds an element unless its effect is switched off.
 template <class Element>
 void add_element(Draft& draft, Element element, std::string label) {
   const auto& without = draft.request.without;
@@ -129,7 +129,7 @@ void add_element(Draft& draft, Element element, std::string label) {
   std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
 }
 
-/// Reads every [[name]] table of an element kind.
+/// Reads all [[name]] tables of one element type.
 template <class Element>
 void read_elements(Draft& draft) {
   const std::vector<const Table*> all = tables(draft.scene, std::string(Element::name));
@@ -153,7 +153,7 @@ void read_elements(Draft& draft) {
   }
 }
 
-/// Points come first: everything else refers to them.
+/// Reads the points. They are read first because everything else refers to them.
 void read_points(Draft& draft) {
   const std::vector<const Table*> all = tables(draft.scene, "point");
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -184,7 +184,7 @@ void add_masses(Draft& draft) {
   }
 }
 
-/// [frame] or [gravity]: one vector that acts on every mass. Returns it, or nothing when the scene has none.
+/// Reads [frame] or [gravity]: one vector that acts on all masses. Empty if the scene has none.
 template <class Element>
 std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key) {
   const std::vector<const Table*> found = tables(draft.scene, std::string(Element::name));
@@ -203,7 +203,8 @@ std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key)
   return field;
 }
 
-/// A frame that turns about another axis than gravity's direction would see gravity turn: no steady state.
+/// If the frame rotates about an axis that is not parallel to gravity, gravity rotates in the frame and there
+/// is no steady state.
 void check_gravity(const Draft& draft, const ExpressionVector& rotation, const ExpressionVector& gravity) {
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d w = draft.vector_at(rotation, i);
@@ -216,7 +217,7 @@ void check_gravity(const Draft& draft, const ExpressionVector& rotation, const E
   }
 }
 
-/// The effects that a scene's bodies do without: what it names, but for inertia and constraints.
+/// Checks the effects that are switched off: the scene must have them, and they must not be inertia.
 void check_without(const Draft& draft) {
   std::vector<std::string> can;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
@@ -232,7 +233,7 @@ void check_without(const Draft& draft) {
   }
 }
 
-/// Direction of the frame's rotation where the trace first has one.
+/// Direction of the rotation of the frame at the first checked point where it is not zero.
 std::optional<Eigen::Vector3d> axis_of(const Draft& draft, const ExpressionVector& rotation) {
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d w = draft.vector_at(rotation, i);

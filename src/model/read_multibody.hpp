@@ -1,4 +1,4 @@
-// Reads the tables of a multibody scene into elements.
+// Reads the tables of a multibody scene and builds its model.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Every effect that a multibody scene can name, one line each.
+// List of all effects of multibody scenes except constraints, one line each.
 #pragma once
 
 #include <string>
@@ -24,13 +24,13 @@
 
 namespace eigentrail {
 
-/// An element with its place in the assembled equations.
+/// An element with its label, moving vectors and strength.
 template <class Element>
 struct Placed {
   Element element;
-  std::string label;             ///< the scene's name for it, or "spring 2"
-  std::vector<Place> arguments;  ///< moving vectors it joins, each once; Place::argument is the index
-  Quantity strength = {};        ///< multiplies its forces; no slot: one
+  std::string label;             ///< name in the scene, or "spring 2"
+  std::vector<Place> arguments;  ///< its moving vectors, each once; Place::argument is the index
+  Quantity strength = {};        ///< multiplies its forces; without slot: one
 };
 
 template <class... Element>
@@ -71,8 +71,8 @@ using Elements = ElementTable<  //
     SpinningDisc,               //
     BladeElement>;
 
-/// Whether each [[table]] of that name is one element. The others are read in their own way: masses, the
-/// frame and gravity act on every mass, and a blade is cut into strips.
+/// Whether every [[table]] of that name is one element. The others have their own readers: masses, the frame
+/// and gravity act on every mass, and a blade is divided into strips.
 template <class Element>
 inline constexpr bool has_own_table =
     !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RigidBody> &&

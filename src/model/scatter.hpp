@@ -1,4 +1,4 @@
-// Where elements write the entries of the linearized equations.
+// Sums the contributions of elements to the matrices of the linearized equations.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -10,9 +10,9 @@
 
 namespace eigentrail {
 
-/// Models with as many coordinates, or more, have sparse matrices. Of chains of rods both routes trace those
-/// with about 80 in the same time (docs/developers/performance.md); small models keep their dense numbers to
-/// the last bit.
+/// Number of coordinates from which matrices are sparse. For chains of rods, sparse and dense matrices take
+/// the same time at about 80 coordinates (docs/developers/performance.md). Below the limit, matrices are
+/// dense so that results do not change between versions, not even in the last bit.
 inline constexpr int sparse_from = 100;
 
 /// Sum of entries of a matrix whose coefficients are power series of order Q.
@@ -36,7 +36,8 @@ class Scatter {
     }
   }
 
-  /// The sum, without the trailing coefficients that are exactly zero: a constant keeps one.
+  /// The sum without trailing coefficients that are exactly zero, so a constant has one coefficient. May be
+  /// called once.
   Coefficients take() {
     Coefficients result;
     for (int k = 0; k <= Q; ++k) {
@@ -65,7 +66,7 @@ class Scatter {
   std::array<Triplets, Q + 1> entries_;
 };
 
-/// All four of a linearization.
+/// The sums of all four matrices of a linearization.
 template <class Real, int Q>
 struct LinearizationScatter {
   Scatter<Real, Q> M, C, K, A;

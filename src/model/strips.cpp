@@ -10,7 +10,7 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_strips = 64;
-constexpr int usual_strips = 4;
+constexpr int usual_strips = 4;  ///< default: exact for loads of degree up to 7 along the span
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1] (Golub & Welsch 1969).
 std::vector<std::array<double, 2>> gauss_points(int n) {
@@ -25,10 +25,10 @@ std::vector<std::array<double, 2>> gauss_points(int n) {
   return points;
 }
 
-/// What all strips of a blade share.
+/// Data that all strips of a blade share.
 struct Blade {
   int body = 0;
-  ExpressionVector root, tip, leading, lift;  ///< in the body's axes
+  ExpressionVector root, tip, leading, lift;  ///< in body axes
   int strips = usual_strips;
 };
 

@@ -1,4 +1,4 @@
-// Cuts blades into strips for their aerodynamics.
+// Divides blades into strips for their aerodynamics.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,9 @@
 
 namespace eigentrail {
 
-/// The strips of all [[blade_element]] tables with their labels: Gauss points from root to tip, so that loads
-/// that are polynomials of degree 2 n - 1 along the span are summed exactly. `rotation` is the frame's.
+/// The strips of all [[blade_element]] tables with their labels. The strips are at the n Gauss points between
+/// root and tip, so loads that are polynomials of degree up to 2 n - 1 along the span are integrated exactly.
+/// `rotation` is the angular velocity of the frame.
 std::vector<std::pair<BladeElement, std::string>> read_strips(
     Draft& draft, const std::optional<ExpressionVector>& rotation);
 

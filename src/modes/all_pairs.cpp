@@ -8,8 +8,10 @@
 namespace eigentrail {
 namespace {
 
+/// Limits of the corrector; beyond them the pairs are corrected one by one.
 constexpr int most_refactorizations = 4;
-/// A cluster of three and more needs every digit, which solutions of its own leave it.
+/// Larger blocks are corrected one by one: clusters of three and more need the full accuracy of their own
+/// factors.
 constexpr Eigen::Index largest_block = 2;
 
 /// Columns of `Z` times the blocks of `Lambda`, pair by pair.
@@ -40,7 +42,7 @@ ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const 
 
 namespace {
 
-/// Products of blocks, pair by pair.
+/// Products of the blocks of A and B, pair by pair.
 ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, const ComplexMatrix& B) {
   ComplexMatrix product = ComplexMatrix::Zero(A.rows(), A.cols());
   for (const PairSet::Place& place : pairs.places) {
@@ -53,7 +55,7 @@ ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
   return residual(pencil.M, pencil.C, pencil.K, pairs);
 }
 
-/// What W0^H Z + W1^H Z Lambda lacks to the identity, pair by pair.
+/// I - (W0^H Z + W1^H Z Lambda), pair by pair.
 ComplexMatrix normalization_defect(const PairSet& pairs) {
   const Eigen::Index n = pairs.Z.rows();
   ComplexMatrix defect = ComplexMatrix::Zero(pairs.Lambda.rows(), pairs.Lambda.cols());
@@ -101,7 +103,7 @@ PairSet side_by_side(const std::vector<InvariantPair>& starts, double reference)
   return set;
 }
 
-/// Largest relative change of a pair, as in the corrector of a single one.
+/// Largest relative change of a pair, measured as in the corrector of a single pair.
 double largest_change(const PairSet& pairs, const ComplexMatrix& dZ, const ComplexMatrix& dLambda,
                       double reference) {
   double largest = 0.0;
@@ -122,7 +124,8 @@ bool has_blocks(const PairSet& pairs) {
                      [](const PairSet::Place& place) { return place.size > 1; });
 }
 
-/// Chord-Newton on all pairs; the basis is that of the pairs it ends with, about.
+/// Chord-Newton on all pairs. Afterwards `basis` is the basis of the last iterate that was factored, close to
+/// the corrected pairs.
 bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options, PairSet& pairs,
             std::optional<ModalBasis>& basis, ModeCounts& counts) {
   const auto factor = [&] {
@@ -131,7 +134,7 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
     return basis.has_value();
   };
   if (!factor()) return false;
-  // Blocks may be nearly defective: they get what rounding leaves.
+  // Blocks may be nearly defective, so they are iterated to the rounding level.
   const bool all_single = !has_blocks(pairs);
   double last = INFINITY;
   int refactorizations = 0;
@@ -146,7 +149,9 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
     const double size = largest_change(pairs, dZ, dLambda, reference);
     if (!std::isfinite(size)) return false;
     const double contraction = size / last;
+    // Second condition: corrections at the rounding level do not decrease any more.
     if (size <= options.tolerance || (contraction > 0.5 && size < 1e-10)) return true;
+    // In the chord method the error of single modes decreases by about the same factor in each iteration.
     if (all_single && std::isfinite(last) && contraction < options.refactor_contraction &&
         size * contraction <= 0.1 * options.tolerance)
       return true;
@@ -201,7 +206,8 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
 
 namespace {
 
-/// Coefficients of products of series of all pairs, filled order by order; as for a single mode.
+/// Coefficients of products of the series of all pairs, filled order by order; as ModeEquations for a single
+/// mode.
 class AllEquations {
  public:
   std::vector<ComplexMatrix> Z, Lambda;
@@ -224,7 +230,7 @@ class AllEquations {
     update(0);
   }
 
-  /// Coefficient j of the residuals and of the normalizations with Z_j = Lambda_j = 0.
+  /// Coefficient j of the residuals and normalizations with Z_j = Lambda_j = 0.
   void known_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) {
     MZ_[j] = product(pencil_.M, j);
     if (!undamped_) CZ_[j] = product(pencil_.C, j);
@@ -250,7 +256,7 @@ class AllEquations {
     }
   }
 
-  /// What Z_j and Lambda_j add to them.
+  /// Adds the terms in Z_j and Lambda_j to them.
   void unknown_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     const PencilAtPoint pencil(pencil_);
     ComplexMatrix slope = with_blocks(pairs_, multiply_many(pencil.M, Z[j]), Lambda[0]);
@@ -274,7 +280,7 @@ class AllEquations {
     }
   }
 
-  /// Takes the coefficients j into the products, after known_terms(j).
+  /// Adds the terms of Z_j and Lambda_j to the products; to be called after known_terms(j).
   void update(std::size_t j) {
     MZ_[j] += multiply_many(pencil_.M[0], Z[j]);
     if (!undamped_) CZ_[j] += multiply_many(pencil_.C[0], Z[j]);
@@ -301,8 +307,8 @@ std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const All
                                           double accuracy, ModeCounts& counts) {
   const PairSet& pairs = all.set;
   AllEquations series(pencil, pairs, order);
-  // The basis is that of the corrected pairs: one solution is exact to rounding, and further ones correct it.
-  // Blocks may be nearly defective, and get what rounding leaves.
+  // The basis is that of the corrected pairs: one solution is accurate to rounding, and one more refines it.
+  // Blocks may be nearly defective; they are refined to the rounding level.
   const int most = has_blocks(pairs) ? 6 : all.basis.rounding() <= accuracy ? 1 : 2;
   ComplexMatrix known, known_defect, dZ, dLambda;
   for (std::size_t j = 1; j < series.Z.size(); ++j) {
@@ -319,7 +325,8 @@ std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const All
       series.Lambda[j] += dLambda;
       const double total = series.Z[j].norm() + series.Lambda[j].norm();
       const double size = dZ.norm() + dLambda.norm();
-      // Every correction leaves an error that is smaller by about the same factor.
+      // Each correction reduces the error by about the same factor, so size^2 / last estimates the remaining
+      // error.
       if (!(size > 1e-15 * total) || size > 0.5 * last || (i > 0 && size * size < 1e-16 * total * last))
         break;
       last = size;

@@ -9,10 +9,10 @@
 namespace eigentrail {
 namespace {
 
-/// Eigenvalues closer than this, relatively, are not told apart.
+/// Eigenvalues with a smaller relative distance cannot be separated.
 constexpr double same = 1e-13;
 
-/// D Y - Y A = R for upper triangular D and A.
+/// Solves D Y - Y A = R for upper triangular D and A.
 ComplexMatrix solve_sylvester(const ComplexMatrix& D, const ComplexMatrix& A, const ComplexMatrix& R) {
   ComplexMatrix Y = R;
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
@@ -24,6 +24,7 @@ ComplexMatrix solve_sylvester(const ComplexMatrix& D, const ComplexMatrix& A, co
   return Y;
 }
 
+/// Smallest distance of the first m eigenvalues of a triangular T from the others.
 double separation(const ComplexMatrix& T, Eigen::Index m) {
   double least = INFINITY;
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -50,10 +51,10 @@ std::vector<ComplexMatrix> part_series(const std::vector<ComplexMatrix>& Lambda,
   const auto C = [&](std::size_t j) { return N[j].bottomLeftCorner(r, m); };
   const auto D = [&](std::size_t j) { return N[j].bottomRightCorner(r, r); };
   std::vector<ComplexMatrix> Y{ComplexMatrix::Zero(r, m)};
-  std::vector<ComplexMatrix> result{A(0)};  // A + B Y
+  std::vector<ComplexMatrix> result{A(0)};  // coefficients of A + B Y
   for (std::size_t j = 1; j < count; ++j) {
     ComplexMatrix known = C(j);
-    // Y (A + B Y) at order j without its terms in Y_j.
+    // D Y - Y (A + B Y) at order j, without its terms in Y_j.
     for (std::size_t i = 1; i < j; ++i) known += D(j - i) * Y[i] - Y[i] * result[j - i];
     Y.push_back(solve_sylvester(D(0), A(0), -known));
     ComplexMatrix sum = A(j);
@@ -75,6 +76,7 @@ ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eige
   const auto a = static_cast<double>(count);
   const double weight = size / (4.0 * a * (size - a));
   std::vector<ComplexMatrix> N = Lambda;
+  // Subtracts the mean of the eigenvalues; the weighted trace of the square is then ((s_a - s_b) / 2)^2.
   for (ComplexMatrix& n : N) n.diagonal().array() -= n.trace() / size;
   ComplexVector gap = ComplexVector::Zero(static_cast<Eigen::Index>(N.size()));
   for (std::size_t i = 0; i < N.size(); ++i) {
@@ -93,7 +95,8 @@ ComplexVector root_series(const ComplexMatrix& functions, Complex root) {
   const Eigen::Index k = block_size(functions.rows());
   if (k == 1) return functions.row(0).transpose();
   if (k == 2) {
-    // Where it is nearly double the root itself is known better than delta tells it.
+    // The coefficients of sqrt(delta) follow from x^2 = delta. x_0 comes from the root, which is more
+    // accurate than delta if the eigenvalues are nearly equal.
     ComplexVector x = ComplexVector::Zero(functions.cols());
     x[0] = root - functions(0, 0);
     if (std::abs(x[0]) <= same * std::abs(root)) return {};

@@ -12,9 +12,9 @@ using Eigen::Index;
 using Moments = Eigen::Matrix4d;
 using ComplexVec3 = Eigen::Vector3cd;
 
-constexpr double on_axis = 1e-9;  ///< radius over distance from the origin
+constexpr double on_axis = 1e-9;  ///< radius over distance from the origin below which a mass is on the axis
 
-/// Names of motions along and about the three axes of a blade (s, a, a x s), and of the frame.
+/// Names of the motions along and about the three axes of a blade (s, a, a x s), and of the frame.
 constexpr std::array<const char*, 6> of_blade = {"axial", "flap", "lag", "torsion", "lag", "flap"};
 constexpr std::array<const char*, 6> of_frame = {"along x", "along y", "along z",
                                                  "about x", "about y", "about z"};
@@ -23,7 +23,7 @@ Eigen::Vector3d triple(const Vector& x, Index i) {
   return x.segment<3>(3 * i);
 }
 
-/// G of a mass, from the constant mass matrix G x 1.
+/// Moments G of a mass, from its constant mass matrix G x 1 (Kronecker product).
 Moments moments(const SystemMatrix& M, const MassCarrier& mass) {
   Moments G = Moments::Zero();
   for (Index i = 0; i < mass.n_triples; ++i) {
@@ -33,7 +33,7 @@ Moments moments(const SystemMatrix& M, const MassCarrier& mass) {
   return G;
 }
 
-/// Centre of mass.
+/// Position of the centre of mass.
 Eigen::Vector3d centre(const MassCarrier& mass, const Moments& G, const Vector& x) {
   Eigen::Vector3d at = triple(x, mass.first_triple);
   for (Index i = 1; i < mass.n_triples && G(0, 0) > 0.0; ++i)
@@ -68,7 +68,7 @@ std::string both(const std::string& first, const std::string& second) {
   return std::min(first, second) + " and " + std::max(first, second).substr(word + 1);
 }
 
-/// Inertia about the centre of mass in the frame: tr(E) 1 - E with the second moments E.
+/// Inertia tensor about the centre of mass, components in the frame: tr(E) 1 - E with the second moments E.
 Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector& x) {
   if (mass.n_triples == 1) return Eigen::Matrix3d::Zero();
   Eigen::Matrix3d E = G.bottomRightCorner<3, 3>();
@@ -148,7 +148,8 @@ Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMat
 }
 
 std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
-  constexpr double dominant = 0.7;  // of the energy: one kind of motion, or one mass, says it all
+  // share of the energy from which one kind of motion, or one mass, alone gives the name
+  constexpr double dominant = 0.7;
   std::vector<std::string> names;
   for (Index mode = 0; mode < shares.cols(); ++mode) {
     std::map<std::string, double> by_kind, by_mass;

@@ -30,7 +30,8 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   if (k == 1) {
-    // One vector needs no help from z s, and linear equations in it converge from farther away.
+    // For a single mode z alone is normalized: the normalization is then linear in z, and Newton's method
+    // converges from farther away.
     Z /= Z.norm();
     W = ComplexMatrix::Zero(2 * n, 1);
     W.topRows(n) = Z;
@@ -51,7 +52,7 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 
 namespace {
 
-/// Chord-Newton on (Z, Lambda); leaves factors at the last pair that was factored.
+/// Chord-Newton on (Z, Lambda). Leaves the factors of the last iterate that was factored.
 PairStatus newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options,
                   InvariantPair& pair, ModeCounts& counts) {
   const Eigen::Index k = pair.size();
@@ -79,11 +80,12 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
     if (!std::isfinite(size)) return PairStatus::singular;
     if (size <= options.tolerance) return PairStatus::converged;
     const double contraction = size / last;
-    // What a chord step leaves of a single mode's error is smaller by about the same factor.
+    // In the chord method the error of a single mode decreases by about the same factor in each iteration.
     if (k == 1 && std::isfinite(last) && contraction < options.refactor_contraction &&
         size * contraction <= 0.1 * options.tolerance)
       return PairStatus::converged;
-    if (contraction > 0.5 && size < 1e-10) return PairStatus::converged;  // rounding: no longer shrinking
+    // at the rounding level: corrections do not decrease any more
+    if (contraction > 0.5 && size < 1e-10) return PairStatus::converged;
     if (contraction > options.refactor_contraction) {
       if (std::isfinite(last) && contraction > 2.0) return PairStatus::not_converged;
       if (++refactorizations > 6 && contraction > 0.9) return PairStatus::not_converged;
@@ -103,7 +105,8 @@ std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil,
 
 namespace {
 
-/// What residuals of a pair are compared with: that of its eigenvalues' typical size.
+/// Scale of the residuals of a pair: the magnitude of the pencil at the typical size of its eigenvalues,
+/// times |Z|.
 double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   return pencil.magnitude(size) * pair.Z.norm();

@@ -24,7 +24,8 @@ ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda) {
       functions.col(i) = Lambda[static_cast<std::size_t>(i)].reshaped();
     return functions;
   }
-  // delta from Lambda - tau, not from tau^2 - det: the digits that are left where the eigenvalues meet.
+  // delta is formed from Lambda - tau I, not from tau^2 - det: near a meeting the latter would cancel its
+  // digits.
   functions.row(0) = mean_series(Lambda).transpose();
   functions.row(1) = discriminant_series(Lambda, 1).transpose();
   return functions;
@@ -52,7 +53,7 @@ double least_gap(const ComplexVector& roots) {
 }
 
 Vector function_rounding(const ComplexMatrix& Lambda) {
-  constexpr double roundings = 1e-15;
+  constexpr double roundings = 1e-15;  // relative error of Lambda by rounding
   const Eigen::Index k = Lambda.rows();
   const double size = roundings * Lambda.norm();
   Vector rounding = Vector::Constant(k <= 2 ? k : k * k, size);
@@ -65,7 +66,8 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
   if (k == 1) return errors[0];
   if (k == 2)
     return errors[0] + errors[1] / (2.0 * std::max(std::abs(std::sqrt(functions[1])), 0.5 * least_gap));
-  // Eigenvalues of Lambda move by the error times the condition of its eigenvectors (Bauer & Fike 1960).
+  // Eigenvalues of Lambda change by at most the error times the condition number of the eigenvectors (Bauer &
+  // Fike 1960). The condition number is limited, because it is infinite at exceptional points.
   constexpr double worst_condition = 10.0;
   const ComplexMatrix Lambda = functions.reshaped(k, k);
   const ComplexMatrix vectors = Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda).eigenvectors();
@@ -74,7 +76,8 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
 }
 
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots) {
-  constexpr double rounding = 1e-13;  // of the corrector and of the basis that both ends of a step share
+  // relative, of the corrector and of the basis that both ends of a step share
+  constexpr double rounding = 1e-13;
   const Eigen::Index k = roots.size();
   if (k <= 2) return 0.0;
   const ComplexMatrix Lambda = functions.reshaped(k, k);
@@ -86,7 +89,8 @@ double root_resolution(const ComplexVector& functions, const ComplexVector& root
 
 namespace {
 
-/// The nearest column of every row, if that is one assignment and no other is as short; empty otherwise.
+/// The nearest column of every row if this is a one-to-one assignment and no other column is equally near;
+/// empty otherwise.
 std::vector<int> nearest_of_all(const Matrix& cost) {
   std::vector<int> assignment;
   for (Eigen::Index i = 0; i < cost.rows(); ++i) {

@@ -8,7 +8,7 @@
 namespace eigentrail {
 namespace {
 
-/// v^H M v of every column, or zero when that is no more than rounding.
+/// v^H M v of every column v, or zero if it is at the rounding level (1e-12 of |M| |v|^2).
 Vector mass_norms_squared(const ComplexMatrix& shapes, const ComplexMatrix& M_shapes, double norm_M) {
   Vector norms(shapes.cols());
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
@@ -45,7 +45,7 @@ std::vector<int> optimal_assignment(const Matrix& cost) {
     throw std::invalid_argument("optimal_assignment: expected a square matrix of finite costs");
   }
   constexpr double unreached = std::numeric_limits<double>::infinity();
-  // Column 0 and row 0 are virtual; row_of[j] is the row assigned to column j.
+  // Row 0 and column 0 are auxiliary; row_of[j] is the row assigned to column j.
   std::vector<double> row_price(n + 1, 0.0), column_price(n + 1, 0.0);
   std::vector<int> row_of(n + 1, 0), previous(n + 1, 0);
   for (int row = 1; row <= n; ++row) {

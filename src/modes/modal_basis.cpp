@@ -10,9 +10,9 @@
 namespace eigentrail {
 namespace {
 
-constexpr double least_rcond = 1e-9;  ///< of M and of the modal basis
+constexpr double least_rcond = 1e-9;  ///< smallest accepted reciprocal condition of M and of the modal basis
 
-/// Inverse of X -> X L - D X for small square D and L, on vec X.
+/// Inverse of X -> X L - D X for small square D and L, acting on vec X.
 ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L) {
   const Eigen::Index m = D.rows();
   const Eigen::Index k = L.rows();
@@ -103,7 +103,7 @@ ComplexMatrix ModalBasis::coordinates(const ComplexMatrix& R) const {
       G.row(column) = g.row(row);
       continue;
     }
-    // Re z and Im z from z and its conjugate.
+    // Coordinates of z and its conjugate from those of Re z and Im z.
     G.row(column) = 0.5 * (g.row(row) - Complex(0.0, 1.0) * g.row(row + 1));
     G.row(conjugate_[i]) = 0.5 * (g.row(row) + Complex(0.0, 1.0) * g.row(row + 1));
   }
@@ -150,7 +150,7 @@ void ModalBasis::prepare_division(const PairSet& pairs) {
   }
 }
 
-/// G becomes U.
+/// Divides G by the differences of the eigenvalues: G becomes U.
 void ModalBasis::divide(ComplexMatrix& G) const {
   const ComplexMatrix beside_blocks = divisions_.empty() ? ComplexMatrix() : G;
   G = G.cwiseProduct(divisors_);
@@ -173,7 +173,8 @@ void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const Compl
   }
   divide(G);
   dZ = vectors(G);
-  // What is left open is a change of basis within a pair, which its normalization settles.
+  // The division leaves the part of dZ within the space of each pair open: a change of its basis. The
+  // normalization determines it.
   for (const PairSet::Place& place : pairs.places) {
     auto X = dZ.middleCols(place.first, place.size);
     const auto Z = pairs.Z.middleCols(place.first, place.size);

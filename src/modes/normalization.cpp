@@ -18,7 +18,8 @@ ComplexVector normalize_shape(const ComplexVector& v, const SystemMatrix& M, con
     Mv = v;
     square = v.squaredNorm();
   }
-  // The reference has unit norm, so the overlap lies between 0 and sqrt(square).
+  // The reference has unit norm, so |anchor| lies between 0 and sqrt(square). Below 1e-8 of that v counts as
+  // orthogonal to it.
   Complex anchor = reference.size() == v.size() ? reference.dot(Mv) : Complex(0.0);
   if (std::abs(anchor) <= 1e-8 * std::sqrt(square)) {
     Eigen::Index largest = 0;

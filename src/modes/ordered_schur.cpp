@@ -6,7 +6,7 @@
 namespace eigentrail {
 namespace {
 
-/// Swaps the diagonal entries i and i + 1 of the triangular T by a unitary rotation.
+/// Swaps the diagonal entries i and i + 1 of the triangular T by a unitary (Givens) rotation.
 void swap_neighbours(ComplexMatrix& T, ComplexMatrix& U, Eigen::Index i) {
   Eigen::JacobiRotation<Complex> rotation;
   rotation.makeGivens(T(i, i + 1), T(i + 1, i + 1) - T(i, i));

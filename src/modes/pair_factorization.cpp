@@ -1,4 +1,4 @@
-// The linearized equations of an invariant pair, one bordered system per column of its Schur form.
+// The linearized equations of an invariant pair: one bordered system per column of its Schur form.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,11 @@ namespace eigentrail {
 
 namespace {
 
-/// A deviation below this, relatively, is left out of the factors: it slows the corrections down by as much.
+/// Relative imaginary parts below this are neglected in the real factors. The error then decreases by about
+/// this factor per correction.
 constexpr double unreal = 1e-6;
 
-/// Phase of a vector that is real but for it; empty if it is not.
+/// Phase of a vector that is real up to a phase; empty if it is not.
 std::optional<Complex> phase_of(const ComplexVector& z) {
   const Complex square = (z.transpose() * z)(0, 0);
   if (!(std::abs(square) > 0.0)) return std::nullopt;
@@ -21,7 +22,8 @@ std::optional<Complex> phase_of(const ComplexVector& z) {
   return is_real ? std::optional(phase) : std::nullopt;
 }
 
-/// Direction of s if P(s) is real: i without damping, 1 of a real s.
+/// Direction of s for which P(s) is real: 1 if s is real, i if s is imaginary and there is no damping; else
+/// empty.
 std::optional<Complex> direction_of(const PencilAtPoint& pencil, Complex s) {
   if (std::abs(s.imag()) <= unreal * unreal * std::abs(s.real())) return 1.0;
   const bool imaginary = std::abs(s.real()) <= unreal * unreal * std::abs(s.imag());
@@ -47,9 +49,10 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const ComplexMatrix MZ = multiply(pencil.M, ZU);
   const ComplexMatrix CZ = multiply(pencil.C, ZU);
   const ComplexMatrix WZ = WU.bottomRows(n).adjoint() * ZU;
-  // The border gets the size of the terms of P, not of their sum, which vanishes at an eigenvalue when n = 1.
+  // The border is scaled by the sum of the norms of the terms of P. For n = 1 the norm of P itself is zero at
+  // an eigenvalue.
   const double terms = pencil.magnitude(T.diagonal().cwiseAbs().maxCoeff());
-  // Where every term vanishes (a zero eigenvalue without stiffness) the matrices themselves give the scale.
+  // If all terms are zero (eigenvalue zero without stiffness), the norms of the matrices give the scale.
   const double whole = pencil.norm_M + pencil.norm_C + pencil.norm_K;
   const double size = std::max((terms > 0.0 ? terms : whole) / std::sqrt(static_cast<double>(n)), 1e-300);
   const double slope = (2.0 * MZ * T + CZ).norm();
@@ -131,7 +134,7 @@ void PairFactorization::solve_block(ComplexVector& b) const {
   ComplexVector column(n + k);
   for (Eigen::Index j = 0; j < k; ++j) {
     if (j > 0) {
-      // What the columns before contribute to this one through the triangle of T.
+      // Contribution of the previous columns through the strict upper triangle of T.
       const auto t = T.col(j).head(j);
       const auto before = X.leftCols(j);
       const ComplexVector Xt = before.lazyProduct(t);

@@ -8,23 +8,26 @@
 namespace eigentrail {
 namespace {
 
+/// Limits of the refinement of a coefficient: corrections in all; relative size below which corrections that
+/// do not halve end it; rounding level.
 constexpr int max_refinements = 40;
 constexpr double stagnation = 1e-11;
 constexpr double rounding = 1e-15;
 
-/// Corrects a solution, which begins as zero, until its corrections stop shrinking or what is left of the
-/// error is below `accuracy`; `correct(is_first)` returns the size of one correction relative to the
-/// solution. The number of corrections.
+/// Refines a solution that begins with zero. `correct(is_first)` makes one correction and returns its size
+/// relative to the solution. Stops if corrections do not decrease any more or if the estimated remaining
+/// error is below `accuracy`. Returns the number of corrections.
 template <class Correct>
 int refine(double accuracy, Correct&& correct) {
   double last = INFINITY;
   for (int i = 1; i <= max_refinements; ++i) {
     const double size = correct(i == 1);
-    // The first solution is a correction of relative size one, and with factors from a distant prediction the
-    // next may not be much smaller: corrections that do not halve end the refinement only at the level of
-    // rounding.
+    // The first correction is the solution itself, of relative size one. With factors of a distant prediction
+    // the next one may be almost as large. Therefore corrections that do not halve end the refinement only
+    // below `stagnation`.
     if (!(size > rounding) || (size > 0.5 * last && size < stagnation)) return i;
-    // Every correction leaves an error that is smaller by about the same factor.
+    // Each correction reduces the error by about the same factor, so size^2 / last estimates the remaining
+    // error.
     if (std::isfinite(last) && size < 0.1 * last && size * size < accuracy * last) return i;
     last = size;
   }
@@ -37,7 +40,8 @@ double size_of(const ComplexMatrix& Lambda) {
 }
 
 /// Coefficients of products of matrix series, filled order by order. Products with the few columns of Lambda
-/// are lazy: the way of large ones, over packed copies, takes several times as long.
+/// are Eigen's lazy products; its general product copies the factors into packed form and takes several times
+/// as long.
 class SeriesEquations {
  public:
   SeriesEquations(const ReducedPencil& pencil, const InvariantPair& pair, int order)
@@ -59,8 +63,7 @@ class SeriesEquations {
     update(0);
   }
 
-  /// Coefficient j of the residual and of the normalization with Z_j = Lambda_j = 0: the right side,
-  /// negative.
+  /// Coefficient j of the residual and of the normalization with Z_j = Lambda_j = 0: the negative right side.
   void known_terms(int j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     residual = product(K_, j);
     defect = ComplexMatrix::Zero(Lambda[0].rows(), Lambda[0].cols());
@@ -74,7 +77,7 @@ class SeriesEquations {
     }
   }
 
-  /// What Z_j and Lambda_j add to them.
+  /// Adds the terms in Z_j and Lambda_j to them.
   void unknown_terms(int j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     const ComplexMatrix& X = Z[at(j)];
     const ComplexMatrix& Y = Lambda[at(j)];
@@ -85,7 +88,7 @@ class SeriesEquations {
     defect += W0_.adjoint() * X + W1_.adjoint() * (X.lazyProduct(Lambda[0]) + Z[0].lazyProduct(Y));
   }
 
-  /// Takes the coefficients j of Z and Lambda into the products.
+  /// Adds the terms of Z_j and Lambda_j to the products.
   void update(int j) {
     MZ_[at(j)] = product(M_, j) + multiply(M_[0], Z[at(j)]);
     CZ_[at(j)] = product(C_, j) + multiply(C_[0], Z[at(j)]);
@@ -109,7 +112,7 @@ class SeriesEquations {
   std::vector<ComplexMatrix> MZ_, CZ_, Lambda2_;
 };
 
-/// The same of a single mode, of which every product is a vector.
+/// The same for a single mode, for which all products are vectors.
 class ModeEquations {
  public:
   ComplexMatrix Z;   ///< n x (order + 1)
@@ -146,14 +149,14 @@ class ModeEquations {
     return residual;
   }
 
-  /// What Z_j and mu_j add to it and to the normalization.
+  /// Adds the terms in Z_j and mu_j to the residual and sets those of the normalization.
   void unknown_terms(Eigen::Index j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     residual += product(P_, Z.col(j));
     residual += mu[j] * slope_;
     defect(0, 0) = W0_.dot(Z.col(j));
   }
 
-  /// Takes the coefficients j into the products, after known_terms(j).
+  /// Adds the terms of Z_j and mu_j to the products; to be called after known_terms(j).
   void update(Eigen::Index j) {
     MZ_.col(j) += multiply(M_[0], Z.col(j));
     if (!undamped_) CZ_.col(j) += multiply(C_[0], Z.col(j));
@@ -171,7 +174,7 @@ class ModeEquations {
 
   const MatrixSeries &M_, &C_, &K_;
   bool undamped_;
-  ComplexMatrix P_;  ///< the pencil at the eigenvalue
+  ComplexMatrix P_;  ///< the pencil at the eigenvalue, P(mu)
   ComplexVector W0_, slope_;
 
   ComplexMatrix MZ_, CZ_;
@@ -211,10 +214,12 @@ PairSeries differentiate_mode(const ReducedPencil& pencil, const PencilAtPoint& 
   return result;
 }
 
-/// Whether factors at the pair itself pay: those of a predicted pair took `corrections` for one coefficient.
+/// Whether new factors at the pair itself save time, given that those of the predicted pair required
+/// `corrections` for one coefficient. With its own factors about three suffice.
 bool is_worth_factoring(int corrections, int coefficients, Eigen::Index n) {
   constexpr int with_own_factors = 3;
-  constexpr double size_per_correction = 18.0;  // an LU of this size takes as long as a correction
+  // an LU of size n takes as long as n / 18 corrections (measured)
+  constexpr double size_per_correction = 18.0;
   return (corrections - with_own_factors) * coefficients * size_per_correction > static_cast<double>(n);
 }
 
@@ -248,7 +253,7 @@ PairSeries differentiate_pair(const ReducedPencil& pencil, const InvariantPair& 
       return total > 0.0 ? (dZ.norm() * size + dLambda.norm()) / total : 0.0;
     });
     series.update(j);
-    // Without factors of its own the pair was factored above, as it is.
+    // If the pair had no factors, new ones were computed above at the pair itself; they need no renewal.
     if (j == 1 && pair.factors && is_worth_factoring(corrections, order - 1, pencil.size())) {
       factors = std::make_shared<const PairFactorization>(point, pair.Z, pair.Lambda, pair.W);
       counts.factorizations += static_cast<std::uint64_t>(pair.size());

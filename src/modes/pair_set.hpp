@@ -1,11 +1,11 @@
-// What the corrections of all pairs and their certificate share.
+// Shared by the corrector of all pairs and by their certificate.
 #pragma once
 
 #include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
 
-/// M Z Lambda^2 + C Z Lambda + K Z of all pairs of a pencil (n x n each).
+/// M Z Lambda^2 + C Z Lambda + K Z for all pairs of a pencil (matrices n x n).
 ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const PairSet& pairs);
 
 }  // namespace eigentrail

@@ -5,10 +5,10 @@
 namespace eigentrail {
 namespace {
 
-constexpr Eigen::Index large = 16;  ///< rows from which on a call of BLAS pays
+constexpr Eigen::Index large = 16;  ///< number of rows from which BLAS is faster, its call included
 
-/// As real matrix-vector products: a matrix product would first copy B into its own order, which costs more
-/// than the few columns themselves.
+/// Real matrix-vector products per column: Eigen's matrix product would first copy B into packed form, which
+/// takes longer than the product with few columns.
 template <class Real>
 ComplexMatrix multiply_columns(const Real& B, const ComplexMatrix& Z) {
   ComplexMatrix result(B.rows(), Z.cols());
@@ -67,7 +67,7 @@ ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
 }
 
 ComplexMatrix PencilAtPoint::residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const {
-  // Lazy products: few columns.
+  // Lazy products, because there are few columns.
   ComplexMatrix slope = multiply(M, Z).lazyProduct(Lambda);
   if (!is_undamped()) slope += multiply(C, Z);
   return slope.lazyProduct(Lambda) + multiply(K, Z);

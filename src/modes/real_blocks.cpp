@@ -10,12 +10,14 @@
 namespace eigentrail {
 namespace {
 
-/// Of the squared directions that a real basis leaves out, over the least that it keeps.
+/// Limit of the largest squared singular value that a real basis leaves out, over the smallest that it keeps.
 constexpr double largest_remainder = 1e-2;
-/// Of the sum of a block's eigenvalues, over their largest: s and -s cancel.
+/// Limit of the sum of the eigenvalues of a block with both roots, over the largest eigenvalue: s and -s
+/// cancel.
 constexpr double largest_sum = 1e-2;
 
-/// S(h) with S^2 = A, A[0] diagonal and positive: S_0 X + X S_0 = known divides by sums of roots.
+/// Series S(h) with S^2 = A, where A[0] is diagonal and positive. The equations S_0 X + X S_0 = known are
+/// solved by division by sums of roots.
 std::vector<Matrix> square_root(const std::vector<Matrix>& A) {
   const Vector root = A[0].diagonal().cwiseSqrt();
   const Eigen::Index k = root.size();
@@ -29,13 +31,13 @@ std::vector<Matrix> square_root(const std::vector<Matrix>& A) {
   return S;
 }
 
-/// The one of its square roots, relative to the positive one of its magnitude.
+/// Direction of the root in the complex plane: root = direction * sqrt(|lambda|).
 Complex direction(Root root) {
   if (root == Root::imaginary) return {0.0, 1.0};
   return root == Root::positive ? 1.0 : -1.0;
 }
 
-/// A pair of the block, in the basis of its modes.
+/// The pair of a block in the basis of its modes, not normalized.
 PairSeries modal_pair(Root root, const RealSeries& modes) {
   PairSeries pair;
   const Eigen::Index n = modes.X[0].rows();
@@ -60,7 +62,7 @@ PairSeries modal_pair(Root root, const RealSeries& modes) {
   return pair;
 }
 
-/// W0^H Z + W1^H Z Lambda, what the basis of a pair is to be divided by.
+/// W0^H Z + W1^H Z Lambda; a pair is normalized by its inverse.
 std::vector<ComplexMatrix> normalization(const PairSeries& pair, const ComplexMatrix& W) {
   const Eigen::Index n = pair.Z[0].rows();
   const ComplexMatrix W0 = W.topRows(n).adjoint();
@@ -75,7 +77,7 @@ std::vector<ComplexMatrix> normalization(const PairSeries& pair, const ComplexMa
   return sum;
 }
 
-/// The same of one mode with one root: W1 = 0, and Lambda does not depend on the vector's length.
+/// The same for one mode with one root. Here W1 = 0, and Lambda does not depend on the length of the vector.
 PairSeries single_series(Root root, const RealSeries& mode, const ComplexMatrix& W) {
   const std::size_t count = mode.X.size();
   const double sign = root == Root::imaginary ? -1.0 : 1.0;
@@ -114,7 +116,7 @@ std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k) {
   parts << Z.real(), Z.imag();
   if (k > Z.rows() || !parts.allFinite()) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix> directions(Matrix(parts.transpose() * parts));
-  const Vector& squares = directions.eigenvalues();  // ascending
+  const Vector& squares = directions.eigenvalues();  // in increasing order
   const Eigen::Index left_out = squares.size() - k;
   const double least = squares[left_out];
   if (!(least > 0.0) || squares[left_out - 1] > largest_remainder * least) return std::nullopt;
@@ -139,7 +141,8 @@ double sensitivity(Root root, const Matrix& X, const Vector& lambda, const Compl
   }
   const PairSeries pair = modal_pair(root, {{X}, {Matrix(lambda.asDiagonal())}});
   const ComplexMatrix size = normalization(pair, W)[0];
-  // Of [0; M^-1 R], a mode with both roots takes X^T R as its velocity, and one root half of that over 2 s.
+  // Modal coordinates of [0; M^-1 R]: X^T R for a mode with both roots (the velocity part), X^T R / (2 s) for
+  // a single root.
   if (root == Root::both) return (size.rightCols(X.cols()) * X.transpose()).norm();
   const Vector share = 0.5 * (lambda).cwiseAbs().cwiseSqrt().cwiseInverse();
   return (size * share.asDiagonal() * X.transpose()).norm();

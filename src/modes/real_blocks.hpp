@@ -1,4 +1,4 @@
-// Between modes of the real pencil lambda M + K and pairs of the quadratic pencil s^2 M + K.
+// Conversion between modes of the real pencil lambda M + K and pairs of the quadratic pencil s^2 M + K.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,23 @@
 
 namespace eigentrail {
 
-/// Series of the modes of a block; L[0] is diagonal.
+/// Power series of the modes of a block; L[0] is diagonal.
 struct RealSeries {
   std::vector<Matrix> X;  ///< n x k
   std::vector<Matrix> L;  ///< k x k
 };
 
-/// The roots that a start follows; empty where it is one of a kind that needs another route.
+/// The square roots of lambda that a start follows; empty if the start requires another method.
 std::optional<Root> root_of(const InvariantPair& start);
 
-/// Orthonormal real basis (n x k) of vectors Z that span k real directions; empty where they do not.
+/// Real orthonormal basis (n x k) of the space of the columns of Z; empty if Re Z and Im Z do not span k real
+/// directions.
 std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k);
 
-/// Series of the pair of a block, with W0^H Z + W1^H Z Lambda = I.
+/// Power series of the pair of a block, normalized by W0^H Z + W1^H Z Lambda = I.
 PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& W);
 
-/// Bound of |dLambda| / |R| of that pair with the basis Z, as PairFactorization::sensitivity: its rows of the
+/// Bound of |dLambda| / |R| for that pair, as PairFactorization::sensitivity: the norm of its rows of the
 /// inverse of the modal basis in state space. X (n x k) is M-orthonormal.
 double sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W);
 

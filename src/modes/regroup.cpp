@@ -27,11 +27,11 @@ InvariantPair with_conjugate(const InvariantPair& upper) {
   const Eigen::Index k = upper.size();
   ComplexMatrix Z = upper.Z;
   if (k == 1) {
-    // A phase that makes the real part as large as can be keeps the two columns apart.
+    // The phase that maximizes |Re z| makes Re z and Im z orthogonal, so the two columns stay independent.
     const Complex square = (Z.transpose() * Z)(0, 0);
     if (std::abs(square) > 0.0) Z *= std::conj(std::sqrt(square / std::abs(square)));
   }
-  // (a + i b) (R + i S) = (a R - b S) + i (a S + b R).
+  // Real form of Z Lambda = (a + i b) (R + i S) = (a R - b S) + i (a S + b R).
   const Matrix R = upper.Lambda.real();
   const Matrix S = upper.Lambda.imag();
   pair.Z = ComplexMatrix::Zero(n, 2 * k);
@@ -43,8 +43,8 @@ InvariantPair with_conjugate(const InvariantPair& upper) {
   pair.Lambda.bottomLeftCorner(k, k) = -S.cast<Complex>();
   pair.Lambda.bottomRightCorner(k, k) = R.cast<Complex>();
   if (k > 1) return pair;
-  // Near the real axis Im z is small like Im s (and zero for a single freedom): scaled up, [Z; Z Lambda]
-  // keeps two independent columns.
+  // Near the real axis Im z is as small as Im s (and zero for a single freedom). Scaled up, it keeps the
+  // columns of [Z; Z Lambda] independent.
   const double size =
       std::max(pair.Z.col(1).norm(), std::abs(S(0, 0)) / std::max(upper.Lambda.norm(), 1e-300));
   if (size > 0.0) {

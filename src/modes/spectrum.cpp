@@ -12,16 +12,17 @@
 namespace eigentrail {
 namespace {
 
-/// |beta| below this fraction of |alpha| is an infinite eigenvalue of the scaled pencil.
+/// An eigenvalue of the scaled pencil with |beta| below this fraction of |alpha| is infinite.
 constexpr double infinite = 1e-13;
+/// A matrix with a pivot below this fraction of the largest one is singular to working precision.
 constexpr double singular_pivot = 1e-15;
-/// Reciprocal condition of M above which its inverse costs the eigenvalues no digits that matter: they are
-/// corrected.
+/// Reciprocal condition of M above which M is inverted: the digits that the eigenvalues lose do not matter,
+/// because they are corrected later.
 constexpr double well_conditioned = 1e-4;
 
 struct Scaling {
-  double gamma = 1.0;  ///< s = gamma mu
-  double delta = 1.0;  ///< common factor of the pencil
+  double gamma = 1.0;  ///< s = gamma mu, mu the eigenvalue of the scaled pencil
+  double delta = 1.0;  ///< common factor of the scaled matrices
 };
 
 Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
@@ -39,8 +40,8 @@ Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
   return scaling;
 }
 
-/// Whether P is singular to working precision, rows and columns brought to one magnitude first so that graded
-/// matrices are not mistaken for singular ones.
+/// Whether P is singular to working precision. Rows and columns are scaled to equal magnitude first, so that
+/// matrices with entries of very different magnitude are not taken for singular.
 bool is_singular_matrix(ComplexMatrix P) {
   const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
   const Vector rows = P.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
@@ -51,7 +52,8 @@ bool is_singular_matrix(ComplexMatrix P) {
   return !(pivots.minCoeff() > singular_pivot * pivots.maxCoeff());
 }
 
-/// A pencil is singular when det P vanishes everywhere; it is then singular at any few points.
+/// A pencil is singular if det P(mu) is zero for all mu. It is tested at three values of mu that have no
+/// special position.
 bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   for (const Complex mu : {Complex(0.8, 0.6), Complex(-0.28, 0.96), Complex(1.9, -0.7)}) {
     if (!is_singular_matrix((mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>()))
@@ -60,7 +62,7 @@ bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   return true;
 }
 
-/// Right vector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu
+/// Eigenvector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu
 /// z], whichever is larger.
 ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex) {
   const Eigen::Index n = vectors.rows() / 2;
@@ -71,7 +73,7 @@ ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_comple
   return z.normalized();
 }
 
-/// Companion form a y = mu b y with y = [z; mu z].
+/// Companion form: a y = mu b y with y = [z; mu z].
 void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Matrix& b) {
   const Eigen::Index n = M.rows();
   a = Matrix::Zero(2 * n, 2 * n);
@@ -82,14 +84,14 @@ void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Mat
   b.bottomRightCorner(n, n) = M;
 }
 
-/// All eigenvalues mu = alpha / beta of a scaled pencil as LAPACK has them, conjugates next to each other.
+/// All eigenvalues mu = alpha / beta of a scaled pencil as LAPACK returns them; conjugates are neighbours.
 struct Homogeneous {
   explicit Homogeneous(Eigen::Index count)
       : alpha_real(count), alpha_imag(count), beta(Vector::Ones(count)) {}
 
   bool converged = false;
   Vector alpha_real, alpha_imag, beta;
-  Matrix vectors = {};  ///< in LAPACK's real storage; empty: none
+  Matrix vectors = {};  ///< in LAPACK's real storage; empty if not requested
 };
 
 Homogeneous by_qz(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
@@ -106,7 +108,7 @@ Homogeneous by_qz(const Matrix& M, const Matrix& C, const Matrix& K, bool with_v
   return all;
 }
 
-/// Eigenvalues alone, by QR of the companion form with M inverted.
+/// Eigenvalues only, by the QR algorithm on the companion form with M inverted.
 Homogeneous by_qr(const Eigen::PartialPivLU<Matrix>& M, const Matrix& C, const Matrix& K) {
   const Eigen::Index n = C.rows();
   Matrix a = Matrix::Zero(2 * n, 2 * n);
@@ -125,7 +127,7 @@ Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
   return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, C, K) : by_qz(M, C, K, false);
 }
 
-/// The finite modes by ascending |s|.
+/// Collects the finite modes in the order of increasing |s|.
 void take_modes(const Homogeneous& all, Spectrum& spectrum) {
   for (Eigen::Index j = 0; j < all.beta.size(); ++j) {
     const Complex alpha(all.alpha_real[j], all.alpha_imag[j]);
@@ -178,10 +180,11 @@ Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) 
 ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,
                                double reference) {
   constexpr int iterations = 4;
-  constexpr double offset = 1e-9;  // of |s|: the shift must not hit it
+  constexpr double offset = 1e-9;  // relative to |s|: the shift must not equal the eigenvalue
   const Complex sigma = s + offset * std::max(std::abs(s), reference);
   const Eigen::PartialPivLU<ComplexMatrix> lu((sigma * sigma) * M.cast<Complex>() +
                                               sigma * C.cast<Complex>() + K.cast<Complex>());
+  // Start vectors without special structure, equal in every run.
   ComplexVector z(M.rows());
   for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
@@ -194,10 +197,10 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
                                  Eigen::Index k, bool is_real, double least_scale) {
   constexpr int iterations = 6;
-  constexpr double offset = 1e-5;  // of the spectrum's scale: the shift must not hit an eigenvalue
+  constexpr double offset = 1e-5;  // relative to |mu|: the shift must not equal an eigenvalue
   const Eigen::Index n = M.rows();
   Scaling scaling = fan_lin_van_dooren(M, C, K);
-  // A stiffness that is rounding has no scale.
+  // A stiffness at the rounding level gives no scale.
   if (scaling.gamma < least_scale) {
     scaling.gamma = least_scale;
     scaling.delta = 2.0 / (M.norm() * least_scale * least_scale + C.norm() * least_scale);
@@ -220,7 +223,7 @@ InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix&
   pair.Z = X.topRows(n);
   pair.Lambda = scaling.gamma * (b.cast<Complex>() * X).householderQr().solve(a.cast<Complex>() * X);
   if (is_real) {
-    // Real input gives a real subspace; the basis from QR is real up to signs.
+    // A real pencil and a real shift give a real subspace; the QR basis of it is real.
     pair.Z.imag().setZero();
     pair.Lambda.imag().setZero();
   }

@@ -12,17 +12,21 @@
 namespace eigentrail {
 namespace {
 
-constexpr double least_mass = 1e-12;         ///< of a mode, relative to |M| |x|^2
-constexpr double largest_asymmetry = 1e-10;  ///< of M and K, relative: rounding of what is symmetric
-constexpr double largest_change = 0.3;  ///< of a vector: beyond, it is not known whose correction this is
-constexpr double largest_turn = 0.1;    ///< of two vectors into each other by a first-order correction
-constexpr double largest_drift = 0.1;   ///< of the eigenvalues of a start, relative
+constexpr double least_mass = 1e-12;  ///< smallest v^T M v of a mode, relative to |M| |v|^2
+/// Relative asymmetry of M and K up to which it counts as rounding.
+constexpr double largest_asymmetry = 1e-10;
+/// Relative change of a vector; beyond it the correction may lead to another mode.
+constexpr double largest_change = 0.3;
+/// Entry of E above which two vectors count as mixing; they are then treated together.
+constexpr double largest_turn = 0.1;
+/// Relative change of the eigenvalues from the start; beyond it the mode may be another one.
+constexpr double largest_drift = 0.1;
 
 bool is_symmetric(const Matrix& B, double norm) {
   return (B - B.transpose()).norm() <= largest_asymmetry * norm;
 }
 
-/// The positive root that a negative one mirrors: the block of it that is not yet taken.
+/// The block of the positive roots whose negatives the pair `negative` follows, if it is not yet taken.
 std::optional<std::size_t> mirrored(const std::vector<InvariantPair>& starts, std::size_t negative,
                                     const SymmetricPairs& pairs, std::vector<bool>& taken) {
   std::optional<std::size_t> nearest;
@@ -40,7 +44,7 @@ std::optional<std::size_t> mirrored(const std::vector<InvariantPair>& starts, st
   return pairs.pairs[*nearest].block;
 }
 
-/// Gives every negative root the block of its positive one; false where that has none.
+/// Gives every pair of negative roots the block of its positive roots; false if there is none.
 bool share_blocks(const std::vector<InvariantPair>& starts, SymmetricPairs& pairs) {
   std::vector<bool> taken(starts.size(), false);
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -52,7 +56,7 @@ bool share_blocks(const std::vector<InvariantPair>& starts, SymmetricPairs& pair
   return true;
 }
 
-/// The starts as modes of the real pencil; empty where they are not all of them, or of another kind.
+/// The starts as modes of the real pencil; empty if they are not all modes or if the method does not apply.
 std::optional<SymmetricPairs> real_modes(const std::vector<InvariantPair>& starts, Eigen::Index n,
                                          double reference) {
   SymmetricPairs pairs;
@@ -77,14 +81,14 @@ std::optional<SymmetricPairs> real_modes(const std::vector<InvariantPair>& start
   return pairs;
 }
 
-/// The current vectors with their products.
+/// Products of M and K with the current vectors.
 struct Products {
   Matrix MX, KX;
 };
 
 using Columns = std::vector<Eigen::Index>;
 
-/// One vector gets unit mass, and lambda becomes its Rayleigh quotient.
+/// Scales one vector to unit mass; lambda becomes its Rayleigh quotient.
 bool settle_one(Eigen::Index column, double norm_M, SymmetricPairs& pairs, Products& products) {
   auto x = pairs.X.col(column);
   const double mass = x.dot(products.MX.col(column));
@@ -97,7 +101,8 @@ bool settle_one(Eigen::Index column, double norm_M, SymmetricPairs& pairs, Produ
   return true;
 }
 
-/// The columns of V in the order and with the signs that keep every vector closest to the old one.
+/// Order of the columns of V in which every column is closest to the old vector at its place; also changes
+/// signs of columns accordingly.
 Columns closest_order(Matrix& V) {
   Columns order(static_cast<std::size_t>(V.cols()));
   Matrix overlaps = V.cwiseAbs();
@@ -112,7 +117,7 @@ Columns closest_order(Matrix& V) {
   return order;
 }
 
-/// Several vectors become M-orthonormal and their L diagonal (Rayleigh-Ritz).
+/// Makes several vectors M-orthonormal and their L diagonal (Rayleigh-Ritz).
 bool settle(const Columns& columns, double norm_M, SymmetricPairs& pairs, Products& products) {
   if (columns.size() == 1) return settle_one(columns[0], norm_M, pairs, products);
   const Matrix X = pairs.X(Eigen::all, columns);
@@ -149,8 +154,8 @@ Matrix residual(const SymmetricPairs& pairs, const Products& products) {
   return products.KX + products.MX * pairs.lambda.asDiagonal();
 }
 
-/// Whether a correction of relative size `size` after one of size `last` leaves an error below the tolerance:
-/// it is proportional to the square of the one before.
+/// Whether a correction of relative size `size`, after one of size `last`, leaves an error below the
+/// tolerance. The convergence is quadratic: the next correction has the size (size / last)^2 size.
 bool suffices(double size, double last, double tolerance) {
   if (size <= tolerance) return true;
   if (!std::isfinite(last)) return false;
@@ -158,8 +163,8 @@ bool suffices(double size, double last, double tolerance) {
   return ratio * ratio * size <= 0.1 * tolerance || (ratio > 0.5 && size < 1e-10);
 }
 
-/// Groups of columns that a first-order correction would turn far into each other: those of close modes
-/// whose prediction is off by more than their distance.
+/// Groups of columns that mix strongly in a first-order correction: close modes with a prediction error
+/// larger than their distance.
 std::vector<Columns> turning(const Matrix& E) {
   const Eigen::Index n = E.cols();
   Columns group(static_cast<std::size_t>(n));
@@ -183,7 +188,7 @@ Matrix correction(const SymmetricPairs& pairs, const Products& products) {
   return G.cwiseProduct(pairs.divisors());
 }
 
-/// Newton's method; lambda and the products are those of the vectors it ends with.
+/// Newton's method. lambda and the products belong to the final vectors.
 bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, SymmetricPairs& pairs,
             Products& products, ModeCounts& counts) {
   double last = INFINITY;
@@ -207,8 +212,8 @@ bool newton(const PencilAtPoint& pencil, const CorrectorOptions& options, Symmet
   return false;
 }
 
-/// Whether the modes of a pair have the sign of lambda that its root needs; near zero they are to be followed
-/// with both.
+/// Whether lambda of the modes of a pair has the sign that its root requires. Modes with lambda near zero
+/// must be followed with both roots.
 bool has_root(Root root, const Vector& lambda, double reference) {
   const double least = reference * reference;
   if (root == Root::imaginary) return lambda.maxCoeff() < -least;
@@ -227,13 +232,13 @@ InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs::Pair& o
   pair.W = of.W;
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   const double scale = pencil.magnitude(size) * pair.Z.norm();
-  // Z = X T, and so is what remains of the equations.
+  // Z = X T with a matrix T, so the residual of the pair scales with |Z| / |X|.
   pair.backward_error = scale > 0.0 ? pair.Z.norm() * R.norm() / X.norm() / scale : 0.0;
   pair.condition = sensitivity(of.root, X, lambda, of.W) * scale / std::max(size, reference);
   return pair;
 }
 
-/// Whether a corrected pair still is the predicted one.
+/// Whether a corrected pair is still the predicted one.
 bool stays(const InvariantPair& start, const InvariantPair& pair, double reference) {
   const double k = static_cast<double>(pair.size());
   const double moved = std::abs(pair.Lambda.trace() - start.Lambda.trace()) / k;

@@ -1,4 +1,4 @@
-// Power series of all pairs of an undamped symmetric pencil, in the coordinates of its modes.
+// Power series of all pairs of an undamped symmetric pencil, in modal coordinates.
 #include "core/products.hpp"
 #include "eigentrail/modes/symmetric_pairs.hpp"
 #include "modes/real_blocks.hpp"
@@ -6,7 +6,7 @@
 namespace eigentrail {
 namespace {
 
-/// X^T B_i X of the coefficients from i = 1 on; empty where B_i is zero.
+/// X^T B_i X for the coefficients i >= 1; empty matrices if B_i is zero.
 std::vector<Matrix> in_modes(const MatrixSeries& B, const Matrix& X, std::size_t count) {
   std::vector<Matrix> result(count);
   for (std::size_t i = 1; i < count && i < B.size(); ++i) {
@@ -15,7 +15,7 @@ std::vector<Matrix> in_modes(const MatrixSeries& B, const Matrix& X, std::size_t
   return result;
 }
 
-/// Coefficients E_j of X(h) = X E(h) and L_j of the blocks, with N(h) = X^T M(h) X E(h), filled order by
+/// Coefficients E_j of X(h) = X E(h), L_j of the blocks and N_j of N(h) = X^T M(h) X E(h), computed order by
 /// order. E_j is zero within the blocks for j > 0: the pairs are normalized afterwards.
 class ModalSeries {
  public:

@@ -7,8 +7,8 @@
 namespace eigentrail {
 namespace {
 
-/// The last order of a product, at most `order`, when its `factors` have `sum_of_sizes` coefficients
-/// together.
+/// The highest order, at most `order`, of a product of `factors` series with `sum_of_sizes` coefficients in
+/// all.
 std::size_t last_order(int order, std::size_t sum_of_sizes, std::size_t factors) {
   return std::min<std::size_t>(static_cast<std::size_t>(order), sum_of_sizes - factors);
 }
@@ -45,7 +45,8 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   }
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
-  // Dense models keep to the products that they always had: their results do not change by a rounding.
+  // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
+  // even in the last bit.
   if (is_sparse(B)) return transposed_product(T, BT, count);
   MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {

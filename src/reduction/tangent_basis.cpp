@@ -10,11 +10,12 @@
 namespace eigentrail {
 namespace {
 
-constexpr double least_rcond = 0.03;  ///< of the squared cosines between two tangent spaces
+/// Of the matrix of squared cosines between two tangent spaces; 0.03 is the square of cos 80 degrees.
+constexpr double least_rcond = 0.03;
 
-/// The basis nearest to `previous`, orthonormal by Cholesky: P L^-T with P = (I - A+ A) previous and P^T P =
-/// L L^T. That is the basis below, without Q2: there W = Q2^T previous and Q2 W = P. Empty where the tangent
-/// space has turned too far.
+/// The orthonormal basis close to `previous`: P L^-T with P = (I - A+ A) previous and P^T P = L L^T. It
+/// equals the basis of tangent_basis below (there W = Q2^T previous, and Q2 W = P) but does not need Q2.
+/// Empty if the tangent space has turned too far.
 std::optional<Matrix> turned_basis(const ConstraintFactorization& constraints, const Matrix& previous) {
   const Matrix P = constraints.allowed_part(previous);
   const Eigen::LLT<Matrix> cholesky(transposed_product(P, P));
@@ -32,8 +33,9 @@ TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Mat
   const Matrix& Q2 = constraints.null_basis();
   if (constraints.rank() == 0) return {{Q2}, true};
   if (previous.cols() != Q2.cols() || previous.rows() != Q2.rows()) return {{Q2}, false};
-  // W = Q2^T T_previous is close to orthogonal on a short step; W L^-T with W^T W = L L^T is the nearby
-  // orthogonal matrix. A step that turns the tangent space by 90 degrees has no nearby one and starts afresh.
+  // On a short step W = Q2^T T_previous is nearly orthogonal, and W L^-T with W^T W = L L^T is an orthogonal
+  // matrix close to it. If the tangent space turns by 90 degrees there is none, and the basis starts again
+  // from Q2.
   const Matrix W = Q2.transpose() * previous;
   const Eigen::LLT<Matrix> cholesky(W.transpose() * W);
   if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > 1e-8)) return {{Q2}, false};

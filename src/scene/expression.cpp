@@ -30,7 +30,7 @@ bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-/// Largest number of values that postfix code holds at a time.
+/// Largest number of values on the stack during evaluation of postfix code.
 int stack_depth(const std::vector<Expression::Instruction>& code) {
   int depth = 0;
   int most = 0;
@@ -49,7 +49,7 @@ constexpr std::size_t max_length = limits::expression_length;
 
 }  // namespace
 
-// Recursive descent over the grammar in the header, one function per rule, emitting postfix code.
+// Recursive descent parser for the grammar in the header, one function per rule; emits postfix code.
 class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const std::vector<std::string>& names)
@@ -130,7 +130,7 @@ class ExpressionParser {
     }
   }
 
-  /// The exponent when it is a small whole number written out, so that 0^2 and (-1)^3 are defined.
+  /// The exponent if it is an integer literal with magnitude at most 64, so that 0^2 and (-1)^3 are defined.
   std::optional<int> whole_number(std::size_t begin) const {
     const auto& code = result_.code_;
     const std::size_t length = code.size() - begin;
@@ -164,7 +164,7 @@ class ExpressionParser {
     throw ExpressionError("this '(' is never closed", opened);
   }
 
-  /// The character at hand, all bytes of it where it is not ASCII.
+  /// The character at the current position, with all its bytes if it is not ASCII.
   std::string character() const {
     std::size_t end = at_ + 1;
     while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0U) == 0x80U) ++end;

@@ -7,8 +7,8 @@ namespace {
 
 enum class Mark { unseen, open, done };
 
-/// Depth-first order of the derived parameters. A parameter met while it is still on the chain closes a
-/// cycle.
+/// Depth-first order of the derived parameters. A parameter that is reached again while its own definition is
+/// being followed closes a cycle.
 class DefinitionOrder {
  public:
   explicit DefinitionOrder(const std::vector<Parameter>& list)

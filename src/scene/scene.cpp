@@ -23,12 +23,12 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
-/// A parameter is a number, an expression, or { value = ..., unit = "..." }.
+/// Reads [parameters]. A parameter is a number, an expression, or { value = ..., unit = "..." }.
 class ParameterReader {
  public:
   ParameterReader(const Scene& scene, const Table& table) : scene_(scene), table_(table) {}
 
-  /// `implied` is a parameter that need not be declared.
+  /// `implied` is a parameter that is added if it is not declared.
   Parameters read(const std::optional<Parameter>& implied) {
     if (table_.entries.size() > limits::parameters) {
       const auto& [name, value] = table_.entries[limits::parameters];
@@ -105,7 +105,7 @@ class ParameterReader {
   std::vector<std::string> names_;
 };
 
-/// The traced parameter of a scene with [matrix_family], with the value where the trace begins.
+/// The traced parameter of a scene with [matrix_family], still without a value.
 std::optional<Parameter> family_variable(const Table& root) {
   const Value* trace = root.find("trace");
   if (trace == nullptr || root.find("matrix_family") == nullptr) return std::nullopt;
@@ -120,7 +120,8 @@ std::optional<Parameter> family_variable(const Table& root) {
   return parameter;
 }
 
-/// Gives a parameter that is not declared the value where the trace begins, for traces of another parameter.
+/// Sets an undeclared traced parameter to the value at which the trace begins. Traces of other parameters use
+/// this value.
 void set_start_of_trace(Scene& scene, const std::string& name) {
   const Table& trace = *tables(scene, "trace").front();
   if (trace.find("from") == nullptr) return;

@@ -72,7 +72,7 @@ std::optional<double> symbol_factor(std::string_view symbol) {
   return std::nullopt;
 }
 
-/// One factor "symbol" or "symbol^n".
+/// Factor of one unit "symbol" or "symbol^n".
 std::optional<double> term_factor(std::string_view term) {
   int power = 1;
   const std::size_t caret = term.find('^');
@@ -86,7 +86,7 @@ std::optional<double> term_factor(std::string_view term) {
   return base ? std::optional(std::pow(*base, power)) : std::nullopt;
 }
 
-/// Length of a separator at the front of `text`, 0 when there is none.
+/// Length in bytes of a separator at the beginning of `text`, 0 if there is none.
 std::size_t separator_length(std::string_view text) {
   if (text.starts_with("·")) return std::string_view("·").size();
   return text.starts_with(' ') || text.starts_with('*') || text.starts_with('/') ? 1 : 0;

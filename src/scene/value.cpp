@@ -55,7 +55,7 @@ Table convert_table(const toml::table& source, const std::string& path, int dept
     if (key.str().size() > limits::key_length)
       refuse_length(path, location(node), "a key", limits::key_length);
     Value value = convert(node, path, depth + 1);
-    // A wrong key is reported where the key stands, not where its value begins.
+    // Errors are reported at the position of the key, not at that of its value.
     value.where = {static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
     table.entries.emplace_back(std::string(key.str()), std::move(value));
   }
@@ -67,7 +67,8 @@ Table convert_table(const toml::table& source, const std::string& path, int dept
   return table;
 }
 
-/// Where a text that begins at `i` ends: at its last quote, or where it would have to end.
+/// Index of the last character of the string literal that begins at `i`: its closing quote, or the end of the
+/// line or text if it is not closed.
 std::size_t end_of_text(std::string_view text, std::size_t i) {
   const char quote = text[i];
   const std::string triple(3, quote);
@@ -84,9 +85,9 @@ std::size_t end_of_text(std::string_view text, std::size_t i) {
   return text.size() - 1;
 }
 
-/// Keys of very many parts build tables nested so deeply that taking them apart exhausts the stack. Counts
-/// dots outside of texts since the last character that ends a key or a number; two dots in a row belong to
-/// neither.
+/// Keys with very many parts would create tables nested so deeply that destroying them exhausts the stack.
+/// Counts dots outside of string literals since the last character that ends a key or a number. Two dots in a
+/// row reset the count: they occur in neither.
 void reject_deep_keys(std::string_view text, const std::string& path) {
   constexpr int most_parts = limits::key_parts;
   int line = 1;

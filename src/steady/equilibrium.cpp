@@ -14,11 +14,11 @@
 namespace eigentrail {
 namespace {
 
-/// Residuals below this fraction of the scale are rounding.
+/// Residuals below this fraction of their scale are at the rounding level.
 constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
 
-/// Typical magnitudes at the guess. Coordinates of a model share one unit, so they share one scale.
+/// Typical magnitudes at the guess. All coordinates of a model have the same unit, so one scale serves them.
 struct Scales {
   double length = 1.0;
   double force = 1.0;
@@ -49,7 +49,7 @@ class SteadyProblem {
     path_.parameters = parameters;
   }
 
-  /// Residual at (x, lambda), or the element whose contribution is not finite.
+  /// Residual at (x, lambda). Returns the element whose contribution is not finite, if any.
   EvaluationFault evaluate(const Vector& x, const Vector& lambda, SteadyResidual& residual) {
     ++report_.residual_evaluations;
     path_.x = x;
@@ -63,7 +63,7 @@ class SteadyProblem {
     return model_.linearize(path_, 0, linearization, counts_);
   }
 
-  /// Residual and linearization at the point that `at` holds.
+  /// Residual and linearization at (at.x, at.lambda).
   EvaluationFault evaluate(Equilibrium& at, SteadyResidual& residual) {
     const EvaluationFault fault = evaluate(at.x, at.lambda, residual);
     return fault ? fault : linearize(at.x, at.lambda, at.linearization);
@@ -81,7 +81,7 @@ class SteadyProblem {
   Path path_;
 };
 
-/// Writes the largest scaled residual and the equation it belongs to into the report.
+/// Writes the largest scaled residual and its equation into the report.
 void report_residual(const Model& model, const SteadyResidual& residual, const Scales& scales,
                      SteadyReport& report) {
   Eigen::Index row = 0;
@@ -135,11 +135,12 @@ KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const Stea
   return result;
 }
 
-/// Newton corrections down to rounding; leaves linearization and factorization at the solution. The
-/// multipliers are judged by the reaction A^T lambda, which is all that the equations see of them (redundant
-/// constraints leave lambda itself undetermined).
+/// Newton corrections down to the rounding level. Leaves the linearization and factorization at the iterate
+/// before the last correction. Changes of the multipliers are measured by the reaction A^T lambda, because
+/// dependent constraints leave lambda itself undetermined.
 bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
-  // Rounding of nearly parallel constraints moves positions by more than that of the positions themselves.
+  // With nearly parallel constraints, rounding of the constraints moves positions by more than rounding of
+  // the positions themselves does.
   const auto floor = [&](const SteadyResidual& residual) {
     const bool solved =
         residual.force.col(0).lpNorm<Eigen::Infinity>() <= rounded * scales.force &&
@@ -201,14 +202,15 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   result.report.iterations = kinsol.iterations;
   const auto last = std::pair(result.x, result.lambda);
   const bool polished = polish(problem, scales, result);
-  // Undamped corrections far from a solution lead astray: a failure is reported where KINSOL stood.
+  // Undamped Newton corrections far from a solution may diverge: after a failure the result is KINSOL's last
+  // iterate.
   if (!polished) std::tie(result.x, result.lambda) = last;
   if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) {
     return not_finite(std::move(result), fault);
   }
   report_residual(model, residual, scales, result.report);
-  // KINSOL's verdict may be a stagnation at rounding level; what counts is the residual and the last
-  // correction.
+  // KINSOL may report stagnation although the iteration reached the rounding level. The residual and the last
+  // correction decide.
   const bool converged = polished && result.report.residual < newton_rounding_floor;
   result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
   if (!converged) result.report.message = failure_message(kinsol, result.report);
@@ -224,7 +226,7 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   SteadyReport report = result.report;
   Vector rested = x;
   Vector reactions;
-  // Nearly at rest may do, and where forces circulate there may be no more to be had.
+  // Approximate rest may suffice as a guess, and with circulatory forces there may be no state of rest.
   for (const double rest : {1e-2, 1e-5, 1e-8}) {
     RelaxationOptions relaxation;
     relaxation.tolerance = rest;
@@ -275,8 +277,8 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
   path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
-  // A kept equilibrium has its constraints factored only; the rest is made up for when it is needed after
-  // all.
+  // For a kept equilibrium only the constraints are factored. The complete factorization is made here if it
+  // is missing.
   KktFactorization complete;
   if (!equilibrium.kkt.can_solve()) {
     complete = KktFactorization(equilibrium.linearization.K[0], equilibrium.linearization.A[0]);

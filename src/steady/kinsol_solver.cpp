@@ -15,7 +15,7 @@
 namespace eigentrail {
 namespace {
 
-/// What the C callbacks see.
+/// Data for the C callbacks.
 struct Session {
   const KinsolProblem& problem;
   std::exception_ptr exception = nullptr;
@@ -40,7 +40,7 @@ Eigen::Map<Vector> view(N_Vector v) {
   return {NV_DATA_S(v), NV_LENGTH_S(v)};
 }
 
-/// Runs a callback; an exception is kept for later and KINSOL told to stop.
+/// Runs a callback. An exception is stored, and KINSOL is told to stop.
 template <class Body>
 int guarded(Session& session, Body&& body) {
   try {
@@ -61,8 +61,8 @@ int evaluate_residual(N_Vector u, N_Vector f, void* data) {
   });
 }
 
-// The Jacobian is factored where KINSOL asks for it to be filled in: our linear solver keeps it, and the
-// SUNMatrix is only the token that makes KINSOL ask.
+// KINSOL calls this function to fill in the Jacobian; the Jacobian is factored here and the factors stay with
+// `problem`. The SUNMatrix holds no data: it only makes KINSOL call this function.
 int fill_jacobian(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {
   auto& session = *static_cast<Session*>(data);
   return guarded(session, [&] { return session.problem.factor(view(u)); });

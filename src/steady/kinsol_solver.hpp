@@ -1,4 +1,4 @@
-// KINSOL behind a small interface: damped Newton for F(u) = 0 with a linear solver of our own.
+// A small interface to KINSOL: damped Newton iteration for F(u) = 0 with a linear solver of eigentrail.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,14 @@
 namespace eigentrail {
 
 struct KinsolProblem {
-  /// F(u); returns false where F is not defined (the line search then shortens the step).
+  /// Computes F(u); returns false if F is undefined there (the line search then shortens the step).
   std::function<bool(const Vector& u, Vector& f)> residual;
-  /// Factors the Jacobian at u; returns false where that is impossible.
+  /// Factors the Jacobian at u; returns false if that is impossible.
   std::function<bool(const Vector& u)> factor;
   /// Solves J du = b with the last factorization.
   std::function<void(const Vector& b, Vector& du)> solve;
-  Vector u_scale;  ///< typical 1/|u_i|
-  Vector f_scale;  ///< typical 1/|F_i|
+  Vector u_scale;  ///< 1 / typical |u_i|
+  Vector f_scale;  ///< 1 / typical |F_i|
 };
 
 struct KinsolResult {

@@ -7,6 +7,7 @@
 namespace eigentrail {
 namespace {
 
+/// Reciprocal condition of the tangent stiffness up to which it counts as singular: the rounding level.
 constexpr double singular = 1e-14;
 
 double one_norm(const Matrix& matrix) {
@@ -31,8 +32,8 @@ void KktFactorization::factor_tangent() {
   if (Q2.cols() == 0) return;
   const Matrix tangent = Q2.transpose() * K_ * Q2;
   tangent_.compute(tangent);
-  // Measured by K, whose rounding the projection carries: a tangent stiffness that cancels is zero, also
-  // where it is a single number.
+  // Relative to K, because the projection carries rounding errors of the size of K's: a tangent stiffness
+  // that cancels to rounding counts as zero, even if it is a single number.
   const double scale = std::max(one_norm(K_), one_norm(tangent));
   reciprocal_condition_ = tangent.isZero(0.0) ? 0.0 : tangent_.rcond() * (one_norm(tangent) / scale);
   if (!(reciprocal_condition_ > singular)) {

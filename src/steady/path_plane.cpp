@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_corrections = 30;
 
-/// Derivative of the steady equations with respect to the traced parameter alone.
+/// Derivative of the steady equations with respect to the traced parameter, at fixed x and lambda.
 EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vector& lambda,
                                 const Vector& parameters, int traced, Vector& force, Vector& constraint,
                                 EvaluationCounts& counts) {
@@ -27,7 +27,8 @@ EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vecto
   return {};
 }
 
-/// [K A^T f; A 0 g; c.x 0 c.p] through the null space of A, as in KktFactorization.
+/// Solves with the matrix [K A^T f; A 0 g; c.x 0 c.p] by the null-space method, as in KktFactorization. f and
+/// g are the derivatives of the equations with respect to the parameter.
 class BorderedKkt {
  public:
   BorderedKkt(const Linearization& linearization, const ConstraintFactorization& constraints,
@@ -41,7 +42,7 @@ class BorderedKkt {
     B.topRightCorner(f, 1) = Q2.transpose() * (force + K_ * follow_);
     B.bottomLeftCorner(1, f) = plane.x.transpose() * Q2;
     B(f, f) = plane.p + plane.x.dot(follow_);
-    // Rows and columns of different units are brought to one magnitude.
+    // Rows and columns of different units are scaled to unit norm.
     const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
     rows_ = B.rowwise().norm().unaryExpr(inverse);
     B = rows_.asDiagonal() * B;
@@ -61,14 +62,14 @@ class BorderedKkt {
   }
 
  private:
-  Matrix K_;  ///< dense: the path is on a plane for a few points only
+  Matrix K_;  ///< dense; only a few points of a path are computed on a plane
   const ConstraintFactorization& constraints_;
   Vector force_, follow_, rows_, columns_;
   PathPlane plane_;
   Eigen::FullPivLU<Matrix> lu_;
 };
 
-/// Least-squares multipliers (Eq. 15).
+/// Least-squares multipliers (Eq. 15) at given x.
 EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
                                      EvaluationCounts& counts) {
   at.lambda = Vector::Zero(model.n_constraints());
@@ -118,11 +119,12 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     result.lambda += dl;
     p += dp;
     ++result.report.iterations;
-    // The multipliers and p are judged by the forces that they change.
+    // Changes of the multipliers and of p are measured by the forces that they cause.
     const double scale = positive_or_one(result.linearization.K[0].largest_entry() * length);
     const Vector reaction = result.linearization.A[0].transposed_times(dl) + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
+    // Small corrections that grow show divergence; large ones may grow far from the solution.
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.status = SteadyStatus::converged;
@@ -163,8 +165,8 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
 
 namespace {
 
-/// When the parameter changes by one: the least motion that keeps the constraints, and the force that then
-/// acts.
+/// For a unit change of the parameter: the minimum-norm motion `follow` that keeps the constraints, and the
+/// force `load` that then acts.
 EvaluationFault parameter_load(const Model& model, const Path& point, int traced,
                                const Linearization& linearization, Vector& follow, Vector& load,
                                EvaluationCounts& counts) {

@@ -14,19 +14,20 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_projections = 50;
-constexpr double on_manifold = 1e-10;  ///< |c| relative to |A row| times the length
-constexpr double overshoot = 0.3;      ///< the force along a step may turn by this share
-constexpr double first_delta = 1.0;    ///< of the magnitude of the stiffness
+constexpr double on_manifold = 1e-10;  ///< largest |c| relative to |A row| times the length
+/// Fraction of its initial value by which the force along a step may reverse.
+constexpr double overshoot = 0.3;
+constexpr double first_delta = 1.0;  ///< in units of the largest entry of K
 constexpr double smallest_delta = 1e-12;
 constexpr double largest_delta = 1e12;
 
-/// A place on the manifold and what acts there.
+/// A configuration on the manifold and the forces in it.
 struct Place {
   Vector x, lambda;
   Linearization linearization;
   ConstraintFactorization constraints;
   Vector pull;         ///< Q2^T (f - A^T lambda)
-  double force = 0.0;  ///< magnitude of the forces that balance
+  double force = 0.0;  ///< norm of the forces f
 };
 
 class Relaxation {
@@ -36,8 +37,8 @@ class Relaxation {
     path_.parameters = parameters;
   }
 
-  /// Moves x to the manifold by minimum-norm corrections, halved where they do not help. Where that fails,
-  /// `unmet()` tells of the closest configuration.
+  /// Moves x to the manifold by minimum-norm corrections, which are halved as long as they increase the
+  /// error. If that fails, `unmet()` describes the closest configuration.
   bool project(Vector& x, double length) {
     double share = 1.0;
     Vector start = x;
@@ -74,8 +75,8 @@ class Relaxation {
     return false;
   }
 
-  /// The same from a guess that may be a symmetric one, such as links in line: where it fails, from places
-  /// about it that are not.
+  /// The same from a guess that may be symmetric, such as links in one line: if it fails, tries random points
+  /// at increasing distance around the guess.
   bool project_from_guess(Vector& x, double length) {
     const Vector guess = x;
     if (project(x, length)) return true;
@@ -105,7 +106,7 @@ class Relaxation {
     place.constraints = ConstraintFactorization(place.linearization.A[0]);
     const Vector load = -residual.force.col(0);
     place.lambda = place.constraints.transposed_pseudo_inverse_times(load);
-    // The stiffness of the constraint forces belongs to it.
+    // K includes the stiffness of the constraint forces, (A^T lambda)_/x, so lambda must be known first.
     path_.lambda = place.lambda;
     if (model_.linearize(path_, 0, place.linearization, counts_)) return std::nullopt;
     place.pull = place.constraints.null_basis().transpose() * load;
@@ -114,7 +115,8 @@ class Relaxation {
   }
 
  private:
-  /// By how much coordinates must move at least to meet the constraint that is missed most.
+  /// Notes the constraint with the largest error, as the least distance by which the coordinates must move to
+  /// meet it.
   void note_miss(const Vector& constraint, const Vector& rows) {
     Eigen::Index worst = 0;
     const double distance =
@@ -131,7 +133,7 @@ class Relaxation {
   std::string unmet_;
 };
 
-/// The implicit step with the least damping from `delta` on that goes downhill.
+/// The implicit step with the least damping, from `delta` on, for which it does not go against the force.
 Vector downhill_step(const Place& place, double scale, double& delta) {
   const Matrix& Q2 = place.constraints.null_basis();
   const Matrix K = Q2.transpose() * place.linearization.K[0] * Q2;
@@ -139,7 +141,7 @@ Vector downhill_step(const Place& place, double scale, double& delta) {
   for (; delta <= largest_delta; delta *= 4.0) {
     const Eigen::LLT<Matrix> symmetric(0.5 * (K + K.transpose()) + delta * scale * identity);
     if (symmetric.info() != Eigen::Success || !(symmetric.rcond() > smallest_delta)) continue;
-    // Forces that circulate have a skew part, which turns the step but not against the pull.
+    // Circulatory forces give K a skew part. It changes the direction of the step, but not against the force.
     return Eigen::PartialPivLU<Matrix>(K + delta * scale * identity).solve(place.pull);
   }
   return Vector::Zero(place.pull.size());
@@ -158,7 +160,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
   for (int i = 0; here && i < options.max_steps; ++i) {
     x = here->x;
     lambda = here->lambda;
-    // Without constraints the forces themselves vanish at rest.
+    // Relative to the largest force so far: without constraints the forces themselves vanish at rest.
     largest_force = std::max(largest_force, here->force);
     if (here->pull.norm() <= options.tolerance * largest_force) return {true, {}};
     const double scale = positive_or_one(here->linearization.K[0].largest_entry());
@@ -170,7 +172,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
     Vector ahead = here->x + move;
     std::optional<Place> there;
     if (relaxation.project(ahead, length)) there = relaxation.at(ahead);
-    // Downhill for as long as the force still points ahead.
+    // Accept the step unless the force along it reverses by more than `overshoot`.
     const double before = here->pull.dot(step);
     const double behind = there ? (there->constraints.null_basis() * there->pull).dot(move) : -INFINITY;
     if (behind < -overshoot * before) {

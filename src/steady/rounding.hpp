@@ -1,11 +1,11 @@
-// How small a Newton correction of the steady equations must be to count as rounding; relative to the scale.
+// Sizes of Newton corrections of the steady equations that count as rounding, relative to the scale.
 #pragma once
 
 namespace eigentrail {
 
-/// Corrections below this fraction of the scale are rounding.
+/// Corrections below this count as rounding.
 inline constexpr double newton_rounding = 1e-14;
-/// Corrections that no longer shrink are accepted as rounding below this fraction of the scale.
+/// Corrections that no longer decrease count as rounding if they are below this.
 inline constexpr double newton_rounding_floor = 1e-9;
 
 }  // namespace eigentrail

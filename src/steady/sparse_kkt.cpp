@@ -10,9 +10,10 @@
 namespace eigentrail {
 namespace {
 
+/// Iterations for the norm of the inverse tangent stiffness, of which only the magnitude is needed.
 constexpr int power_iterations = 4;
 
-/// [K, (D A)^T; D A, 0] with D the diagonal matrix of `row_scale`.
+/// [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`.
 SparseMatrix bordered(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
   const Eigen::Index n = K.rows();
   std::vector<Eigen::Triplet<double>> entries;

@@ -1,4 +1,4 @@
-// The KKT matrix of large models with independent constraints, factored as a whole:
+// The KKT matrix of a large model with independent constraints, factored as a whole:
 //
 //     [ K     c S^T ] [ dx     ]   [ r       ]
 //     [ c S   0     ] [ dl / c ] = [ c D g   ]      S = D A with rows of unit length, c the magnitude of K
@@ -15,17 +15,19 @@ namespace eigentrail {
 
 class SparseKkt {
  public:
-  /// Where Q2^T K Q2 is closer to singular than this, the null space of A tells what remains regular.
+  /// Below this reciprocal condition of Q2^T K Q2 the null-space method is used, which separates the singular
+  /// part.
   static constexpr double least_reciprocal_condition = 1e-11;
 
-  /// Factors the system; null where it is singular or nearly so.
+  /// Factors the system; null if it is singular or its condition is beyond the limit.
   static std::shared_ptr<const SparseKkt> factor(const SparseMatrix& K, const SparseMatrix& A);
 
   /// Solves for (dx, dl) given (r, g).
   void solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const;
 
-  /// Of Q2^T K Q2, relative to the magnitude of K. With g = 0, dx = Q2 (Q2^T K Q2)^-1 Q2^T r: the norm of
-  /// that map, which power iteration estimates, is the norm of the inverse of Q2^T K Q2.
+  /// Estimate of the reciprocal condition of Q2^T K Q2, relative to the magnitude of K. For g = 0, dx = Q2
+  /// (Q2^T K Q2)^-1 Q2^T r; the norm of this map is the norm of the inverse of Q2^T K Q2 and is estimated by
+  /// power iteration.
   double reciprocal_condition() const { return reciprocal_condition_; }
 
  private:

@@ -1,4 +1,5 @@
-// Roots of a smooth function near an interval, from its Chebyshev interpolant.
+// Chebyshev interpolation on [0, 1], roots of polynomials, and tests that a polynomial has no root in a
+// region.
 #pragma once
 
 #include <functional>
@@ -8,20 +9,21 @@
 
 namespace eigentrail {
 
-/// Coefficients of sum_k c_k T_k(2t - 1), the polynomial of the given degree that agrees with f at the
-/// Chebyshev points of [0, 1].
+/// Coefficients c_k, k = 0 .. degree, of sum_k c_k T_k(2t - 1), the polynomial that interpolates f at the
+/// degree + 1 Chebyshev points of [0, 1] (the zeros of T_{degree+1}).
 ComplexVector chebyshev_coefficients(const std::function<Complex(double)>& f, int degree);
 
-/// All complex roots t of such a polynomial: eigenvalues of its colleague matrix (Good, Quart. J. Math. 12,
-/// 1961). Roots far from the interval mean nothing unless f is the polynomial. One that vanishes throughout
-/// has none.
+/// All complex roots t of sum_k c_k T_k(2t - 1): eigenvalues of its colleague matrix (Good, Quart. J. Math.
+/// 12, 1961). If the polynomial only approximates a function, roots far from [0, 1] are meaningless. Returns
+/// no roots for a constant or zero polynomial, for coefficients that are not finite, and if LAPACK fails.
 std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients);
 
-/// All roots of sum_k coefficients[k] h^k.
+/// All complex roots of sum_k coefficients[k] h^k: eigenvalues of its companion matrix. Returns no roots for
+/// a constant or zero polynomial and for coefficients that are not finite.
 std::vector<Complex> polynomial_roots(const ComplexVector& coefficients);
 
-/// Whether such a polynomial certainly has no root with |h| <= radius: its constant term outweighs all others
-/// there.
+/// Sufficient test that sum_k coefficients[k] h^k has no root with |h| <= radius: |c_0| > sum_{k>0} |c_k|
+/// radius^k. `false` leaves the question open.
 bool has_no_root_within(const ComplexVector& coefficients, double radius);
 
 /// A rectangle of the complex plane with sides along the axes.
@@ -30,12 +32,14 @@ struct Rectangle {
   double half_width = 0.0, half_height = 0.0;
 };
 
-/// The same on a rectangle, seen from the centers of discs that cover it. O(n^2) for each of them; a few
-/// dozen are tried.
+/// Sufficient test that the same polynomial has no root in the rectangle: covers the rectangle with discs and
+/// applies has_no_root_within to the polynomial shifted to each centre. Cost O(n^2) per disc, at most 40
+/// discs. `false` leaves the question open.
 bool has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle);
 
-/// The same of sum_k c_k T_k(2t - 1), of a degree that is small enough for its powers: 20 or so. Where roots
-/// are looked for near [0, 1] only it saves the colleague matrix.
+/// The same test for sum_k c_k T_k(2t - 1). Converts to powers, which loses accuracy above a degree of about
+/// 20. Cheaper than the eigenvalues of the colleague matrix when the question is only whether there are roots
+/// near [0, 1].
 bool chebyshev_has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle);
 
 }  // namespace eigentrail

@@ -2,11 +2,11 @@
 // 48).
 //
 // The rows of A are scaled to unit length first, so that the rank does not depend on the units of the
-// constraints. The complete orthogonal decomposition serves redundant rows: A+ b is then the minimum-norm
-// least-squares solution; multipliers are measured by the scaled rows.
+// constraints. A complete orthogonal decomposition handles dependent rows: A+ b is then the minimum-norm
+// least-squares solution. The norm of multipliers that is minimized refers to the scaled rows.
 //
-// A sparse A whose rows are safely independent is factored by its normal equations instead
-// (core/sparse_constraints.hpp), in time about proportional to its entries.
+// A sparse A with clearly independent rows is factored through its normal equations instead
+// (core/sparse_constraints.hpp). The cost is then about proportional to the number of nonzeros.
 #pragma once
 
 #include <Eigen/QR>
@@ -20,30 +20,31 @@ class SparseConstraints;
 
 class ConstraintFactorization {
  public:
-  /// Pivots below this fraction of the largest count as zero. Two rods at an angle of 1e-10 stay two
-  /// constraints; a rod written twice is one.
+  /// Pivots below this fraction of the largest pivot count as zero. Two rods at an angle of 1e-10 are two
+  /// constraints; a rod that is written twice is one.
   static constexpr double rank_tolerance = 1e-13;
 
   ConstraintFactorization() = default;
 
-  /// Factors A; cost O(n m^2) when it is dense, or sparse with rows that are nearly dependent. m = 0 is
-  /// allowed.
+  /// Factors A. Cost O(n m^2) for a dense A, and for a sparse A with nearly dependent rows. m = 0 is allowed.
   explicit ConstraintFactorization(const SystemMatrix& A);
 
-  /// Whether the sparse factorization serves A.
+  /// Whether A was factored as a sparse matrix.
   bool is_sparse() const { return sparse_ != nullptr; }
 
   Eigen::Index rank() const { return rank_; }
 
-  /// Smallest pivot over the largest, of the independent rows at unit length: about the least angle between
-  /// constraints. Rounding of c moves positions by its reciprocal. 1 without constraints.
+  /// Smallest over largest pivot of the independent rows, scaled to unit length: about the smallest angle
+  /// (rad) between constraints. A rounding error e of the constraint residual moves positions by about e /
+  /// independence. 1 if there are no constraints.
   double independence() const { return independence_; }
 
-  /// Orthonormal basis Q2 of the null space of A, n x (n - rank). Of a sparse factorization it is computed
-  /// when it is first asked for, in O(n m^2).
+  /// Orthonormal basis Q2 of the null space of A, n x (n - rank). With a sparse factorization the first call
+  /// computes it, at a cost of O(n m^2).
   const Matrix& null_basis() const;
 
-  /// (I - A+ A) X: the part of every column that the constraints allow, X n x k.
+  /// (I - A+ A) X: projects the columns of X (n x k) onto the null space of A, that is, onto the motions that
+  /// the constraints allow.
   Matrix allowed_part(const Matrix& X) const;
 
   /// A+ B: minimum-norm X with A X = B, B m x k.
@@ -60,7 +61,8 @@ class ConstraintFactorization {
   Vector row_scale_;  ///< 1 / row norm of A
   Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition_;
   Matrix null_basis_;
-  std::shared_ptr<const SparseConstraints> sparse_;  ///< in place of all of these but rank and independence
+  /// If set, replaces all of the above except rank_ and independence_.
+  std::shared_ptr<const SparseConstraints> sparse_;
 };
 
 }  // namespace eigentrail

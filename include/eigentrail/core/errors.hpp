@@ -1,5 +1,5 @@
-// Errors that end a run. Numerical outcomes (no convergence, a step that became too small) are values
-// instead.
+// Errors that end a run, and help for messages about unknown names. Numerical failures (no convergence, step
+// too small) are return values, not exceptions.
 #pragma once
 
 #include <stdexcept>
@@ -9,23 +9,24 @@
 
 namespace eigentrail {
 
-/// Place of a text in an input file; lines and columns count from 1, 0 means unknown.
+/// Position of a text in an input file. Lines and columns count from 1; 0 means unknown.
 struct SourceLocation {
   int line = 0;
   int column = 0;
 };
 
-/// Bad input: a scene, file or command line that cannot be used. The message is complete as it stands:
+/// Bad input: a scene, file or command line that cannot be used. The message needs no additions:
 /// "file:line:column: key: what was expected, what was found, what to do".
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The candidate closest to `name` by edit distance, or an empty string when none is close enough to suggest.
+/// The candidate closest to `name` by edit distance. Empty if every distance exceeds min(3, half the length
+/// of `name`, rounded up), with at least one edit allowed, or if `name` has more than 200 characters.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
-/// "did you mean 'x'?" or the list of candidates, for messages about unknown names.
+/// "did you mean 'x'?" if a candidate is close, else "known: " with the first 100 candidates.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
-// Numbers with 113 bits (IEEE 754 binary128, about 34 digits): the scalar of references.
+// Numbers with a 113-bit significand (IEEE 754 binary128, about 34 decimal digits), used for reference
+// solutions.
 //
-// Software arithmetic, some fifty times slower than double. Nothing on the way of a trace uses it.
+// Implemented in software, about fifty times slower than double. Traces do not use it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +15,13 @@ namespace eigentrail {
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Binary128 = __float128;
 #else
-using Binary128 = long double;  // binary128 where there is no other type for it
+using Binary128 = long double;  // platforms whose long double is binary128
 static_assert(std::numeric_limits<long double>::digits == 113);
 #endif
 
-/// A binary128 number. A class of its own, because the C++ library has no functions for the type that
-/// compilers offer; these are found by argument only, so no call with a double meets them.
+/// A binary128 number. A class is needed because the C++ standard library has no functions for the compilers'
+/// own binary128 types. The functions are hidden friends, found only for Extended arguments, so no call with
+/// a double selects them.
 class Extended {
  public:
   Extended() = default;

@@ -7,7 +7,7 @@
 
 namespace eigentrail {
 
-/// A singular matrix gives solutions that are not finite; nothing is thrown.
+/// If A is singular, solutions are not finite; nothing is thrown.
 class RealLu {
  public:
   /// Factors A (size x size), which is overwritten. Cost size^3 / 3 real multiplications.
@@ -15,7 +15,7 @@ class RealLu {
 
   Eigen::Index size() const { return factors_.rows(); }
 
-  /// Overwrites b with A^-1 b, real and imaginary part together. Cost 2 size^2.
+  /// Overwrites b with A^-1 b; the real and imaginary parts are two right sides of one call. Cost 2 size^2.
   void solve_in_place(ComplexVector& b) const { solve('N', b); }
 
   /// Overwrites b with A^-T b.

@@ -1,16 +1,15 @@
-// Truncated power series: the one differentiation mechanism of eigentrail.
+// Truncated power series: eigentrail computes all derivatives with them.
 //
 // Series<T, Q> holds the coefficients of c0 + c1 h + ... + cQ h^Q over a ring T and computes with them
 // exactly up to the truncation (Griewank & Walther, Evaluating Derivatives, 2nd ed., Sect. 13.2).
 //
 //   * Series<double, Q>              a quantity along the path, h = distance along the path;
-//   * Series<Series<double, Q>, 1>   the same with one directional derivative: coefficient 1 is d/dx_i,
-//   itself
-//                                    a series along the path;
-//   * nested once more               second derivatives (constraint curvature).
+//   * Series<Series<double, Q>, 1>   the same with one directional derivative: coefficient 1 is d/dx_i, which
+//     is again a series along the path;
+//   * one more level of nesting      second derivatives (constraint curvature).
 //
-// A physics function written once as a template over its scalar thus yields its value, its Jacobian and every
-// path derivative of both.
+// A physics function that is written once, as a template over its scalar type, thus yields its value, its
+// Jacobian and the derivatives of both along the path.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +19,7 @@
 
 namespace eigentrail {
 
+/// A truncated power series with coefficients of type T up to h^Order.
 template <class T, int Order>
 class Series {
  public:
@@ -85,8 +85,7 @@ class Series {
 namespace detail {
 
 /// The function y(h) with y(0) = y0 and dy/dh = g dx/dh: k y_k = sum_{j=1..k} j x_j g_{k-j}. Coefficient k
-/// needs g only up to k-1, so g may be filled from y as the recursion proceeds: `rate(k)` returns g_k from
-/// y_0..y_k.
+/// needs g only up to k-1, so g may depend on y: `rate(y, k)` returns g_k and may use y_0..y_k.
 template <class T, int Q, class Rate>
 Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, Rate rate) {
   Series<T, Q> y(y0), g;
@@ -97,13 +96,14 @@ Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, Rate rate) {
   return y;
 }
 
-/// The same for a rate that is known beforehand as a series.
+/// The same if g is known as a series beforehand.
 template <class T, int Q>
 Series<T, Q> integrate(const T& y0, const Series<T, Q>& x, const Series<T, Q>& g) {
   return integrate(y0, x, [&g](const Series<T, Q>&, int k) { return g[k]; });
 }
 
-/// sine and cosine together (their recursions feed each other); `sign` -1 circular, +1 hyperbolic.
+/// Sine and cosine (sign = -1) or hyperbolic sine and cosine (sign = +1) together, because each recursion
+/// needs the other. s0 and c0 are the values at x_0.
 template <class T, int Q>
 std::array<Series<T, Q>, 2> sine_cosine(const T& s0, const T& c0, const Series<T, Q>& x, double sign) {
   Series<T, Q> s(s0), c(c0);
@@ -119,7 +119,8 @@ std::array<Series<T, Q>, 2> sine_cosine(const T& s0, const T& c0, const Series<T
 
 }  // namespace detail
 
-/// Square root; x_0 = 0 has no series and yields non-finite coefficients, which the assembly reports.
+/// Square root. If x_0 = 0 there is no power series; the coefficients are then not finite, and the assembly
+/// reports it.
 template <class T, int Q>
 Series<T, Q> sqrt(const Series<T, Q>& x) {
   using std::sqrt;
@@ -180,7 +181,7 @@ Series<T, Q> cosh(const Series<T, Q>& x) {
 template <class T, int Q>
 Series<T, Q> tanh(const Series<T, Q>& x) {
   using std::tanh;
-  // From y' = (1 - y^2) x': the quotient of sinh and cosh would overflow where tanh is one.
+  // From y' = (1 - y^2) x', because sinh and cosh overflow for large |x|, where tanh is close to one.
   return detail::integrate(T(tanh(x[0])), x, [](const Series<T, Q>& y, int k) {
     T rate = k == 0 ? T(1.0) : T(0.0);
     for (int i = 0; i <= k; ++i) rate -= y[i] * y[k - i];
@@ -206,7 +207,7 @@ Series<T, Q> atan(const Series<T, Q>& x) {
   return detail::integrate(T(atan(x[0])), x, 1.0 / (1.0 + x * x));
 }
 
-/// The number that a series, nested or not, begins with.
+/// The leading coefficient of a series as a double; for nested series, that of the innermost one.
 template <class Number>
 double leading_value(const Number& x) {
   return static_cast<double>(x);
@@ -216,8 +217,9 @@ double leading_value(const Series<T, Q>& x) {
   return leading_value(x[0]);
 }
 
-/// Angle of the point (cosine, sine) times any length, on the branch of std::atan2 at the leading values. The
-/// point is turned back by about that angle first, so that what is left is small.
+/// Angle (rad) of the vector (cosine, sine), which may have any positive length. The branch is that of
+/// std::atan2 at the leading values. The vector is first rotated back by the leading angle, so that the
+/// argument of atan has a small leading value.
 template <class Scalar>
 Scalar angle_of(const Scalar& sine, const Scalar& cosine) {
   using std::atan, std::cos, std::sin;
@@ -227,7 +229,7 @@ Scalar angle_of(const Scalar& sine, const Scalar& cosine) {
   return turn + atan((sine * c - cosine * s) / (cosine * c + sine * s));
 }
 
-/// x^n for a whole number n by repeated squaring: exact at x_0 = 0, where exp(n log x) is not defined.
+/// x^n for an integer n by repeated squaring. Exact also at x_0 = 0, where exp(n log x) is undefined.
 template <class Scalar>
 Scalar integer_power(Scalar base, int n) {
   if (n < 0) return Scalar(1.0) / integer_power(base, -n);
@@ -254,8 +256,8 @@ Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
   return exp(y * log(x));
 }
 
-/// The same along the path, with numbers as coefficients; where y is a constant whole number it holds for
-/// every x, as std::pow does.
+/// The same for series with numbers as coefficients. If y is a constant integer with |y| <= 64 it holds for
+/// every x_0, like std::pow.
 template <class T, int Q>
 requires(!detail::is_series<T>) Series<T, Q> pow(const Series<T, Q>& x, const Series<T, Q>& y) {
   using std::abs, std::floor;
@@ -268,7 +270,7 @@ requires(!detail::is_series<T>) Series<T, Q> pow(const Series<T, Q>& x, const Se
 
 }  // namespace eigentrail
 
-// Series as an Eigen scalar, so that elements are written with Eigen's small vectors.
+// Traits that make Series an Eigen scalar, so that elements can use Eigen's small vectors.
 template <class T, int Q>
 struct Eigen::NumTraits<eigentrail::Series<T, Q>> : Eigen::GenericNumTraits<double> {
   using Real = eigentrail::Series<T, Q>;

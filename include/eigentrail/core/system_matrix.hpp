@@ -1,5 +1,5 @@
-// A coefficient of the linearized equations: dense for small models and families of matrices, sparse for
-// large multibody models, whose elements couple few coordinates each.
+// A coefficient matrix of the linearized equations: dense for small models and matrix families, sparse for
+// large multibody models, in which every element couples only a few coordinates.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,12 +12,13 @@
 
 namespace eigentrail {
 
+/// A real matrix in dense or sparse storage.
 template <class Real>
 class BasicSystemMatrix {
  public:
   using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   using Column = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  using Sparse = Eigen::SparseMatrix<Real>;  ///< compressed, by columns
+  using Sparse = Eigen::SparseMatrix<Real>;  ///< compressed column storage
 
   BasicSystemMatrix() = default;
   BasicSystemMatrix(Dense values) : values_(std::move(values)) {}   // NOLINT: a dense matrix is one
@@ -32,7 +33,7 @@ class BasicSystemMatrix {
   Dense dense() const {
     return visit([](const auto& values) { return Dense(values); });
   }
-  operator Dense() const { return dense(); }  // NOLINT: for small models there is no difference
+  operator Dense() const { return dense(); }  // NOLINT: lets small models use it as a dense matrix
 
   Eigen::Index rows() const {
     return visit([](const auto& values) { return values.rows(); });
@@ -50,15 +51,15 @@ class BasicSystemMatrix {
     if (const auto* values = std::get_if<Dense>(&values_)) return values->isZero(Real(0.0));
     return (sparse().coeffs() == Real(0.0)).all();
   }
-  /// Frobenius; 0 of an empty matrix.
+  /// Frobenius norm; 0 if the matrix is empty.
   Real norm() const {
     return visit([](const auto& values) { return values.size() == 0 ? Real(0.0) : Real(values.norm()); });
   }
-  /// Largest magnitude of an entry; 0 of an empty matrix.
+  /// Largest magnitude of an entry; 0 if the matrix is empty.
   Real largest_entry() const {
     return visit([](const auto& values) { return largest_magnitude(values); });
   }
-  /// Largest sum of magnitudes in a column; 0 of an empty matrix.
+  /// Largest column sum of magnitudes; 0 if the matrix is empty.
   Real one_norm() const {
     return visit([](const auto& values) {
       Real largest(0.0);
@@ -68,7 +69,7 @@ class BasicSystemMatrix {
       return largest;
     });
   }
-  /// Euclidean norm of every row.
+  /// Euclidean norms of the rows.
   Column row_norms() const {
     if (const auto* values = std::get_if<Dense>(&values_)) return values->rowwise().norm();
     Column squares = Column::Zero(rows());
@@ -80,29 +81,29 @@ class BasicSystemMatrix {
     return squares.cwiseSqrt();
   }
 
-  /// sum + B X, without a temporary.
+  /// Adds B X to sum without a temporary; B is this matrix.
   void add_product_to(Dense& sum, const Dense& X) const {
     visit([&](const auto& values) { sum.noalias() += values * X; });
   }
-  /// B^T x.
+  /// B^T x; B is this matrix.
   Column transposed_times(const Column& x) const {
     return visit([&](const auto& values) { return Column(values.transpose() * x); });
   }
 
-  /// Adds `factor` B, both of one kind.
+  /// Adds `factor` B; both matrices must be dense or both sparse, otherwise throws std::bad_variant_access.
   void add_scaled(Real factor, const BasicSystemMatrix& B) {
     modify([&](auto& values) {
       using Kind = std::decay_t<decltype(values)>;
       values += factor * std::get<Kind>(B.values_);
     });
   }
-  /// Zero, of the same shape and kind.
+  /// Zero matrix of the same shape and storage.
   BasicSystemMatrix zero() const {
     if (is_sparse()) return Sparse(rows(), cols());
     return Dense(Dense::Zero(rows(), cols()));
   }
 
-  /// Calls visitor(values) with what is held: a const Dense& or a const Sparse&.
+  /// Calls visitor(values) with the stored matrix: a const Dense& or a const Sparse&.
   template <class Visit>
   decltype(auto) visit(Visit&& visitor) const {
     return std::visit(std::forward<Visit>(visitor), values_);
@@ -141,7 +142,8 @@ auto operator*(const Eigen::MatrixBase<Derived>& X, const BasicSystemMatrix<Real
 using SystemMatrix = BasicSystemMatrix<double>;
 using SparseMatrix = SystemMatrix::Sparse;
 
-/// Power series with such coefficients, all of one kind; as MatrixSeries.
+/// Power series with such coefficients, all dense or all sparse; element k multiplies h^k, as in
+/// MatrixSeries.
 using SystemSeries = std::vector<SystemMatrix>;
 
 }  // namespace eigentrail

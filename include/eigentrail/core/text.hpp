@@ -1,15 +1,15 @@
-// Numbers as text.
+// Text for numbers, and text that is safe to print.
 #pragma once
 
 #include <string>
 
 namespace eigentrail {
 
-/// Shortest text that reads back as the same double; "nan" and "inf" as such.
+/// Shortest text that reads back as the same double; "nan" or "inf" for non-finite values.
 std::string exact_text(double value);
 
-/// The text on one line without control characters, for terminals: what a scene says is quoted in messages
-/// and titles.
+/// Replaces control characters, line breaks included, by spaces. For text from scenes that is quoted in
+/// messages and titles on a terminal.
 std::string printable(std::string text);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// Matrix types and the runtime form of power series along the path.
+// Matrix types, and power series along the path whose order is known at run time.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,19 +13,20 @@ using Matrix = Eigen::MatrixXd;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-/// Highest order of the series along the path: one more than that of a dense output, for its error.
+/// Highest order of the series along the path. Dense output uses at most one order less; the additional
+/// coefficient estimates its error.
 inline constexpr int max_order = 5;
 
-/// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order it
-/// is used at; the coefficients it lacks are zero. A constant therefore has size 1 and costs nothing in
-/// products.
+/// Power series with matrix coefficients: series[k] multiplies h^k. A series may be shorter than the order at
+/// which it is used; missing coefficients are zero. A constant thus has size 1 and saves work in products.
 using MatrixSeries = std::vector<Matrix>;
 
 /// Power series with vector coefficients: column k multiplies h^k; missing columns are zero.
 using VectorSeries = Matrix;
 using ComplexVectorSeries = ComplexMatrix;
 
-/// The path near a point: every parameter, the coordinates and the multipliers as series in h.
+/// The path near a point: all parameters, the coordinates and the multipliers as power series in h, the
+/// distance along the path.
 template <class Real>
 struct BasicPath {
   using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
@@ -35,7 +36,7 @@ struct BasicPath {
 };
 using Path = BasicPath<double>;
 
-/// Coefficient k of a series, zero when the series is shorter.
+/// Coefficient k of row `row` of a series; zero if the series is shorter.
 template <class Derived>
 typename Derived::Scalar coefficient(const Eigen::MatrixBase<Derived>& series, Eigen::Index row,
                                      Eigen::Index k) {

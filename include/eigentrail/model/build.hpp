@@ -1,4 +1,4 @@
-// From a scene to a model.
+// Builds a model from a scene.
 #pragma once
 
 #include <memory>
@@ -10,42 +10,44 @@
 
 namespace eigentrail {
 
-/// What a model is asked for besides the scene.
+/// Options for building a model from a scene.
 struct ModelRequest {
   /// Parameter values (declared units) at which masses, lengths and the direction of gravity are checked:
-  /// points of the trace, its beginning and its end first.
+  /// points of the trace, its beginning and end first.
   std::vector<Vector> check_at;
-  std::set<int> used_elsewhere = {};      ///< parameters that need no use in the model
+  std::set<int> used_elsewhere = {};      ///< parameters that need not occur in the model
   std::vector<std::string> without = {};  ///< effects of the scene that are switched off
-  /// Adds a parameter for every effect of the scene that is no constraint, strength_parameter(name), which is
-  /// one and multiplies its forces: sensitivities to it tell what the effect does.
+  /// Whether to add a parameter strength_parameter(name) for every effect of the scene except constraints.
+  /// Its value is one and it multiplies the forces of the effect: sensitivities to it show the influence of
+  /// the effect.
   bool strengths = false;
 };
 
-/// Builds the model that a scene describes: a multibody system, or a family of matrices when the scene has
-/// [matrix_family]. Throws InputError for every fault of the scene, unknown keys and unused parameters
-/// included.
+/// Builds the model that a scene describes: a multibody system, or a matrix family if the scene has
+/// [matrix_family]. Throws InputError for every fault of the scene, including unknown keys and unused
+/// parameters.
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request);
 
-/// Name of the parameter that multiplies an effect; no scene can use it.
+/// Name of the parameter that multiplies the forces of an effect; no parameter of a scene can have this name.
 std::string strength_parameter(const std::string& effect);
 
-/// Rejects top-level keys that no scene has, naming the nearest known one. Done before anything else is read,
-/// so that a misspelt table is not reported as a missing one.
+/// Throws InputError for an unknown top-level key and names the nearest known one. To be called before
+/// anything else is read, so that a misspelt table is not reported as missing.
 void check_top_level(const Scene& scene);
 
-/// An effect that cannot be left out, with the place where the scene names it; the command line may, too.
+/// The error for an effect that cannot be switched off, with the position where the scene names it; without a
+/// position if only the command line names it.
 InputError without_error(const Scene& scene, const std::string& effect, const std::string& message);
 
-/// Whether the scene gives matrices instead of elements.
+/// Whether the scene has [matrix_family], that is, matrices instead of elements.
 bool is_matrix_family(const Scene& scene);
 
-/// One line per key that a table of the given effect takes, for help and documentation.
+/// Describes one key of the tables of an effect, for help and documentation.
 struct FieldHelp {
   std::string key;
-  std::string unit;  ///< or what kind of value it is
+  std::string unit;  ///< unit, or kind of value
   std::string help;
-  std::string otherwise = {};  ///< value when the scene is silent, as text; empty: the key is required
+  std::string otherwise = {};  ///< default value as text; empty: the key is required
 };
 struct EffectHelp {
   std::string name;
@@ -53,7 +55,7 @@ struct EffectHelp {
   std::vector<FieldHelp> fields;
 };
 
-/// Every effect of multibody scenes, in the order of evaluation.
+/// All effects of multibody scenes, in the order of evaluation.
 std::vector<EffectHelp> effect_reference();
 
 }  // namespace eigentrail

@@ -1,9 +1,9 @@
-// A model of one's own: generalized coordinates x with a mass matrix and a force,
+// A model defined by the user: generalized coordinates x with a mass matrix and a force,
 //
 //   M(x, p) x'' = f(x, x', p)                                  (seed paper, Eq. 3a without constraints)
 //
-// The physics is a class that states them once, as templates over the scalar; C = -f_/x', K = -f_/x and all
-// derivatives along the path follow by automatic differentiation. docs/cpp.md has an example.
+// `Physics` is a class that defines M and f once, as templates over the scalar type. C = -f_/x', K = -f_/x
+// and all derivatives along the path follow by automatic differentiation. docs/cpp.md has an example.
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@
 
 namespace eigentrail {
 
-/// What the physics sees: n coordinates, their rates, and the parameters in SI units, by index.
+/// State at which the physics is evaluated: n coordinates, their rates, and the parameters in SI units by
+/// index.
 template <class Scalar, int n>
 struct GeneralizedState {
   Eigen::Matrix<Scalar, n, 1> x;
@@ -27,22 +28,23 @@ using GeneralizedForce = Eigen::Matrix<Scalar, n, 1>;
 template <class Scalar, int n>
 using GeneralizedMass = Eigen::Matrix<Scalar, n, n>;
 
-/// `Physics` is copyable and safe to call from several threads. It has
+/// Model with the mass matrix and force of `Physics`, a class that is copyable and safe to call from several
+/// threads and has
 ///
 ///   static constexpr int freedoms = n;
-///   static constexpr Contribution contribution{...};   what f may contain; may be left out: anything
+///   static constexpr Contribution contribution{...};   parts of f; if absent, f may have all of them
 ///   template <class Scalar> GeneralizedMass<Scalar, n> mass(const GeneralizedState<Scalar, n>&) const;
 ///   template <class Scalar> GeneralizedForce<Scalar, n> force(const GeneralizedState<Scalar, n>&) const;
 ///
-/// M is symmetric. Functions of scalars are called without std:: (using std::sin; sin(x)). A linearization
-/// costs 2 n evaluations of the force, and f may have any part that the contribution names.
+/// M must be symmetric. Functions of scalars must be called without std:: (using std::sin; sin(x)). A
+/// linearization costs 2 n evaluations of the force. f may only have the parts that the contribution names.
 template <class Physics>
 class ForceModel final : public Model {
  public:
   static constexpr int n = Physics::freedoms;
 
-  /// `names` (n) label the coordinates in messages and files; `guess` (n) is where the equilibrium at the
-  /// beginning of a trace is looked for. Throws std::invalid_argument when the sizes differ from n.
+  /// `names` (n) label the coordinates in messages and files; `guess` (n) is the starting guess of the
+  /// equilibrium at the beginning of a trace. Throws std::invalid_argument if the sizes differ from n.
   ForceModel(Physics physics, Parameters parameters, std::vector<std::string> names, Vector guess)
       : Model(describe(std::move(parameters), std::move(names))),
         physics_(std::move(physics)),
@@ -95,7 +97,7 @@ class ForceModel final : public Model {
     return description;
   }
 
-  /// The path at rest, in any scalar that holds a series along it.
+  /// The state at rest along the path, in any scalar that can hold a series along it.
   template <class Scalar, class Real, int Q>
   GeneralizedState<Scalar, n> at_rest(const BasicPath<Real>& path) const {
     const auto series_of = [](const auto& columns, Eigen::Index row) {

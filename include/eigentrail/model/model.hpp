@@ -1,9 +1,9 @@
-// The one abstract interface: what the engine asks of a mechanical system.
+// The interface through which the solver evaluates a mechanical system.
 //
 //   M(x, p) x'' + A^T lambda = f(x, x', p),   c(x, p) = 0,   A = c_/x          (seed paper, Eqs. 3a, 3b)
 //
-// A model answers with power series along a path (x(h), lambda(h), p(h)), so its derivatives are total
-// derivatives.
+// A model returns power series along a path (x(h), lambda(h), p(h)); all derivatives are total derivatives
+// along it.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,7 @@
 
 namespace eigentrail {
 
-/// What an effect contributes to the linearized equations; the structure of the pencil follows from these
-/// alone.
+/// Contributions of an effect to the linearized equations. They determine the structure of the pencil.
 struct Contribution {
   bool inertia = false;       ///< symmetric M
   bool conservative = false;  ///< symmetric K
@@ -29,49 +28,52 @@ struct Contribution {
   bool constraint = false;    ///< rows of A, and the symmetric (A^T lambda)_/x
 };
 
-/// An effect of the scene, or one that a scene could name.
+/// An effect that occurs or may occur in the scene.
 struct Effect {
-  std::string name;           ///< the key that calls for it: "rod"
+  std::string name;           ///< key of its tables in the scene, such as "rod"
   std::string description;    ///< one line
-  int count = 0;              ///< how often the scene names it; 0: absent, never evaluated
-  Contribution contribution;  ///< of each of them
-  int evaluations = 0;        ///< of its formula (constraints: rows) for all of them in one linearization
+  int count = 0;              ///< number of its occurrences in the scene; 0: never evaluated
+  Contribution contribution;  ///< contribution of each occurrence
+  /// Evaluations of its formula (constraints: rows) for all occurrences in one linearization.
+  int evaluations = 0;
 };
 
-/// What is known about the pencil before a number is computed, for a given traced parameter.
+/// Structure of the pencil that is known before its evaluation, for a given traced parameter.
 struct Structure {
   bool symmetric_mass = true;
   bool damped = false;
   bool gyroscopic = false;
   bool circulatory = false;
-  bool constant_mass = false;  ///< M does not change along the path; likewise below
+  bool constant_mass = false;  ///< M is constant along the path; likewise below
   bool constant_damping = false;
   bool constant_stiffness = false;    ///< K + (A^T lambda)_/x
-  bool constant_constraints = false;  ///< A: the tangent basis is kept
-  bool fixed_equilibrium = false;     ///< x0 and lambda0 do not move: KINSOL is called once at most
+  bool constant_constraints = false;  ///< A is constant: the tangent basis is kept
+  bool fixed_equilibrium = false;     ///< x0 and lambda0 do not change: KINSOL is called once at most
   bool known_equilibrium = false;     ///< the initial guess is the equilibrium: KINSOL is never called
 };
 
-/// A point (one triple of coordinates) or a body (four: its origin and its directors) of a multibody model.
-/// Its mass matrix is G x 1 with constant moments G of that size.
+/// A point (one triple of coordinates) or a body (four triples: its origin and its directors) of a multibody
+/// model. Its mass matrix is the Kronecker product of its constant moments G (1 x 1 or 4 x 4) and the 3 x 3
+/// identity matrix.
 struct MassCarrier {
   std::string name;
   Eigen::Index first_triple = 0;
   Eigen::Index n_triples = 1;
 };
 
-/// Unchanging facts about a model.
+/// Constant properties of a model.
 struct ModelDescription {
   std::vector<std::string> coordinate_names;  ///< size n
   std::vector<std::string> coordinate_units;  ///< size n
   std::vector<std::string> constraint_names;  ///< size m
   std::vector<Effect> effects;
-  std::vector<MassCarrier> masses;               ///< of a multibody model
-  std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector, where the frame rotates
+  std::vector<MassCarrier> masses;               ///< only of a multibody model
+  std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector; empty if the frame does not rotate
   Parameters parameters;
 };
 
-/// Steady equations A^T lambda - f(x, 0, p) = 0 and c(x, p) = 0 as series (Eqs. 14a, 14b).
+/// Residual of the steady equations A^T lambda - f(x, 0, p) = 0 and c(x, p) = 0 as power series (Eqs. 14a,
+/// 14b).
 template <class Real>
 struct BasicSteadyResidual {
   using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
@@ -80,7 +82,8 @@ struct BasicSteadyResidual {
 };
 using SteadyResidual = BasicSteadyResidual<double>;
 
-/// Linearization about the path as series (Eqs. 16a, 16b); all derivatives are total along the path.
+/// Linearization about the path as power series (Eqs. 16a, 16b); all derivatives are total derivatives along
+/// the path.
 template <class Real>
 struct BasicLinearization {
   using Coefficients = std::vector<BasicSystemMatrix<Real>>;
@@ -91,19 +94,19 @@ struct BasicLinearization {
 };
 using Linearization = BasicLinearization<double>;
 
-/// Evaluations of each effect (index as in ModelDescription::effects), summed over a run.
+/// Number of evaluations of each effect (index as in ModelDescription::effects), summed over a run.
 struct EvaluationCounts {
   std::vector<std::uint64_t> residual;
   std::vector<std::uint64_t> linearization;
 };
 
-/// A number that is not finite: where it came from. Empty `source` means all numbers were finite.
+/// Reports a number that is not finite: `source` names its origin and is empty if all numbers are finite.
 struct EvaluationFault {
   std::string source;
   explicit operator bool() const { return !source.empty(); }
 };
 
-/// Models are immutable; const calls may run in several threads, each with its own `counts`.
+/// Models are immutable. Const functions may be called from several threads, each with its own `counts`.
 class Model {
  public:
   virtual ~Model() = default;
@@ -121,7 +124,8 @@ class Model {
   /// Starting guess for x at given parameters (declared units).
   virtual Vector initial_guess(const Vector& parameters) const = 0;
 
-  /// Structure for a path along which only the parameter with this index changes by itself.
+  /// Structure for a path along which only the parameter with this index is changed directly; parameters that
+  /// are derived from it change with it.
   virtual Structure structure(int traced_parameter) const = 0;
 
   /// Residual of the steady equations along `path` up to h^order, 0 <= order <= max_order.
@@ -132,8 +136,8 @@ class Model {
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
 
-  /// The same two at a point, of order 0, with 113 bits: for references. A model that does not have them
-  /// answers with a fault.
+  /// The same two at a point (order 0) with 113 bits, for reference solutions. A model that does not support
+  /// them returns a fault.
   virtual EvaluationFault extended_residual(const BasicPath<Extended>&,
                                             BasicSteadyResidual<Extended>&) const {
     return {"a model without extended precision"};
@@ -143,7 +147,7 @@ class Model {
     return {"a model without extended precision"};
   }
 
-  /// Counters of the right size, all zero.
+  /// Counters for this model, all zero.
   EvaluationCounts new_counts() const {
     const std::size_t n = description_.effects.size();
     return {std::vector<std::uint64_t>(n, 0), std::vector<std::uint64_t>(n, 0)};

@@ -1,12 +1,13 @@
-// Some eigenvalues of a block by themselves: power series of a part of Lambda(h).
+// Power series of some of the eigenvalues of a block: invariant parts of Lambda(h).
 //
-// In the Schur form of Lambda(0) with the part first, N = U^H Lambda U = [A B; C D] with C(0) = 0, the
-// columns [I; Y(h)] span the part's invariant subspace where
+// In the Schur form of Lambda(0), with the eigenvalues of the part first, N = U^H Lambda U = [A B; C D] with
+// C(0) = 0. The columns [I; Y(h)] span the invariant subspace of the part, where
 //
 //     C + D Y - Y A - Y B Y = 0,
 //
-// and A + B Y is the part of Lambda. Order by order this is one Sylvester equation of the size of the block,
-// regular while the part has no eigenvalue in common with the rest (Stewart & Sun 1990, Sect. V.2).
+// and A + B Y is the matrix of the part. Every order requires one Sylvester equation of the size of the
+// block. It is nonsingular as long as the part and the rest have no eigenvalue in common (Stewart & Sun 1990,
+// Sect. V.2).
 #pragma once
 
 #include <vector>
@@ -15,24 +16,25 @@
 
 namespace eigentrail {
 
-/// Coefficients of the part of `Lambda` (k x k each) with the eigenvalues `part` at h = 0; empty when they
-/// cannot be told from the others. Accurate as long as the part as a whole keeps its distance from the rest,
-/// also where its own eigenvalues meet.
+/// Coefficients of the matrix series of a part of `Lambda` (k x k coefficients): the part has the eigenvalues
+/// `part` at h = 0. Returns an empty vector if they cannot be separated from the other eigenvalues (distance
+/// at most 1e-13 |Lambda|). Accurate as long as the part as a whole is well separated from the rest, even if
+/// its own eigenvalues meet.
 std::vector<ComplexMatrix> part_series(const std::vector<ComplexMatrix>& Lambda,
                                        const std::vector<Complex>& part);
 
-/// Mean of the eigenvalues of a part.
+/// Series of the mean of the eigenvalues of a part.
 ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda);
 
-/// ((s_a - s_b) / 2)^2 of a part that consists of two eigenvalues s_a and s_b, `count` times the one and the
-/// other for the rest: delta when there are two. Smooth where they meet.
+/// Series of ((s_a - s_b) / 2)^2 for a part whose eigenvalues are s_a, `count` times, and s_b otherwise. With
+/// two eigenvalues and count = 1 this is delta of invariants.hpp. Smooth where s_a and s_b meet.
 ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count);
 
-/// The same from the series of both.
+/// The same from the series of s_a and s_b.
 ComplexVector discriminant_series(const ComplexVector& a, const ComplexVector& b);
 
-/// Coefficients of the eigenvalue `root` of a block from those of its functions (invariants.hpp). Empty when
-/// the root is not simple.
+/// Series of the eigenvalue `root` of a block, from the series of the functions of the block
+/// (invariants.hpp). Empty if the root is not simple (relative distance at most 1e-13).
 ComplexVector root_series(const ComplexMatrix& functions, Complex root);
 
 }  // namespace eigentrail

@@ -1,8 +1,9 @@
-// What moves in a mode: shares of its kinetic energy by body and by direction, and a name that follows.
+// Describes a mode by its motion: shares of its kinetic energy by body and direction, and a name from them.
 //
-// In a rotating frame the directions are those of a blade: along its radius s, along the axis of rotation a,
-// and along a x s. Motion along a and rotation about a x s are flap, motion along a x s and rotation about a
-// are lag, rotation about s is torsion, motion along s is axial. Elsewhere they are the frame's x, y, z.
+// In a rotating frame, the directions of a mass are those of a blade: s along its radius, a along the axis of
+// rotation, and a x s. Motion along a and rotation about a x s are flap; motion along a x s and rotation
+// about a are lag; rotation about s is torsion; motion along s is axial. If the frame does not rotate, or if
+// the mass is on the axis, the directions are x, y, z of the frame.
 #pragma once
 
 #include <array>
@@ -26,36 +27,36 @@ struct MassMotion {
 
 class EnergyShares {
  public:
-  /// Directions are those at the equilibrium `x` (n) with mass matrix M, and stay what they are.
+  /// Takes the directions from the equilibrium `x` (n) with mass matrix M; they stay constant afterwards.
   EnergyShares(const ModelDescription& description, const SystemMatrix& M, const Vector& x);
 
   EnergyShares() = default;
 
-  /// Its state, for files that a trace goes on from.
+  /// Lists the state, for files from which a trace is resumed.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
     visit(self.carriers_, self.motions_);
   }
 
-  /// All that masses of the model may do; empty for a family of matrices, of which nothing is known.
+  /// All motions that the masses of the model can have; empty for a matrix family, whose masses are unknown.
   const std::vector<MassMotion>& motions() const { return motions_; }
 
-  /// Shares of z* M z by motion (rows) for mode shapes z about x (columns of `shapes`, n x k); they add up to
-  /// one. Products of inertia between two rotations are split in halves.
+  /// Shares of z* M z by motion (rows) for the mode shapes z about x (columns of `shapes`, n x k). The shares
+  /// of a mode sum to one. A product of inertia between two rotations contributes half to each.
   Matrix of(const SystemMatrix& M, const Vector& x, const ComplexMatrix& shapes) const;
 
-  /// Whether a state that was read is one of this model.
+  /// Whether a state that was read from a file fits the masses of this model.
   bool fits(const ModelDescription& description) const;
 
-  /// A name for each of some modes, given their shares (motions x modes) in the order in which equal names
-  /// are numbered: "flap", "lag 2", "flap-torsion", "hub along x and y".
+  /// A name for each mode from its shares (motions x modes): "flap", "lag 2", "flap-torsion", "hub along x
+  /// and y". Equal names are numbered in the order of the modes.
   std::vector<std::string> names(const Matrix& shares) const;
 
  private:
   struct Carrier {
     MassCarrier mass;
-    bool blade = false;                                  ///< names of a blade's directions
-    std::array<Eigen::Index, 6> rows = {};               ///< of its motions along and about the axes
+    bool blade = false;                                  ///< whether the directions are those of a blade
+    std::array<Eigen::Index, 6> rows = {};               ///< rows of its motions along and about the axes
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: s, a, a x s; or x, y, z
 
     template <class Self, class Visit>

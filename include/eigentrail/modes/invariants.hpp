@@ -1,12 +1,12 @@
-// Smooth functions of a block: what is interpolated between points and stored.
+// Smooth functions of the eigenvalues of a block. They are interpolated between points and stored.
 //
 //   one mode        s
 //   two             tau = (s1 + s2)/2 and delta = ((s1 - s2)/2)^2, so that s = tau +- sqrt(delta)
 //   three and more  the k^2 entries of Lambda, column by column, in a basis that both ends of a step share
 //
-// They stay smooth where the eigenvalues meet. tau and delta do not depend on a basis. For larger blocks the
-// matrix is kept instead of its characteristic polynomial: where some of its eigenvalues coincide without
-// being defective, the polynomial would lose half of their digits and the matrix loses none.
+// They stay smooth where eigenvalues of the block coalesce. tau and delta do not depend on the basis. For
+// larger blocks the matrix is used and not its characteristic polynomial: if some eigenvalues coincide
+// without being defective, the polynomial loses half of their digits and the matrix loses none.
 #pragma once
 
 #include <vector>
@@ -15,39 +15,40 @@
 
 namespace eigentrail {
 
-/// Number of eigenvalues of a block with this many functions.
+/// Number of eigenvalues of a block with this number of functions.
 Eigen::Index block_size(Eigen::Index functions);
 
-/// Functions of a block as series, one row each, from the series of Lambda.
+/// Power series of the functions of a block, one row per function, from the series of Lambda.
 ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda);
 
-/// Eigenvalues from the values of the functions, in no particular order; exactly real or conjugate where all
-/// functions are real.
+/// Eigenvalues from the values of the functions, in no particular order. If all functions are real, the
+/// eigenvalues are exactly real or exactly conjugate.
 ComplexVector block_roots(const ComplexVector& functions);
 
-/// How far rounding of Lambda moves the functions: an error estimate below it means nothing. Where a block is
-/// defective that of delta counts, and the eigenvalues are known to the root of it only.
+/// Rounding error of the functions that rounding of Lambda causes; an error estimate below it is meaningless.
+/// If a block is defective, the error of delta determines the accuracy: the eigenvalues are known only to its
+/// square root.
 Vector function_rounding(const ComplexMatrix& Lambda);
 
-/// How far errors of the functions move the eigenvalues, each at most; near a meeting the distance of the
-/// roots counts as no less than `least_gap`.
+/// Estimate of the largest error of an eigenvalue for given errors of the functions, 1/s. Near a meeting of
+/// eigenvalues a distance smaller than `least_gap` is replaced by `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
 
-/// Distance within which no two eigenvalues of a block can be told apart, 1/s: above zero for blocks of three
-/// and more all of whose `roots` coincide within rounding, as those of several rigid-body modes do. Their
-/// matrix is far from normal, and its eigenvalues are known to the root of its rounding only.
+/// Distance (1/s) below which the eigenvalues of a block cannot be distinguished. Nonzero only for blocks of
+/// three and more whose `roots` all coincide within rounding, for example several rigid-body modes. Their
+/// matrix is far from normal, so the eigenvalues are known only to the square root of its rounding error.
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
 
-/// Roots of `to` in the order of `from`: the assignment with the least total distance.
+/// The values `to` in the order of `from`: the assignment with the least total distance.
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to);
 
-/// Smallest distance between two of the values; infinite when there is one.
+/// Smallest distance between two of the values; infinite for a single value.
 double least_gap(const ComplexVector& roots);
 
-/// Coefficients of 1 / series; the leading coefficient must not vanish.
+/// Coefficients of 1 / series; the leading coefficient must not be zero.
 ComplexVector reciprocal_series(const ComplexVector& series);
 
-/// Coefficients of the product of two series of one length.
+/// Coefficients of the product of two series of equal length, truncated to it.
 ComplexVector multiply_series(const ComplexVector& a, const ComplexVector& b);
 
 }  // namespace eigentrail

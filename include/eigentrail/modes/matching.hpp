@@ -1,4 +1,4 @@
-// Which mode is which: modal assurance criterion and optimal assignment.
+// Assigns modes at one point to modes at another: modal assurance criterion and optimal assignment.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace eigentrail {
 
-/// Modal assurance criterion in physical coordinates with the mass matrix as weight,
-/// |v^H M w|^2 / ((v^H M v) (w^H M w)), for every column pair: rows belong to V, columns to W. Where one
-/// of the two moves no mass, the weight is the identity.
+/// Modal assurance criterion in physical coordinates, weighted by the mass matrix: |v^H M w|^2 / ((v^H M v)
+/// (w^H M w)) for all pairs of a column v of V (rows of the result) and a column w of W (columns). If v or w
+/// moves no mass, the identity replaces M.
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const SystemMatrix& M);
 
 /// One-to-one assignment of rows to columns with the least total cost (Kuhn 1955, in the shortest-path form
-/// of Jonker & Volgenant 1987); O(n^3). `cost` is square and finite, or std::invalid_argument is thrown.
-/// Returns the column of every row.
+/// of Jonker & Volgenant 1987). Returns the column of every row. Cost O(n^3). Throws std::invalid_argument
+/// unless `cost` is square and finite, or if differences of costs overflow.
 std::vector<int> optimal_assignment(const Matrix& cost);
 
 }  // namespace eigentrail

@@ -1,12 +1,12 @@
-// The quadratic pencil at one point of the path, as the correctors see it.
+// The quadratic pencil at one point of the path, in the form that the correctors use.
 #pragma once
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
 
-/// Which function of the parameter is followed. Near an infinite eigenvalue (singular mass) mu = 1/s is
-/// smooth: it is an eigenvalue of the pencil with M and K exchanged.
+/// Which function of the parameter is followed: s (finite) or mu = 1/s (reciprocal). Near an infinite
+/// eigenvalue (singular mass matrix) 1/s is smooth; it is an eigenvalue of the pencil with M and K exchanged.
 enum class Chart { finite, reciprocal };
 
 constexpr Chart other(Chart chart) {
@@ -18,23 +18,24 @@ struct PencilAtPoint {
   const Matrix& M;
   const Matrix& C;
   const Matrix& K;
-  double norm_M, norm_C, norm_K;  ///< Frobenius
+  double norm_M, norm_C, norm_K;  ///< Frobenius norms
 
   explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
-  explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;  ///< referred to, not copied
-  /// One in the chart given, from that of the finite one.
+  /// The pencil is referenced, not copied.
+  explicit PencilAtPoint(ReducedPencil&&, Chart = Chart::finite) = delete;
+  /// The same pencil in the given chart, from its form in the finite chart.
   PencilAtPoint(const PencilAtPoint& finite, Chart chart);
 
   Eigen::Index size() const { return M.rows(); }
-  bool is_undamped() const { return norm_C == 0.0; }  ///< C vanishes
+  bool is_undamped() const { return norm_C == 0.0; }  ///< whether C is zero
   ComplexMatrix matrix(Complex mu) const;
   /// M Z Lambda^2 + C Z Lambda + K Z.
   ComplexMatrix residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
-  /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors.
+  /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors; `mu` is the magnitude of the eigenvalue.
   double magnitude(double mu) const;
 };
 
-/// B Z for a real matrix and few complex columns.
+/// B Z for a real matrix B and few complex columns.
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z);
 ComplexMatrix multiply(const SparseMatrix& B, const ComplexMatrix& Z);
 ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z);

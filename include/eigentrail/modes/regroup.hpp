@@ -1,4 +1,4 @@
-// Changing what is followed as a block: joining modes, taking blocks apart, changing the chart.
+// Changes how modes are grouped: joins modes into a block, splits blocks, changes the chart.
 #pragma once
 
 #include <vector>
@@ -7,23 +7,23 @@
 
 namespace eigentrail {
 
-/// One block from several, all of one chart: columns side by side. A complex block that joins a real one
-/// brings its conjugate along. The result is not yet corrected.
+/// One block from several pairs of the same chart, with their columns side by side. With `make_real`, a
+/// complex pair is joined together with its conjugate. The result is not corrected.
 InvariantPair join_pairs(const std::vector<const InvariantPair*>& parts, bool make_real);
 
-/// A complex block and its conjugate as a real block of twice the size.
+/// A complex pair and its conjugate as a real block of twice the size.
 InvariantPair with_conjugate(const InvariantPair& upper);
 
-/// The part of a block that belongs to the eigenvalues with these indices into `eigenvalues` (as returned by
-/// pair_eigenvalues): an orthonormal Schur basis, real where the part is closed under conjugation and the
-/// block is real.
+/// The part of a block that belongs to the eigenvalues with the indices `part` into `eigenvalues` (as
+/// returned by pair_eigenvalues). The basis is an orthonormal Schur basis; it is real if the block is real
+/// and the part is closed under conjugation.
 InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalues,
                       const std::vector<int>& part);
 
-/// Eigenvalues of Lambda, exactly conjugate or real for a real block.
+/// Eigenvalues of Lambda. For a real block they are exactly real or exactly conjugate.
 ComplexVector pair_eigenvalues(const InvariantPair& pair);
 
-/// The same block in the other chart: Lambda becomes its inverse.
+/// The same block in the other chart: Lambda is replaced by its inverse.
 InvariantPair in_other_chart(const InvariantPair& pair);
 
 }  // namespace eigentrail

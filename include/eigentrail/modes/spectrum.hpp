@@ -1,4 +1,4 @@
-// The whole spectrum of a pencil at one point, by LAPACK's QZ on the scaled companion linearization.
+// The whole spectrum of a pencil at one point, by LAPACK on the scaled companion linearization.
 #pragma once
 
 #include <vector>
@@ -8,35 +8,38 @@
 namespace eigentrail {
 
 struct StartingMode {
-  Complex s;        ///< Im s >= 0; a complex pair is represented by this member
-  ComplexVector z;  ///< unit length; empty where eigenvalues alone were asked for
+  Complex s;        ///< Im s >= 0; this member represents a complex pair
+  ComplexVector z;  ///< unit length; empty if only eigenvalues were requested
 };
 
 enum class SpectrumStatus { complete, singular_pencil, not_converged };
 
 struct [[nodiscard]] Spectrum {
   SpectrumStatus status = SpectrumStatus::not_converged;
-  std::vector<StartingMode> modes;  ///< finite ones, by ascending |s|
-  int n_infinite = 0;               ///< infinite eigenvalues (singular mass)
-  double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), the typical magnitude of eigenvalues
+  std::vector<StartingMode> modes;  ///< finite modes in the order of increasing |s|
+  int n_infinite = 0;               ///< number of infinite eigenvalues (singular mass matrix)
+  double scale = 1.0;               ///< gamma = sqrt(|K| / |M|), or |C| / |M| if K = 0: typical |s|
 };
 
-/// Solves (s^2 M + s C + K) z = 0. The pencil is scaled by s = gamma mu and a common factor so that all three
-/// matrices have norms near one (Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26, 2004). Cost about 60
-/// (2n)^3.
+/// Solves (s^2 M + s C + K) z = 0 by the QZ algorithm. The pencil is scaled by s = gamma mu and by a common
+/// factor so that the norms of all three matrices are close to one (Fan, Lin & Van Dooren, SIAM J. Matrix
+/// Anal. Appl. 26, 2004). Cost about 60 (2n)^3 multiplications.
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
 
-/// The same without vectors, which are more than half of the work.
+/// The same without eigenvectors, which take more than half of the work. If M is well-conditioned it is
+/// inverted, and the QR algorithm replaces QZ.
 Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
 
-/// Vector of the eigenvalue nearest to s, of unit length, by inverse iteration with P(sigma)^-1 P'(sigma),
-/// sigma a little beside s: good enough for the corrector where the next eigenvalue is not nearer than 1e-6
-/// |s|. Real where s is. `scale` is that of the spectrum. Cost one LU of size n.
+/// Eigenvector of the eigenvalue nearest to s, of unit length, by inverse iteration with P(sigma)^-1
+/// P'(sigma), sigma = s + 1e-9 max(|s|, scale). Accurate enough as start of the corrector if no other
+/// eigenvalue is nearer than 1e-6 |s|. Real if s is real. `scale` is that of the spectrum. Cost: one LU of
+/// size n.
 ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double scale);
 
 /// The block of the k eigenvalues nearest to `centre`, by inverse iteration with k vectors on the companion
-/// form: reliable also where single vectors coincide. `is_real` asks for a real block; the centre is then
-/// real. Not yet corrected. Cost one LU of size 2n.
+/// form; reliable also if eigenvectors coincide. `is_real` requests a real block; `centre` must then be real.
+/// `least_scale` is a lower bound of the scale gamma, for a stiffness that is only rounding. The block is not
+/// corrected. Cost: one LU of size 2n.
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
                                  Eigen::Index k, bool is_real, double least_scale = 0.0);
 

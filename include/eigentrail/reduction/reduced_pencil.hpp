@@ -1,4 +1,4 @@
-// Projection of the linearized equations on the tangent basis (seed paper, Eqs. 12a, 26, 36).
+// Projection of the linearized equations onto the tangent basis (seed paper, Eqs. 12a, 26, 36).
 #pragma once
 
 #include "eigentrail/model/model.hpp"
@@ -6,7 +6,7 @@
 
 namespace eigentrail {
 
-/// P(s, h) = s^2 M(h) + s C(h) + K(h), all of size n - rank.
+/// The reduced pencil P(s, h) = s^2 M(h) + s C(h) + K(h); all matrices are of size n - rank.
 struct ReducedPencil {
   MatrixSeries M;  ///< T^T M T
   MatrixSeries C;  ///< T^T C T
@@ -15,13 +15,14 @@ struct ReducedPencil {
   Eigen::Index size() const { return M[0].rows(); }
 };
 
-/// T^T B T in series arithmetic up to h^order: coefficient k is the sum over i + j + l = k of T_i^T B_j T_l
-/// (Eq. 36 for k = 1). Series that end early are short, so constants cost nothing beyond order 0.
+/// T^T B T as a power series up to h^order: coefficient k is the sum over i + j + l = k of T_i^T B_j T_l (Eq.
+/// 36 for k = 1). Trailing zero coefficients are not stored, so constants cost nothing beyond order 0.
 MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order);
 
-/// The same of coefficients that may be sparse, which makes B T a product of cost O(n - rank) per entry of B.
+/// The same for coefficients that may be sparse; the product B T then costs O(n - rank) per nonzero of B.
 MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order);
 
+/// Projects M, C and K of a linearization, up to h^order.
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order);
 
 }  // namespace eigentrail

@@ -1,4 +1,5 @@
-// Arithmetic expressions of the scene's parameters, evaluated on any scalar (numbers, series, nested series).
+// Arithmetic expressions of the scene's parameters. They can be evaluated with any scalar type (numbers,
+// series, nested series).
 //
 // Grammar:  sum     = product { ("+" | "-") product }
 //           product = signed { ("*" | "/") signed }
@@ -20,7 +21,8 @@
 
 namespace eigentrail {
 
-/// A text that is no expression: what is wrong and at which character (from 0) of the text.
+/// A text that is not a valid expression: what is wrong, and the offset of the character (from 0) in the
+/// text.
 class ExpressionError : public std::runtime_error {
  public:
   ExpressionError(const std::string& message, std::size_t at) : std::runtime_error(message), offset(at) {}
@@ -54,36 +56,37 @@ class Expression {
   };
   struct Instruction {
     Op op = Op::number;
-    double number = 0.0;  ///< value of a number, exponent of an integer power
+    double number = 0.0;  ///< value of a number, or exponent of an integer power
     int parameter = -1;   ///< index of a parameter
   };
 
-  /// Deepest evaluation stack that is accepted; `parse` rejects what needs more.
+  /// Size of the evaluation stack; `parse` rejects expressions that need more.
   static constexpr int max_stack = 64;
 
   Expression(double constant = 0.0) : code_{{Op::number, constant}} {}  // NOLINT: numbers are expressions
 
-  /// The parameter of that index.
+  /// The parameter with this index.
   static Expression of_parameter(int index);
 
-  /// Compiles `text`; a name in it means the parameter at the same index of `names`.
-  /// Throws ExpressionError with the offset of the fault.
+  /// Compiles `text`; a name in it denotes the parameter at the same index of `names`. Throws ExpressionError
+  /// with the offset of the fault.
   static Expression parse(std::string_view text, const std::vector<std::string>& names);
 
-  /// Value for given parameter values (SI), one per name that `parse` was given.
+  /// Value for given parameter values (SI), one for each name that `parse` got.
   template <class Scalar>
   Scalar evaluate(std::span<const Scalar> parameters) const;
 
   bool is_constant() const { return parameters_.empty(); }
 
-  /// Numbers, parameters and operations that it consists of.
+  /// Number of its instructions: numbers, parameters and operations.
   std::size_t size() const { return code_.size(); }
 
-  /// Indices of the parameters that occur, each once, ascending.
+  /// Indices of the parameters that occur, each once, in increasing order.
   const std::vector<int>& parameters() const { return parameters_; }
 
-  // Composition; what is constant is computed at once, and zeros and ones leave no code behind. All throw
-  // ExpressionError where the result needs a deeper stack than `max_stack`.
+  // Composition. Constant results are computed at once, and sums with zero and products with zero or one
+  // produce no instructions. All throw ExpressionError if the result needs a deeper stack than `max_stack`,
+  // or has more than limits::expression_operations instructions.
   friend Expression operator+(const Expression& a, const Expression& b);
   friend Expression operator-(const Expression& a, const Expression& b);
   friend Expression operator*(const Expression& a, const Expression& b);
@@ -100,7 +103,7 @@ class Expression {
   static Expression compose(Op op, const Expression& a);
   static Expression compose(Op op, const Expression& a, const Expression& b);
 
-  std::vector<Instruction> code_;  ///< postfix
+  std::vector<Instruction> code_;  ///< in postfix notation
   std::vector<int> parameters_;
 };
 
@@ -108,7 +111,7 @@ namespace detail {
 
 template <class Scalar>
 Scalar apply(Expression::Op op, const Scalar& x) {
-  // The standard functions for numbers; those for series are found by argument.
+  // Standard functions for numbers; argument-dependent lookup finds those for series.
   using std::acos, std::asin, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh,
       std::sqrt, std::tan, std::tanh;
   switch (op) {

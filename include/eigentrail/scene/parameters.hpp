@@ -15,27 +15,29 @@ namespace eigentrail {
 
 struct Parameter {
   std::string name;
-  double value = 0.0;   ///< in `unit`; of a derived parameter: not used
+  double value = 0.0;   ///< in `unit`; not used if the parameter is derived
   std::string unit;     ///< as written; empty: SI or dimensionless
   double factor = 1.0;  ///< SI value = factor * value
-  std::optional<Expression> definition =
-      {};  ///< derived parameter: its value, in `unit`, from SI values of the others
+  /// Derived parameter: its value in `unit`, from the SI values of the others.
+  std::optional<Expression> definition = {};
   SourceLocation where = {};
 };
 
-/// Parameters that define each other; the message names the cycle.
+/// Thrown if parameters define each other in a cycle; the message names the cycle.
 class ParameterCycle : public std::invalid_argument {
  public:
   ParameterCycle(const std::string& message, int index) : std::invalid_argument(message), parameter(index) {}
-  int parameter;  ///< index of one of them
+  int parameter;  ///< index of one parameter of the cycle
 };
 
-/// Immutable after construction; derived parameters are resolved in an order without forward references.
+/// Immutable after construction. Derived parameters are evaluated in an order in which every definition uses
+/// only parameters that are already known.
 class Parameters {
  public:
   Parameters() = default;
 
-  /// Orders the derived parameters. Throws ParameterCycle when they define each other.
+  /// Determines the order of the derived parameters. Throws ParameterCycle if they define each other in a
+  /// cycle.
   explicit Parameters(std::vector<Parameter> list);
 
   std::size_t size() const { return list_.size(); }
@@ -43,13 +45,13 @@ class Parameters {
   const std::vector<std::string>& names() const { return names_; }
   std::optional<int> index(std::string_view name) const;
 
-  /// The parameter of that name; throws std::out_of_range when there is none.
+  /// The parameter with this name; throws std::out_of_range if there is none.
   const Parameter& at(std::string_view name) const;
 
-  /// Values as the scene declares them, in declared units; derived ones are filled in.
+  /// Values in declared units, with the derived parameters computed.
   Vector declared_values() const;
 
-  /// Turns declared values into SI in place and computes the derived ones (whatever stood in their entries).
+  /// Converts declared values to SI in place and computes the derived ones, whose entries are overwritten.
   template <class Scalar>
   void to_si(std::span<Scalar> values) const {
     for (std::size_t i = 0; i < list_.size(); ++i) values[i] = values[i] * list_[i].factor;
@@ -58,13 +60,13 @@ class Parameters {
     }
   }
 
-  /// Whether `parameter` is `traced` or is derived from it, directly or through others.
+  /// Whether `parameter` is `traced` or depends on it, directly or through others.
   bool depends_on(int parameter, int traced) const;
 
-  /// The given parameters and all that their definitions use, directly or through others.
+  /// The given parameters and all parameters that their definitions use, directly or through others.
   std::set<int> with_definitions(const std::set<int>& parameters) const;
 
-  /// The same for an expression.
+  /// The same as depends_on for an expression.
   bool depends_on(const Expression& expression, int traced) const;
 
  private:

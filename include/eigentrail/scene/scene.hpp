@@ -1,4 +1,4 @@
-// A scene file as plain data, and the reader that turns its tables into typed values with helpful errors.
+// A scene file as plain data, and a reader that converts its tables to typed values and reports errors.
 #pragma once
 
 #include <array>
@@ -14,41 +14,43 @@
 namespace eigentrail {
 
 struct Scene {
-  std::string path;  ///< as given by the user; names the file in messages and locates files beside it
-  std::string text;  ///< the full text, kept for provenance
+  std::string path;  ///< as the user gave it; used in messages and to find files relative to the scene
+  std::string text;  ///< the full text, stored in result files
   std::string title;
   Table root;
   Parameters parameters;
 };
 
-/// Reads and parses a scene file. The parameter that a scene with [matrix_family] traces need not be
-/// declared: it is added, with the value where the trace begins. Throws InputError for a file that cannot be
-/// read or is no scene.
+/// Reads and parses a scene file. With [matrix_family], the traced parameter need not be declared: it is
+/// added with the value at which the trace begins. Throws InputError if the file cannot be read or is not a
+/// valid scene.
 Scene read_scene(const std::string& path);
 
-/// The same from memory; `path` names the text in messages.
+/// The same from memory; `path` names the scene in messages.
 Scene parse_scene(std::string text, const std::string& path);
 
-/// An error at a place of the scene: "path:line:column: message".
+/// An error at a position in the scene: "path:line:column: message".
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message);
 
-/// A name, or a fixed place given by three coordinates.
+/// A name, or a fixed position given by three coordinates.
 using NameOrPosition = std::variant<std::string, std::array<Expression, 3>>;
 
-/// Reads one table of a scene. Every key that is asked for becomes a known key; `finish` rejects all others.
+/// Reads one table of a scene. Every key that is requested becomes a known key; `finish` rejects all others.
 /// All functions throw InputError with file, line, column and key.
 class TableReader {
  public:
-  /// `label` names the table in messages ("[[rod]] 2"); `used` collects the parameters that expressions name.
+  /// `label` names the table in messages ("[[rod]] 2"); `used` collects the parameters that occur in
+  /// expressions.
   TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used);
 
   bool has(const std::string& key);
 
-  /// An expression of the parameters: a number, or a text such as "2*pi*rpm/60".
+  /// An expression of the parameters: a number, or a text such as "2*pi*rpm/60". `otherwise` is the value if
+  /// the key is absent.
   Expression expression(const std::string& key);
   Expression expression(const std::string& key, double otherwise);
 
-  /// An expression, or a list of some.
+  /// A list of expressions; a single expression counts as a list of one.
   std::vector<Expression> list(const std::string& key);
 
   /// Three expressions: [x, y, z].
@@ -59,7 +61,7 @@ class TableReader {
   /// A matrix, a list of rows; a plain list of numbers is one row.
   std::vector<std::vector<Expression>> matrix(const std::string& key);
 
-  /// Whether the value of a key is a table, and a reader of it.
+  /// Whether the value of a key is a table; and a reader for it.
   bool is_table(const std::string& key);
   TableReader table(const std::string& key);
 
@@ -74,10 +76,10 @@ class TableReader {
   /// List of matrices, each a list of rows of expressions: [matrix][row][column].
   std::vector<std::vector<std::vector<Expression>>> matrices(const std::string& key);
 
-  /// Rejects keys that nobody asked for, naming the nearest known one.
+  /// Rejects keys that were not requested, and names the nearest known key.
   void finish() const;
 
-  /// An error about `key` (its place when it is present, else the table's).
+  /// Throws an error about `key`, at its position or, if it is absent, at that of the table.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
 
   const std::string& label() const { return label_; }
@@ -96,12 +98,11 @@ class TableReader {
   std::vector<std::string> known_;
 };
 
-/// The tables of an array of tables ("[[rod]]"); a single "[rod]" counts as one. Empty when the key is
-/// absent.
+/// The tables of an array of tables ("[[rod]]"); a single "[rod]" counts as one. Empty if the key is absent.
 std::vector<const Table*> tables(const Scene& scene, const std::string& key);
 
-/// Rejects parameters that neither an expression nor another used parameter names. `used` as TableReader
-/// fills it.
+/// Throws InputError if a parameter occurs neither in `used` (filled by TableReader) nor in the definition of
+/// a parameter in use.
 void reject_unused_parameters(const Scene& scene, const std::set<int>& used);
 
 }  // namespace eigentrail

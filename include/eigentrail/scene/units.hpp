@@ -6,9 +6,9 @@
 
 namespace eigentrail {
 
-/// Factor that turns a value in `unit` into SI (radians for angles): unit_factor("rpm") = 2 pi / 60.
-/// Units multiply by a space, '*' or '·', divide by '/', and take whole powers ("m^2"); "" and "1" and "-"
-/// are 1. Empty when the text is not understood.
+/// Factor that converts a value in `unit` to SI (angles to radians): unit_factor("rpm") = 2 pi / 60. A space,
+/// '*' or '·' multiplies, '/' divides by the next unit, and units may have integer powers ("m^2"). "", "1"
+/// and "-" give 1. Returns an empty value if the unit is not understood.
 std::optional<double> unit_factor(std::string_view unit);
 
 }  // namespace eigentrail

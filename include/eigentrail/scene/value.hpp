@@ -1,4 +1,4 @@
-// A TOML document as plain data, every value with its place in the file.
+// A TOML document as plain data, with the position of every value in the file.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace eigentrail {
 
 struct Value;
 
-/// Keys and values in the order of the file.
+/// Keys and values in the order in which they appear in the file.
 struct Table {
   std::vector<std::pair<std::string, Value>> entries;
   SourceLocation where;
 
-  // Defined where Value is complete.
+  // Defined in value.cpp, where Value is complete.
   Table();
   Table(const Table&);
   Table(Table&&) noexcept;
@@ -38,8 +38,8 @@ struct Value {
   std::string kind() const;
 };
 
-/// Parses TOML. Integers become numbers; dates are refused. `path` is the name that messages give the file.
-/// Throws InputError with line and column on a syntax error.
+/// Parses TOML. Integers become numbers; dates and times are refused. `path` names the file in messages.
+/// Throws InputError with line and column if the text is not valid TOML or exceeds a limit.
 Table parse_toml(std::string_view text, const std::string& path);
 
 }  // namespace eigentrail

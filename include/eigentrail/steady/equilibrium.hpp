@@ -9,50 +9,52 @@
 namespace eigentrail {
 
 struct SteadyOptions {
-  int max_iterations = 200;  ///< of KINSOL, >= 1
-  double tolerance =
-      1e-12;  ///< KINSOL stops when every equation's residual is below this fraction of its scale, > 0
-  bool relax =
-      true;  ///< where KINSOL fails, begin again from where the mechanism comes to rest (relaxation.hpp)
+  int max_iterations = 200;  ///< limit of KINSOL's iterations, >= 1
+  /// KINSOL stops when the residual of every equation is below this fraction of its scale; > 0.
+  double tolerance = 1e-12;
+  bool relax = true;  ///< if KINSOL fails, start again from a relaxed guess (relaxation.hpp)
 };
 
+/// Outcome of a solution; `not_finite` means that the model returned a number that is not finite.
 enum class SteadyStatus { converged, not_converged, not_finite };
 
-/// What the solver did; complete also when it failed.
+/// Work of the solver and the result of its checks; complete also after a failure.
 struct SteadyReport {
-  int iterations = 0;      ///< of KINSOL
-  int factorizations = 0;  ///< of the KKT matrix, polishing included
+  int iterations = 0;      ///< iterations of KINSOL
+  int factorizations = 0;  ///< factorizations of the KKT matrix, final Newton corrections included
   int residual_evaluations = 0;
-  bool relaxed = false;        ///< found from a relaxed guess
-  double residual = 0.0;       ///< largest scaled residual at the end
-  std::string worst_equation;  ///< the equation it belongs to
-  std::string message;         ///< reason of a failure, in words
+  bool relaxed = false;        ///< the solution was found from a relaxed guess
+  double residual = 0.0;       ///< largest residual at the end, relative to its scale
+  std::string worst_equation;  ///< the equation with the largest residual
+  std::string message;         ///< reason of a failure
 };
 
+/// An equilibrium with its linearization, for a model with n coordinates and m constraints.
 struct [[nodiscard]] Equilibrium {
   SteadyStatus status = SteadyStatus::not_converged;
   Vector x;                     ///< n
   Vector lambda;                ///< m
-  Linearization linearization;  ///< of order 0 at (x, lambda)
-  KktFactorization kkt;         ///< at (x, lambda)
+  Linearization linearization;  ///< of order 0, at (x, lambda)
+  KktFactorization kkt;         ///< factored at (x, lambda)
   SteadyReport report;
 };
 
-/// Solves the steady equations at given parameters (declared units) from the guess (x, lambda): KINSOL with
-/// line search and the exact Jacobian, then Newton corrections until they reach rounding. An empty `lambda`
-/// guess is replaced by the least-squares multipliers (Eq. 15) at x. Where that fails the guess is relaxed
-/// first.
+/// Solves the steady equations at given parameters (declared units) from the guess (x, lambda). KINSOL
+/// iterates with a line search and the exact Jacobian; Newton corrections then reduce the error to the
+/// rounding level. An empty `lambda` is replaced by the least-squares multipliers (Eq. 15) at x. If this
+/// fails and options.relax is set, the guess is relaxed and the solution repeated. Failures are reported in
+/// the status.
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 
-/// An equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without
+/// Takes an equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without
 /// solving.
 Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                              const Vector& lambda, EvaluationCounts& counts);
 
-/// Extends an equilibrium to its series of the given order along `parameters` (n_parameters x (<= order + 1),
-/// column 0 the values at the equilibrium). One back-substitution per order with the factorization of the
-/// equilibrium.
+/// Power series of an equilibrium up to h^order along `parameters` (n_parameters x (<= order + 1); column 0
+/// holds the values at the equilibrium). One back-substitution per order with the factorization of the
+/// equilibrium. Returns a fault if a number is not finite.
 EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium& equilibrium,
                                           const VectorSeries& parameters, int order, Path& path,
                                           EvaluationCounts& counts);

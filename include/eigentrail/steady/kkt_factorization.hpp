@@ -1,12 +1,12 @@
-// The linear system of the steady equations (seed paper, Eq. 38), solved through the null space of A:
+// The linear system of the steady equations (KKT system; seed paper, Eq. 38), solved by the null-space
+// method:
 //
 //     [ K  A^T ] [ dx ]   [ r ]
 //     [ A   0  ] [ dl ] = [ g ]        K = -f_/x + (A^T lambda)_/x
 //
-// dx = A+ g + Q2 w,  (Q2^T K Q2) w = Q2^T (r - K A+ g),  A^T dl = r - K dx. Redundant constraints thus need
-// no special treatment; dl is then the solution of minimum norm.
+// Dependent constraints thus need no special treatment; dl is then the solution of minimum norm.
 //
-// Sparse systems whose constraints are independent and whose Q2^T K Q2 is regular are factored as a whole
+// A sparse system with independent constraints and nonsingular Q2^T K Q2 is factored as a whole
 // (steady/sparse_kkt.hpp), without Q2.
 #pragma once
 
@@ -22,11 +22,11 @@ class KktFactorization {
  public:
   KktFactorization() = default;
 
-  /// Factors the system; cost O(n m^2 + (n - m)^3) unless the sparse factorization serves. Where Q2^T K Q2 is
+  /// Factors the system. Cost O(n m^2 + (n - m)^3), less with the sparse factorization. If Q2^T K Q2 is
   /// singular (a rigid-body freedom), solutions are those of minimum norm.
   KktFactorization(const SystemMatrix& K, const SystemMatrix& A);
 
-  /// Factors the constraints alone, for points whose equilibrium is known; `solve` must not be called.
+  /// Factors only the constraints, for points whose equilibrium is known; `solve` must not be called then.
   explicit KktFactorization(const SystemMatrix& A) : constraints_(A) {}
 
   bool can_solve() const { return sparse_ != nullptr || K_.size() > 0; }
@@ -36,14 +36,14 @@ class KktFactorization {
 
   const ConstraintFactorization& constraints() const { return constraints_; }
 
-  /// Reciprocal condition estimate of Q2^T K Q2, relative to the magnitude of K; near zero at a fold of the
-  /// equilibrium.
+  /// Estimate of the reciprocal condition of Q2^T K Q2, relative to the magnitude of K. Near zero at a fold
+  /// of the equilibrium path.
   double reciprocal_condition() const { return reciprocal_condition_; }
 
  private:
   void factor_tangent();
 
-  Matrix K_;  ///< empty where the sparse factorization serves
+  Matrix K_;  ///< empty if the sparse factorization is used
   ConstraintFactorization constraints_;
   std::shared_ptr<const SparseKkt> sparse_;
   Eigen::PartialPivLU<Matrix> tangent_;

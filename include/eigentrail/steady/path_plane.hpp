@@ -1,62 +1,64 @@
-// Equilibria where the traced parameter is an unknown: pseudo-arclength continuation (Keller 1977).
+// Equilibria with the traced parameter as an additional unknown: pseudo-arclength continuation (Keller 1977).
 //
-// Near a fold the path cannot be followed in p. The point is then looked for on a plane
+// Near a fold, p cannot serve as the coordinate of the path. The point is then determined on a plane
 //
 //     c.x (x - x*) + c.p (p - p*) = distance
 //
-// across the path, and the distance is the coordinate sigma along the path: x, lambda and p are series in it.
-// The steady equations grow by one row and one column, and the bordered system stays regular at a fold.
+// that intersects the path. The distance is the coordinate sigma along the path: x, lambda and p are power
+// series in it. The steady equations gain one row and one column; the bordered system stays nonsingular at a
+// fold.
 #pragma once
 
 #include "eigentrail/steady/equilibrium.hpp"
 
 namespace eigentrail {
 
-/// Linear functional that measures progress along the path.
+/// Linear function that measures progress along the path.
 struct PathPlane {
   Vector x;        ///< size n
-  double p = 1.0;  ///< per unit of the traced parameter
+  double p = 1.0;  ///< coefficient of the traced parameter
 
   double operator()(const Vector& position, double parameter) const {
     return x.dot(position) + p * parameter;
   }
 };
 
-/// Equilibrium at the intersection of the path with the plane through the guess (x, p); Newton from there.
-/// An empty `lambda` is replaced by the least-squares multipliers at the guess. `p` and the result hold the
-/// point found. `parameters` are all parameters, the traced one at its guess.
+/// Equilibrium at the intersection of the path with the plane through the guess (x, p), by Newton's method.
+/// An empty `lambda` is replaced by the least-squares multipliers at the guess. `parameters` (declared units)
+/// are all parameters, the traced one with its guess. On return `p` is the parameter at the solution.
 Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
                                  const Vector& x, const Vector& lambda, const SteadyOptions& options,
                                  double& p, EvaluationCounts& counts);
 
-/// Series of (x, lambda, p) in the plane's coordinate about an equilibrium.
+/// Power series of (x, lambda, p) in the coordinate of the plane about an equilibrium, up to `order`.
 EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model& model,
                                              const Equilibrium& equilibrium, const Vector& parameters,
                                              int traced, int order, Path& path, EvaluationCounts& counts);
 
-/// The force that a change of a parameter by one brings, in its unit.
+/// The force that results from a unit change of a parameter, measured in the parameter's unit.
 struct KernelLoad {
-  double along_kernel = 0.0;  ///< along the left null vector of the tangent stiffness T^T K T
-  double total = 0.0;         ///< its length
+  double along_kernel = 0.0;  ///< component along the left null vector of the tangent stiffness T^T K T
+  double total = 0.0;         ///< Euclidean norm
 };
 
-/// One for each of `parameters` (indices), where the tangent stiffness is singular; NaN where a force is not
-/// finite.
+/// The load of each of `parameters` (indices) at a point with singular tangent stiffness; NaN if a force is
+/// not finite.
 std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
                                      const std::vector<int>& parameters, const Linearization& linearization,
                                      const Matrix& tangent_basis, EvaluationCounts& counts);
 
-/// How far the force that a change of the parameter brings lies in the kernel of the tangent stiffness T^T K
-/// T, between 0 and 1. Where the stiffness is singular, zero means that another path crosses (a pitchfork or
-/// a transcritical point), anything else that this one turns back (a fold). `tangent_basis` is T, of size n x
-/// (n - rank).
+/// Component in the kernel of the tangent stiffness T^T K T of the force that a change of the parameter
+/// causes, relative to its norm: between 0 and 1. If the stiffness is singular, zero means that another path
+/// crosses (a pitchfork or transcritical point); any other value means that this path turns back (a fold).
+/// `tangent_basis` is T, n x (n - rank). 1 if the force is not finite.
 double kernel_share_of_parameter(const Model& model, const Path& point, int traced,
                                  const Linearization& linearization, const Matrix& tangent_basis,
                                  EvaluationCounts& counts);
 
-/// Directions in which paths may leave a point where the tangent stiffness T^T K T is singular and the
-/// parameter's force has no share in its kernel: two columns (dx; dp) of size n + 1. The first is the kernel
-/// of the stiffness, the second the least motion that follows a unit change of the parameter.
+/// Directions in which paths may leave a branch point: the tangent stiffness T^T K T is singular and the
+/// force of the parameter has no component in its kernel. Returns two columns (dx; dp) of size n + 1: the
+/// kernel of the stiffness, and the smallest motion that follows a unit change of the parameter. Empty if a
+/// number is not finite.
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
                                   const Linearization& linearization, const Matrix& tangent_basis,
                                   EvaluationCounts& counts);

@@ -1,14 +1,14 @@
-// Equilibria from poor guesses: relaxation on the constraint manifold.
+// Finds equilibria from poor guesses by relaxation on the constraint manifold.
 //
-// Pseudo-transient continuation (Kelley & Keyes, SIAM J. Numer. Anal. 35, 1998) of the gradient-like flow
+// Pseudo-transient continuation (Kelley & Keyes, SIAM J. Numer. Anal. 35, 1998) of the flow
 //
 //     x' = Q2 Q2^T (f - A^T lambda),   c(x) = 0
 //
-// in linearly implicit steps (delta I + S) w = Q2^T (f - A^T lambda), S the symmetric part of the tangent
-// stiffness and delta at least so large that the matrix is positive definite: a step always goes downhill. It
-// is drawn back to the manifold by minimum-norm corrections, and taken shorter where the force along it would
-// turn. Mechanisms come to rest where they hang, that is, in stable equilibria; where forces circulate there
-// may be no rest.
+// by linearly implicit steps (delta I + K_t) w = Q2^T (f - A^T lambda), K_t = Q2^T K Q2 the tangent
+// stiffness. delta is so large that delta I plus the symmetric part of K_t is positive definite; a step then
+// never goes against the force. Minimum-norm corrections project the step back to the manifold. A step is
+// shortened if the force along it would reverse. Mechanisms come to rest in stable equilibria; with
+// circulatory forces there may be no state of rest.
 #pragma once
 
 #include "eigentrail/steady/equilibrium.hpp"
@@ -16,20 +16,19 @@
 namespace eigentrail {
 
 struct RelaxationOptions {
-  int max_steps = 2000;  ///< >= 1; each costs a factorization of A and of the tangent stiffness
-  double tolerance =
-      1e-8;  ///< at rest: |Q2^T (f - A^T lambda)| <= tolerance times the largest |f| on the way
-  double longest_move = 0.2;  ///< of a step, in units of the largest coordinate, > 0
+  int max_steps = 2000;     ///< >= 1; each step costs a factorization of A and of the tangent stiffness
+  double tolerance = 1e-8;  ///< at rest if |Q2^T (f - A^T lambda)| <= tolerance times the largest |f| so far
+  double longest_move = 0.2;  ///< longest step, in units of the largest coordinate, > 0
 };
 
 struct [[nodiscard]] RelaxationResult {
   bool at_rest = false;
-  /// Where no configuration was found that meets the constraints: which one is missed most by the closest,
-  /// and by how much. Empty otherwise.
+  /// If no configuration meets the constraints: the constraint with the largest error in the closest
+  /// configuration found, and the error. Empty otherwise.
   std::string unmet;
 };
 
-/// Relaxes x from any guess; `lambda` becomes the least-squares multipliers.
+/// Relaxes x from any guess. On return `lambda` holds the least-squares multipliers at x.
 RelaxationResult relax(const Model& model, const Vector& parameters, const RelaxationOptions& options,
                        Vector& x, Vector& lambda, EvaluationCounts& counts);
 

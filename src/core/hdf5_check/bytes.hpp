@@ -1,4 +1,4 @@
-// The bytes of an HDF5 file, read with every length checked.
+// Reads the bytes of an HDF5 file; checks every length.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,27 @@
 
 namespace eigentrail::hdf5_check {
 
-/// An address that points nowhere.
+/// HDF5's undefined address (all bits set).
 inline constexpr std::uint64_t undefined = ~std::uint64_t{0};
 
-/// Something that no program writes.
+/// Reports content that no correct program writes.
 [[noreturn]] inline void damaged(std::uint64_t at, const std::string& what) {
   throw Hdf5Error("damaged at byte " + std::to_string(at) + ": " + what);
 }
 
-/// Something that HDF5 allows and no file of matrices or results needs.
+/// Reports content that HDF5 allows but that files of matrices or results do not need.
 [[noreturn]] inline void refused(std::uint64_t at, const std::string& what) {
   throw Hdf5Error("at byte " + std::to_string(at) + ": " + what);
 }
 
-/// Reads numbers, lowest byte first, from a piece of the file; never past its end.
+/// Reads little-endian numbers and texts from a piece of the file. Throws Hdf5Error instead of reading past
+/// its end.
 class Cursor {
  public:
   Cursor(std::string_view bytes, std::uint64_t offset) : bytes_(bytes), offset_(offset) {}
 
   std::uint64_t left() const { return bytes_.size() - at_; }
-  /// Place in the file.
+  /// Position in the file, in bytes.
   std::uint64_t offset() const { return offset_ + at_; }
   std::string_view rest() const { return bytes_.substr(at_); }
 
@@ -57,7 +58,7 @@ class Cursor {
     return {text(size), begin};
   }
 
-  /// A text up to its zero, which is passed.
+  /// A zero-terminated text; also skips the zero.
   std::string_view name() {
     const std::size_t length = rest().find('\0');
     if (length == std::string_view::npos) damaged(offset(), "a name without an end");
@@ -65,7 +66,7 @@ class Cursor {
     skip(1);
     return result;
   }
-  /// The same, filled up to a multiple of eight bytes.
+  /// The same, with padding to a multiple of eight bytes.
   std::string_view padded_name() {
     const std::string_view result = name();
     skip((8 - (result.size() + 1) % 8) % 8);
@@ -87,13 +88,13 @@ class Cursor {
   std::size_t at_ = 0;
 };
 
-/// A piece of the file; throws where it is not wholly inside.
+/// A piece of the file; throws Hdf5Error unless it lies inside the file.
 inline Cursor piece(std::string_view file, std::uint64_t at, std::uint64_t size) {
   if (at > file.size() || size > file.size() - at) damaged(at, "lies outside of the file");
   return {file.substr(at, size), at};
 }
 
-/// Throws where the four bytes behind a piece are not its checksum.
+/// Throws Hdf5Error unless the four bytes after a piece are its checksum.
 inline void expect_checksum(std::string_view file, std::uint64_t at, std::uint64_t size) {
   (void)piece(file, at, size);
   if (piece(file, at + size, 4).u32() != checksum(file.substr(at, size))) damaged(at, "wrong checksum");

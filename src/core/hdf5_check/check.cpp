@@ -11,8 +11,9 @@ namespace hdf5_check {
 namespace {
 
 constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-constexpr int deepest_group = 8;         ///< groups in groups; eigentrail writes one level
-constexpr unsigned most_entries = 1024;  ///< of half a tree's node; HDF5's own choice is 32 at most
+constexpr int deepest_group = 8;  ///< depth of nested groups; eigentrail writes one level
+/// Largest accepted half-size of a B-tree node; HDF5's defaults are at most 32.
+constexpr unsigned most_entries = 1024;
 
 class FileCheck {
  public:
@@ -44,7 +45,7 @@ class FileCheck {
       data.skip(2);
     }
     check_base(data.u64());
-    data.skip(8);  // free space, which is not in use
+    data.skip(8);  // address of the free-space information, which HDF5 does not use
     check_end(data.u64());
     if (data.u64() != undefined) refused(data.offset(), "the file is one of a family of files");
     member(read_symbol(data), 0);
@@ -74,7 +75,7 @@ class FileCheck {
   static void check_base(std::uint64_t base) {
     if (base != 0) refused(0, "the file begins within another one");
   }
-  /// What is behind the end belongs to nobody.
+  /// Bytes beyond the stated end of the file are ignored.
   void check_end(std::uint64_t end) {
     const std::string found = std::to_string(parts_.file.size());
     if (end > parts_.file.size())
@@ -131,7 +132,8 @@ class FileCheck {
       (void)single(messages, type);
   }
 
-  /// Many links or attributes are kept in a heap of their own; few are messages.
+  /// Few links or attributes are stored as messages, many in a separate heap ("dense" storage), which is
+  /// refused.
   static void check_info(Cursor data, std::uint64_t index_size) {
     const std::uint64_t at = data.offset();
     data.expect_version(0);
@@ -180,7 +182,7 @@ class FileCheck {
                     [&](const SymbolEntry& entry) { member(entry, depth + 1); });
   }
 
-  /// The object that a link leads to.
+  /// Address of the object to which a link points.
   static std::uint64_t linked(Cursor data) {
     const std::uint64_t at = data.offset();
     data.expect_version(1);

@@ -9,7 +9,7 @@ namespace {
 
 using State = std::array<std::uint32_t, 3>;
 
-/// One step of the mixing: x loses y and takes its turned bits, y takes z.
+/// One step of lookup3's mixing: x = (x - y) xor rot(y, bits); y = y + z.
 void turn(std::uint32_t& x, std::uint32_t& y, std::uint32_t z, int bits) {
   x -= y;
   x ^= std::rotl(y, bits);
@@ -41,7 +41,7 @@ void finish(State& s) {
   step(c, b, 24);
 }
 
-/// Adds up to twelve bytes, lowest first.
+/// Adds up to twelve bytes, as little-endian numbers of 32 bits, to the state.
 void add(State& s, std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size(); ++i)
     s[i / 4] += std::uint32_t{static_cast<unsigned char>(bytes[i])} << 8U * (i % 4);

@@ -1,4 +1,4 @@
-// The checksum of HDF5's newer structures.
+// The checksum of the newer HDF5 structures.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace eigentrail::hdf5_check {
 
-/// Jenkins' lookup3 (2006), as HDF5 uses it: "hashlittle" from zero.
+/// Jenkins' lookup3 hash (2006), function "hashlittle" with initial value 0, as in HDF5.
 std::uint32_t checksum(std::string_view bytes);
 
 }  // namespace eigentrail::hdf5_check

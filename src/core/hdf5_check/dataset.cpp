@@ -7,13 +7,13 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-/// A dataset reads as fill values where nothing was written. So much may be missing: a few numbers of an
-/// empty dataset, or a multiple of what is there where modes joined late. Beyond it a size is taken for
-/// damage, or a few bytes would make a reader ask for all memory.
+/// Parts of a dataset that were never written read as fill values. Up to 64 KiB (small empty datasets) or
+/// sixteen times the stored data (modes that were added late in a trace) may be missing. A larger declared
+/// size counts as damage, because a few bytes could otherwise make a reader allocate all memory.
 constexpr std::uint64_t unwritten_bytes = std::uint64_t{1} << 16U;
 constexpr std::uint64_t unwritten_multiple = 16;
 
-/// HDF5 holds one chunk as a whole.
+/// Limit of the chunk size (64 MiB, or the size of the file): HDF5 keeps a whole chunk in memory.
 constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 26U;
 
 class DatasetCheck {
@@ -109,7 +109,7 @@ class DatasetCheck {
     text_bytes_ += parts_.heaps.check(type_, elements, elements.left() / type_.size);
   }
 
-  /// Shape of a chunk, which ends with the size of an element.
+  /// Shape of a chunk; the last entry is the size of an element in bytes.
   std::vector<std::uint64_t> read_chunk_shape(Cursor& data, unsigned rank, std::uint64_t width) {
     const std::uint64_t at = data.offset();
     if (rank != space_.shape.size() + 1) damaged(at, "chunks of another dimension than the dataset");
@@ -133,7 +133,8 @@ class DatasetCheck {
                    [this](const StoredChunk& chunk) { check_chunk_at(chunk); });
   }
 
-  /// The one of HDF5's newer kinds of chunks that needs no index.
+  /// A dataset that consists of a single chunk: the only chunk index of newer HDF5 that needs no further
+  /// structure.
   void check_single_chunk(Cursor data) {
     const std::uint64_t at = data.offset();
     const unsigned flags = data.u8();
@@ -170,10 +171,10 @@ class DatasetCheck {
   Datatype type_;
   Dataspace space_;
   Filters filters_;
-  std::uint64_t bytes_ = 0;        ///< as declared
-  std::uint64_t stored_ = 0;       ///< in the file, before compression
-  std::uint64_t text_bytes_ = 0;   ///< of its texts
-  std::uint64_t chunk_bytes_ = 0;  ///< of a chunk before compression
+  std::uint64_t bytes_ = 0;        ///< size as declared, bytes
+  std::uint64_t stored_ = 0;       ///< size of the data in the file before compression, bytes
+  std::uint64_t text_bytes_ = 0;   ///< total size of its texts of variable length
+  std::uint64_t chunk_bytes_ = 0;  ///< size of a chunk before compression
 };
 
 }  // namespace
@@ -211,7 +212,8 @@ void check_attribute(FileParts& parts, Cursor data) {
   Cursor type_part = field(type_size);
   Cursor space_part = field(space_size);
   (void)name.name();
-  // HDF5 gives such an attribute up in the middle of a list, which it then takes apart beyond its end.
+  // HDF5 rejects such an attribute in the middle of a list and, while it frees the list, accesses memory
+  // beyond its end.
   if (name.left() != 0) damaged(at, "an attribute's name of the wrong length");
   const Datatype type = read_datatype(type_part);
   const Dataspace space = read_dataspace(space_part);

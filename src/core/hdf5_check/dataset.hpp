@@ -1,4 +1,4 @@
-// Datasets and attributes: what they declare against what the file holds.
+// Datasets and attributes: compares what they declare with what the file holds.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@
 
 namespace eigentrail::hdf5_check {
 
-/// Checks of one object; what they share with those of all other objects.
+/// Data that the checks of all objects share.
 struct FileParts {
   std::string_view file;
   TreeSizes sizes;
@@ -18,7 +18,7 @@ struct FileParts {
   GlobalHeaps heaps;
 };
 
-/// The message of a type, which an object has once; null where there is none.
+/// The message of a type, null if there is none. Throws Hdf5Error if an object has it more than once.
 const Message* single(const std::vector<Message>& messages, MessageType type);
 
 void check_dataset(FileParts& parts, const std::vector<Message>& messages, std::uint64_t at);

@@ -8,17 +8,17 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr unsigned deflate_filter = 1;  // 2 is shuffle, which changes no size
+constexpr unsigned deflate_filter = 1;  // filter 2 is shuffle, which does not change the size
 constexpr unsigned fletcher32_filter = 3;
 constexpr std::uint64_t checksum_size = 4;
 
-/// Number of bytes that a compressed text becomes; stops beyond `most`.
+/// Size in bytes of a compressed text after decompression; stops once it exceeds `most`.
 std::uint64_t inflated_size(Cursor stored, std::uint64_t size, std::uint64_t most) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw Hdf5Error("no memory to look at a compressed chunk");
   std::array<unsigned char, 16384> buffer{};
   const std::string_view bytes = stored.text(size);
-  // zlib does not write where this points.
+  // zlib does not modify its input, although next_in is not const.
   stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));  // NOLINT
   stream.avail_in = static_cast<uInt>(bytes.size());
   int status = Z_OK;

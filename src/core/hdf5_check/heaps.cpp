@@ -3,7 +3,8 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr std::uint64_t longest_name = 255;  ///< of a dataset; eigentrail's own are shorter than 30
+/// Characters of a dataset's name; eigentrail's own names have fewer than 30.
+constexpr std::uint64_t longest_name = 255;
 constexpr std::uint64_t no_free_block = 1;
 constexpr std::uint64_t object_head = 16;
 
@@ -20,7 +21,7 @@ LocalHeap::LocalHeap(std::string_view file, std::uint64_t address) : data_({}, 0
   check_free_list(free);
 }
 
-/// Free blocks follow each other through the heap; a list that comes back to itself never ends.
+/// Free blocks form a linked list through the heap; a list with a cycle would never end.
 void LocalHeap::check_free_list(std::uint64_t first) const {
   std::uint64_t patience = data_.left() / 16 + 1;
   for (std::uint64_t at = first; at != no_free_block && at != undefined;) {
@@ -59,7 +60,7 @@ std::uint64_t GlobalHeaps::check_reference(Cursor reference, std::uint64_t unit)
   const std::uint64_t length = reference.u32();
   const std::uint64_t address = reference.u64();
   const std::uint64_t number = reference.u32();
-  if (address == 0) return 0;  // never written; a text without characters has a place all the same
+  if (address == 0) return 0;  // never written; HDF5 stores an address even for an empty text
   const Sizes& objects = collection(address);
   const auto object = objects.find(number);
   if (object == objects.end() || object->second != length * unit)
@@ -89,7 +90,7 @@ GlobalHeaps::Sizes GlobalHeaps::read_collection(std::uint64_t address) const {
     objects.skip(6);
     const std::uint64_t bytes = objects.u64();
     if (bytes > size) damaged(at, "a text is longer than its collection");
-    if (number == 0) {  // free space, counted with its head
+    if (number == 0) {  // free space; its size includes its header
       if (bytes < object_head) damaged(at, "free space of no size");
       objects.skip(bytes - object_head);
     } else {

@@ -1,4 +1,4 @@
-// Names of groups (local heaps), and texts of any length (global heaps).
+// Names of group members (local heaps), and data of variable length such as texts (global heaps).
 #pragma once
 
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace eigentrail::hdf5_check {
 
-/// The names of a group.
+/// The names of the members of a group.
 class LocalHeap {
  public:
   LocalHeap(std::string_view file, std::uint64_t address);
 
-  /// The name at an offset; throws where there is none, or none that a path can be made of.
+  /// The name at an offset. Throws Hdf5Error if there is none or if it has more than 255 characters.
   std::string_view name(std::uint64_t offset) const;
 
  private:
@@ -22,16 +22,16 @@ class LocalHeap {
   Cursor data_;
 };
 
-/// Texts that datasets and attributes point at. Collections are read once.
+/// Data of variable length to which datasets and attributes refer. Each heap collection is read once.
 class GlobalHeaps {
  public:
   explicit GlobalHeaps(std::string_view file) : file_(file) {}
 
-  /// Checks every reference in stored elements. Returns the bytes that reading them takes.
+  /// Checks all references in stored elements. Returns the total number of bytes that they refer to.
   std::uint64_t check(const Datatype& type, Cursor elements, std::uint64_t count);
 
  private:
-  using Sizes = std::map<std::uint64_t, std::uint64_t>;  ///< of objects, by number
+  using Sizes = std::map<std::uint64_t, std::uint64_t>;  ///< sizes of the objects by their number
   const Sizes& collection(std::uint64_t address);
   Sizes read_collection(std::uint64_t address) const;
   std::uint64_t check_reference(Cursor reference, std::uint64_t unit);

@@ -13,7 +13,7 @@
 namespace eigentrail::hdf5_check {
 
 MappedFile::MappedFile(const std::string& path) {
-  // A pipe would wait for its other end for ever.
+  // O_NONBLOCK: opening a pipe would otherwise wait forever for its other end.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // NOLINT: as POSIX has it
   if (file < 0) throw Hdf5Error(std::strerror(errno));
   struct stat status {};

@@ -1,4 +1,4 @@
-// A file as bytes in memory, of which only those that are looked at are read.
+// A file that is mapped into memory, so that only the pages that are accessed are read.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace eigentrail::hdf5_check {
 
 class MappedFile {
  public:
-  /// Throws Hdf5Error when the file cannot be read, or is no plain file.
+  /// Throws Hdf5Error if the file cannot be read or is not a regular file.
   explicit MappedFile(const std::string& path);
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;

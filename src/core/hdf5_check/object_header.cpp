@@ -5,9 +5,10 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr std::size_t most_messages = 65536;  ///< of one object; the format counts them with 16 bits
+constexpr std::size_t most_messages = 65536;  ///< messages of one object; the format counts them with 16 bits
 
-/// Shared messages stand elsewhere; the others forbid programs that do not know them to go on.
+/// Flags of messages. A shared message is stored in another object. The other flags forbid programs that do
+/// not know the message to open the object.
 constexpr unsigned shared = 0x02;
 constexpr unsigned refused_flags = 0x08 | 0x10 | 0x80;
 
@@ -54,7 +55,7 @@ class HeaderReader {
   void follow(Cursor where) {
     const std::uint64_t address = where.u64();
     const std::uint64_t size = where.u64();
-    // HDF5 loses what it had of an object whose continuation has no place for a message.
+    // HDF5 loses the messages read so far if a continuation block is too small for a message.
     if (size < message_head())
       damaged(where.offset(), "an object that goes on in a block too small for a message");
     use(blocks_, address);
@@ -68,7 +69,7 @@ class HeaderReader {
     read_block(block);
   }
 
-  /// Bytes before the data of a message
+  /// Number of bytes before the data of a message.
   std::uint64_t message_head() const { return version_ == 1 ? 8 : order_ ? 6 : 4; }
 
   void read_block(Cursor block) {
@@ -90,7 +91,7 @@ class HeaderReader {
     messages.push_back({type, (flags & shared) != 0 ? named_type(type, data) : data});
   }
 
-  /// The type that stands in an object of its own, with a name, for many datasets.
+  /// Data of a type that is stored as an object of its own, with a name, and used by many datasets.
   Cursor named_type(unsigned type, Cursor where) const {
     const std::uint64_t at = where.offset();
     const unsigned version = where.u8();
@@ -98,7 +99,8 @@ class HeaderReader {
     if (type != datatype || is_named_type_ || version < 1 || version > 3 || (version == 3 && place != 2))
       refused(at, "what objects share but for named types; write each with its own");
     if (version == 1) where.skip(6);
-    std::set<std::uint64_t> own;  // the object belongs to a group, too
+    // a set of its own: the object is also a member of a group and may be marked as used there
+    std::set<std::uint64_t> own;
     HeaderReader reader(file_, own);
     reader.is_named_type_ = true;
     for (const Message& message : reader.read(where.u64())) {
@@ -113,7 +115,7 @@ class HeaderReader {
   int version_ = 1;
   bool order_ = false;
   std::size_t expected_ = 0;
-  bool is_named_type_ = false;  ///< what is read is one, and does not refer to another
+  bool is_named_type_ = false;  ///< the object that is read is a named type and must not refer to another one
 };
 
 }  // namespace

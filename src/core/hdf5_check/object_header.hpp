@@ -1,4 +1,4 @@
-// Messages of an object: what a group or dataset says of itself.
+// Messages in the header of an object, which describe a group or dataset.
 #pragma once
 
 #include <set>
@@ -34,12 +34,12 @@ struct Message {
   Cursor data;
 };
 
-/// All messages of the object at an address. `blocks` collects the pieces of the file that are in use: none
-/// belongs to two objects.
+/// Reads all messages of the object at an address. Adds the pieces of the file that they occupy to `blocks`;
+/// a piece must not belong to two objects.
 std::vector<Message> read_messages(std::string_view file, std::uint64_t address,
                                    std::set<std::uint64_t>& blocks);
 
-/// Marks a piece as used; throws where it is used already, as in trees that contain themselves.
+/// Marks a piece as used. Throws Hdf5Error if it is in use already, as in trees that contain themselves.
 void use(std::set<std::uint64_t>& blocks, std::uint64_t address);
 
 }  // namespace eigentrail::hdf5_check

@@ -5,17 +5,18 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr unsigned most_levels = 16;  ///< of a tree: more than any file has chunks for
+constexpr unsigned most_levels = 16;  ///< depth of a tree; sufficient for any number of chunks
 constexpr std::uint64_t tree_head = 24;
 constexpr std::uint64_t symbol_size = 40;
 
 struct TreeKind {
   unsigned type;
-  std::uint64_t half;  ///< of the entries that fit
+  std::uint64_t half;  ///< half of the largest number of entries of a node
   std::uint64_t key_size;
 };
 
-/// Visits the leaves' entries: key before, child.
+/// Visits the entries of all leaves; `leaf` gets the key before an entry and the address of the child. `key`
+/// is called for every key of every node.
 class TreeWalk {
  public:
   using Visit = std::function<void(Cursor key, std::uint64_t child)>;
@@ -25,7 +26,7 @@ class TreeWalk {
 
   void node(std::uint64_t address, unsigned level) {
     const std::uint64_t most = 2 * kind_.half;
-    // HDF5 reads the whole node, also where few entries are in use.
+    // HDF5 reads a whole node even if few of its entries are in use.
     Cursor data = piece(file_, address, tree_head + (most + 1) * kind_.key_size + most * 8);
     use(blocks_, address);
     data.expect("TREE");
@@ -35,7 +36,7 @@ class TreeWalk {
     if (found > most_levels || (level <= most_levels && found != level))
       damaged(address, "a tree of impossible depth");
     if (entries > most || (entries == 0 && found > 0)) damaged(address, "a node of impossible size");
-    data.skip(16);  // neighbours
+    data.skip(16);  // addresses of the neighbouring nodes
     for (unsigned i = 0; i < entries; ++i) {
       const Cursor key = data.part(kind_.key_size);
       key_(key, 0);
@@ -49,7 +50,7 @@ class TreeWalk {
     if (entries > 0) key_(data.part(kind_.key_size), 0);
   }
 
-  /// From the root, whose depth is what it says.
+  /// Visits the tree from its root, whose stated depth is accepted up to most_levels.
   void root(std::uint64_t address) { node(address, most_levels + 1); }
 
  private:
@@ -59,7 +60,7 @@ class TreeWalk {
   Visit key_, leaf_;
 };
 
-/// Members in one leaf of a group.
+/// Visits the members in one leaf of a group.
 void symbol_node(std::string_view file, const TreeSizes& sizes, std::uint64_t address, const LocalHeap& heap,
                  std::set<std::uint64_t>& blocks, const std::function<void(const SymbolEntry&)>& visit) {
   Cursor data = piece(file, address, 8 + 2 * symbol_size * sizes.symbols);

@@ -6,10 +6,12 @@
 namespace eigentrail::hdf5_check {
 namespace {
 
-constexpr int deepest_type = 4;             ///< compounds in compounds; eigentrail writes one level
-constexpr std::uint64_t most_members = 64;  ///< of a compound or an enumeration; complex numbers have two
-constexpr std::uint64_t largest_element = std::uint64_t{1} << 16U;  ///< bytes; fixed texts are the longest
-constexpr unsigned largest_rank = 8;                                ///< eigentrail writes four dimensions
+constexpr int deepest_type = 4;  ///< nesting of compounds; eigentrail writes one level
+/// Members of a compound or enumeration; complex numbers have two.
+constexpr std::uint64_t most_members = 64;
+/// Bytes; texts of fixed length are the largest.
+constexpr std::uint64_t largest_element = std::uint64_t{1} << 16U;
+constexpr unsigned largest_rank = 8;  ///< eigentrail writes four dimensions
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 48U;
 
 enum Class : unsigned { integer, real, text = 3, compound = 6, reference, enumeration, variable };
@@ -21,7 +23,7 @@ struct Head {
   std::uint64_t at = 0;
 };
 
-/// Offsets and widths other than these are legal and make HDF5 convert numbers bit by bit.
+/// Other offsets and precisions are legal, but make HDF5 convert the numbers bit by bit.
 void read_integer(Cursor& data, const Head& head) {
   const unsigned offset = data.u16();
   const unsigned precision = data.u16();
@@ -55,7 +57,7 @@ void read_real(Cursor& data, const Head& head) {
   refused(head.at, "a real number that is not of IEEE's 16, 32 or 64 bits; write it as 64-bit number");
 }
 
-/// Where a member begins and ends.
+/// First byte of a member, and the byte after its last one.
 using Range = std::pair<std::uint64_t, std::uint64_t>;
 
 void check_member(const std::vector<Range>& others, const Range& member, const Head& head) {
@@ -100,7 +102,7 @@ void read_enumeration(Cursor& data, const Head& head, int depth) {
   data.skip(members * base.size);
 }
 
-/// Texts of any length, and the lists of references that dimension scales leave.
+/// Texts of variable length, and the lists of references that HDF5 writes for dimension scales.
 Datatype read_variable(Cursor& data, const Head& head, int depth) {
   const bool is_text = (head.bits & 0x0fU) == 1;
   const unsigned base_class = data.rest().empty() ? 0 : static_cast<unsigned>(data.rest()[0]) & 0x0fU;

@@ -6,8 +6,9 @@
 
 namespace eigentrail {
 
-/// With displacement components d = ((point - seat) . first, (point - seat) . second): the force components
-/// on the point are -K d - C d'. Directions are fixed in the frame.
+/// With the displacement components d = ((point - seat) . first, (point - seat) . second), first and second
+/// scaled to unit length, the force components on the point are -K d - C d'. The directions are fixed in the
+/// frame.
 struct Bearing {
   static constexpr std::string_view name = "bearing";
   static constexpr std::string_view description =

@@ -1,13 +1,15 @@
 // Quasi-steady aerodynamics of a blade, strip by strip (blade-element theory; Johnson, Helicopter Theory,
 // 1980, Sect. 2.4; Ormiston & Hodges 1972).
 //
-// A section moves with U = v + w x p - inflow through the air, w the frame's angular velocity. With t the
-// direction from trailing to leading edge and n that of lift, both turned by the pitch about the span n x t,
+// A section moves through the air with U = v + w x p - inflow, w the angular velocity of the frame. t is the
+// direction from trailing to leading edge and n the direction of lift, both rotated by the pitch about the
+// span n x t. The forces per length are
 //
-//     lift  1/2 rho c a (-U_n) (-U_n t + U_t n)       across U, of size 1/2 rho c a |U|^2 sin(alpha)
-//     drag -1/2 rho c c_d0 |U| (U_t t + U_n n)        against it
+//     lift  1/2 rho c a (-U_n) (-U_n t + U_t n)       normal to U, of magnitude 1/2 rho c a |U|^2 sin(alpha)
+//     drag -1/2 rho c c_d0 |U| (U_t t + U_n n)        opposite to U
 //
-// per length: polynomials in U but for |U|, and for small angles the usual linear theory.
+// with the chord c and the lift slope a. Except for |U| they are polynomials in U; for small angles they
+// equal the usual linear theory.
 #pragma once
 
 #include "model/element.hpp"
@@ -25,7 +27,7 @@ struct BladeElement {
   std::array<Quantity, 3> angular_velocity, inflow;
   Quantity width, chord, density, lift_slope, profile_drag, pitch;
 
-  /// `point` is the middle of a strip and `width` its length; the scene's table gives the ends of the blade.
+  /// `point` is the middle of a strip and `width` its length; the scene gives the ends of the blade.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.place("point", self.point, "middle of the strip");

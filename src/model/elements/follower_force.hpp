@@ -1,4 +1,4 @@
-// Follower force: fixed magnitude P, direction turning with the line between two places,
+// Follower force of given magnitude P whose direction rotates with the line between two places:
 // f = P R(axis, angle) (to - from) / |to - from|, R a rotation (Rodrigues' formula).
 #pragma once
 

@@ -1,4 +1,4 @@
-// Uniform gravity on everything that has mass: f = m g, and m c_i g on the directors of a body.
+// Uniform gravity on all masses: f = m g on the origin, and m c_i g on the directors of a body.
 #pragma once
 
 #include "model/elements/mass_distribution.hpp"

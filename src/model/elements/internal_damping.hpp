@@ -1,6 +1,6 @@
-// Internal damping of a rotating shaft, seen from a frame that does not rotate: the damping acts on
-// velocities in the shaft, which turns with speed w about the axis e,  f = -c (d' - w e x d),  d = point -
-// about. The second term circulates and drives the shaft unstable at high speed.
+// Internal damping of a rotating shaft in a frame that does not rotate. The damping acts on velocities
+// relative to the shaft, which rotates with speed w about the axis e: f = -c (d' - w e x d) with
+// d = point - about. The second term is circulatory and makes the shaft unstable at high speed.
 #pragma once
 
 #include "model/element.hpp"
@@ -34,7 +34,7 @@ struct InternalDamping {
     const Vec3<Scalar> e = (1.0 / raw.norm()) * raw;
     const Vec3<Scalar> d = at.position(point) - at.position(about);
     const Vec3<Scalar> rate = at.velocity(point) - at.velocity(about) - at.value(speed) * e.cross(d);
-    // Along the axis the shaft does not turn, and a shaft is stiff.
+    // Only the components normal to the axis: a shaft is stiff along its axis.
     const Vec3<Scalar> across = rate - e.dot(rate) * e;
     const Vec3<Scalar> force = -at.value(coefficient) * across;
     at.add_force(point, force);

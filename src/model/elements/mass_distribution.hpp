@@ -1,10 +1,10 @@
-// What carries mass: a point, or a rigid body. A body's places are linear in its origin q0 and its directors
-// q1, q2, q3 (unit vectors along its axes), x = q0 + sum a_i q_i, so its kinetic energy is
+// Mass of a point or of a rigid body. Positions on a body are linear in its origin q0 and its directors q1,
+// q2, q3 (unit vectors along its axes), x = q0 + sum a_i q_i, so its kinetic energy is
 //
 //     T = 1/2 sum_ij G_ij q_i' . q_j',    G_00 = m,  G_0i = m c_i,  G_ij = integral of a_i a_j over the mass
 //
 // with constant G (natural coordinates: Garcia de Jalon & Bayo 1994; directors: Betsch & Steinmann 2001).
-// Inertia forces, those of a rotating frame included, are linear; a point is the case of one carrier.
+// Inertia forces, also those of a rotating frame, are linear in the coordinates. A point has only G_00.
 #pragma once
 
 #include "model/element.hpp"
@@ -12,8 +12,8 @@
 namespace eigentrail {
 
 struct MassDistribution {
-  int size = 1;                    ///< of `carriers` in use: 1 a point, 4 a body
-  std::array<Place, 4> carriers;   ///< position of the point; or origin and directors
+  int size = 1;                    ///< number of `carriers` in use: 1 for a point, 4 for a body
+  std::array<Place, 4> carriers;   ///< position of the point; or origin and directors of the body
   Quantity mass;                   ///< kg
   std::array<Quantity, 3> first;   ///< G_01, G_02, G_03, kg m
   std::array<Quantity, 6> second;  ///< G_11, G_22, G_33, G_12, G_13, G_23, kg m^2

@@ -1,13 +1,14 @@
-// Moment on a body, along a direction that is fixed in the frame (a dead moment) or turns with a body (a
-// follower moment).
+// Moment on a body, about a direction that is fixed in the frame (dead moment) or rotates with a body
+// (follower moment).
 #pragma once
 
 #include "model/element.hpp"
 
 namespace eigentrail {
 
-/// A moment t does the work t . w dt = 1/2 sum t x d_i . d_i' dt on the unit directors d_i of a body that
-/// turns with w: it is the forces t x d_i / 2 on them. Neither kind has a potential in general.
+/// A moment t does the work t . w dt = 1/2 sum (t x d_i) . d_i' dt on a body that rotates with angular
+/// velocity w and has the unit directors d_i. It is therefore applied as forces (t x d_i) / 2 on the
+/// directors. In general neither kind of moment has a potential.
 struct Moment {
   static constexpr std::string_view name = "moment";
   static constexpr std::string_view description =

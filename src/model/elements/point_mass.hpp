@@ -25,7 +25,7 @@ struct PointMass {
   }
 };
 
-/// Rigid body: the same for origin and directors.
+/// Rigid body: the same for its origin and directors.
 struct RigidBody : PointMass {
   static constexpr std::string_view name = "body";
   static constexpr std::string_view description =

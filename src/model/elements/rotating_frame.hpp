@@ -1,5 +1,5 @@
-// Steadily rotating frame: centrifugal and Coriolis forces on everything that has mass,
-// f = -m (w x (w x p) + 2 w x v)   (seed paper, Eqs. 136, 138; the sign of 139 is a misprint).
+// Frame rotating at constant angular velocity: centrifugal and Coriolis forces on all masses,
+// f = -m (w x (w x p) + 2 w x v)   (seed paper, Eqs. 136, 138; the sign in Eq. 139 is a misprint).
 #pragma once
 
 #include "model/elements/mass_distribution.hpp"

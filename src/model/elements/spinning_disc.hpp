@@ -1,12 +1,12 @@
-// Gyroscopic moment of a spinning disc seen from a frame that does not spin: the disc's spin is not a motion
-// of the body that carries it, but its angular momentum h = polar_inertia speed turns with the body's axis e.
+// Gyroscopic moment of a spinning disc in a frame that does not spin. The spin is not a motion of the body
+// that carries the disc, but the angular momentum h = polar_inertia speed rotates with the body's axis e.
 #pragma once
 
 #include "model/element.hpp"
 
 namespace eigentrail {
 
-/// Moment -h e' on the body; as a force on the direction e it is h e x e'.
+/// Moment -h e' on the body; as a force on the direction e it is h (e x e').
 struct SpinningDisc {
   static constexpr std::string_view name = "spinning_disc";
   static constexpr std::string_view description =
@@ -29,7 +29,7 @@ struct SpinningDisc {
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     const Vec3<Scalar> e = at.position(axis);
-    // Of the direction's length only: e x e' / |e|^3 is the same force for an axis of any length.
+    // Division by |e|^3 makes the moment on the body independent of the length of the axis.
     const Scalar size = e.norm();
     const Scalar momentum = at.value(polar_inertia) * at.value(speed) / (size * size * size);
     at.add_force(axis, momentum * e.cross(at.velocity(axis)));

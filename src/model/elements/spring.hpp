@@ -1,12 +1,12 @@
-// Linear springs. The geometric stiffness of a stretched spring comes out of the differentiation.
+// Linear springs. The geometric stiffness of a stretched spring results from the differentiation.
 #pragma once
 
 #include "model/element.hpp"
 
 namespace eigentrail {
 
-/// Between two places: tension k (|d| - free_length) + preload along d = to - from. Coinciding ends have no
-/// direction; the evaluation then reports a number that is not finite.
+/// Spring between two places: tension k (|d| - free_length) + preload along d = to - from. If the ends
+/// coincide, the direction is undefined and the evaluation reports a number that is not finite.
 struct Spring {
   static constexpr std::string_view name = "spring";
   static constexpr std::string_view description = "linear spring between two places";
@@ -38,8 +38,8 @@ struct Spring {
   }
 };
 
-/// A spring that keeps its direction u (the seed paper's vertical spring, Eq. 107b): f = -k (u.x - reference)
-/// u with |u| = 1 after normalization.
+/// A spring that keeps its direction u (the vertical spring of the seed paper, Eq. 107b): f = -k (u . x -
+/// reference) u, with u normalized.
 struct GuidedSpring {
   static constexpr std::string_view name = "guided_spring";
   static constexpr std::string_view description =

@@ -1,24 +1,24 @@
 // Torsional spring and damper on the angle of a joint.
 //
-// The angle from u to v about e is theta = atan2(e . (u x v), u . v); e and u turn with one side of the
-// joint, v with the other. Forces on the three directions are gradients of the angle, so the spring has a
-// potential and the damper a dissipation function whatever the directions do.
+// The angle from u to v about e is theta = atan2(e . (u x v), u . v). e and u rotate with one side of the
+// joint, v with the other. The forces on the three directions are gradients of the angle. The spring
+// therefore has a potential, and the damper a dissipation function, for any motion of the directions.
 #pragma once
 
 #include "model/element.hpp"
 
 namespace eigentrail {
 
-/// The directions that measure the angle of a joint.
+/// The directions that define the angle of a joint.
 struct HingeAngle {
   Place axis;  ///< e, a unit vector
   Place from;  ///< u, normal to e
-  Place to;    ///< v, equal to u where the angle is zero
+  Place to;    ///< v, equal to u if the angle is zero
 };
 
 namespace detail {
 
-/// Angle and its gradient with respect to axis, from, to.
+/// Sine and cosine of the angle, and the gradients of the angle with respect to axis, from and to.
 template <class Scalar>
 struct AngleAt {
   Scalar sine, cosine;  ///< times |u| |v|
@@ -37,7 +37,7 @@ struct AngleAt {
     to = share * (cosine * e.cross(u) - sine * u);
   }
 
-  /// Adds the moment `moment` that increases the angle.
+  /// Adds the moment `moment`, positive in the direction of increasing angle.
   void add_moment(ElementView<Scalar>& at, const HingeAngle& angle, const Scalar& moment) const {
     at.add_force(angle.axis, moment * axis);
     at.add_force(angle.from, moment * from);

@@ -1,6 +1,6 @@
-// Force normal to the line from a hinge to a point, proportional to it (seed paper, Eq. 142): with d = point
-// - hinge, f = { -a_t d_y - a_n d_z, a_t d_x, a_n d_x }, "loosely representative of lift (a_n) and drag
-// (a_t)". Circulatory.
+// Force normal to the line from a hinge to a point, proportional to its length (seed paper, Eq. 142). With
+// d = point - hinge, f = { -a_t d_y - a_n d_z, a_t d_x, a_n d_x }, "loosely representative of lift (a_n) and
+// drag (a_t)". Circulatory.
 #pragma once
 
 #include "model/element.hpp"
