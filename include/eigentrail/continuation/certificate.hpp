@@ -1,12 +1,18 @@
-// Evidence that the pair at the end of a step is the continuation of the pair at its beginning.
+// Evidence that the invariant pair at the end of a step is the continuation of the pair at its beginning.
 //
-// Newton-Kantorovich tube (radii polynomial, e.g. van den Berg & Lessard, Notices AMS 62, 2015): on the
-// pencil interpolated between the two points, with B = J^-1 at the middle of a piece of the step and the
-// interpolated pair U(t), bounds Y >= |B F(U)|, Z1 >= |I - B J|, Z2 >= |B F''| are formed at sample points.
-// Where some r > 0 has Y + Z1 r + Z2 r^2/2 <= r there is one exact pair within r of U(t), throughout the
-// piece. Pieces that fail are halved. Nothing else can then be met on the way: two pairs cannot be exchanged.
+// Newton-Kantorovich test (radii polynomial, e.g. van den Berg & Lessard, Notices AMS 62, 2015). U(t) is the
+// pair interpolated between the two points, F the equations of an invariant pair on the pencil interpolated
+// in the same way, J the Jacobian of F. With B = J^-1 at the middle of a piece of the step, the bounds
 //
-// The bounds are sampled, and norms are estimated by power iteration: evidence, not interval arithmetic.
+//     Y >= |B F(U)|,     Z1 >= |I - B J|,     Z2 >= |B F''|
+//
+// are evaluated at sample points of the piece. If some r > 0 satisfies Y + Z1 r + Z2 r^2/2 <= r, exactly one
+// pair lies within r of U(t), on the whole piece. This neighbourhood of U(t) is called the tube, and the
+// tube closes if there is such an r. Pieces on which it does not close are halved. If it closes on all
+// pieces, no other pair can have been exchanged with this one.
+//
+// The bounds are sampled, and norms are estimated by power iteration. The result is evidence, not a proof by
+// interval arithmetic.
 #pragma once
 
 #include <map>
@@ -17,24 +23,25 @@
 
 namespace eigentrail {
 
-/// The pencil between two neighbouring points, in the reduced coordinates of the left one. Costs no model
-/// evaluation. Keeps what it has computed; safe to use by several threads at once.
+/// The pencil between two neighbouring points, in the reduced coordinates of the left point: Hermite
+/// interpolation of the series at both points, without evaluations of the model. Samples are cached. Several
+/// threads may use one object at the same time.
 class StepPencil {
  public:
   /// `length` is the step in the path's coordinate; both points must outlive the object.
   StepPencil(const PathNode& left, const PathNode& right, double length);
 
-  /// What is interpolated at one place of the step.
+  /// The interpolated pencil at one value of t.
   struct Sample {
     Sample(Vector hermite, ReducedPencil interpolated)
         : weights(std::move(hermite)), pencil(std::move(interpolated)), at(pencil) {}
     Sample(const Sample&) = delete;  // refers to itself
 
-    Vector weights;        ///< of the coefficients at both ends, left, then right
-    ReducedPencil pencil;  ///< one coefficient of each
-    PencilAtPoint at;      ///< the same in the finite chart, with its norms
+    Vector weights;        ///< Hermite weights of the series coefficients: left end, then right end
+    ReducedPencil pencil;  ///< M, C and K as series of order 0
+    PencilAtPoint at;      ///< the same pencil in the finite chart, with its norms
   };
-  /// At t in [0, 1].
+  /// The sample at t in [0, 1].
   std::shared_ptr<const Sample> at(double t) const;
 
   const PathNode& left() const { return left_; }
@@ -46,15 +53,16 @@ class StepPencil {
 
   const PathNode& left_;
   double length_;
-  Eigen::Index count_;  ///< coefficients at each end
-  ReducedPencil right_;
+  Eigen::Index count_;   ///< number of coefficients at each end
+  ReducedPencil right_;  ///< the right pencil in the reduced coordinates of the left point
   mutable std::mutex mutex_;
-  /// By t: every block of a step looks at the same places.
+  /// Samples by t. The certificates of all tracks of a step use the same values of t.
   mutable std::map<double, std::shared_ptr<const Sample>> samples_;
 };
 
-/// Whether the tube closes on the whole step from `left` to `right`, the same block at both ends. `gap` is
-/// the distance to the nearest other known eigenvalue, which balances vector and eigenvalue in the norm.
+/// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.
+/// `gap` is the distance to the nearest other known eigenvalue. It scales Lambda against Z in the norm of the
+/// unknowns (vec Z, vec Lambda / scale), scale = gap / 2 within limits. Factorizations are added to `counts`.
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
                   RunCounts& counts);
 

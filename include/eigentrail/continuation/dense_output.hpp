@@ -1,14 +1,14 @@
-// Dense output: the polynomial that shares the power series of both ends of a step.
+// Dense output: the polynomial of degree 2q+1 that agrees with the power series of order q at both ends of a
+// step.
 //
-// Of degree 2q+1, in the form of a truncated two-point Taylor expansion, with t = 0 at the left end and 1 at
-// the right,
+// It is a truncated two-point Taylor expansion, with t = 0 at the left end and t = 1 at the right end,
 //
 //     s(t) = sum_{k=0..q} (t (t - 1))^k (F(k+1, k) + F(k+1, k+1) t)
 //
 // where F(i, j) is the divided difference over i nodes at the left end and j at the right (Lopez & Temme,
-// Stud. Appl. Math. 109, 2002). Its terms fall geometrically, at the rate h^2 / (4 |z - a| |z - b|) set by
-// the nearest singularity z. The term k = q is the difference to the interpolant of order q - 1, hence the
-// error of that one.
+// Stud. Appl. Math. 109, 2002). On a step of length h from a to b its terms decrease geometrically with the
+// ratio h^2 / (4 |z - a| |z - b|), z being the nearest singularity. The term k = q is the difference from
+// the interpolant of order q - 1, and so estimates the error of that interpolant.
 #pragma once
 
 #include "eigentrail/core/types.hpp"
@@ -17,12 +17,12 @@ namespace eigentrail {
 
 class HermiteInterpolant {
  public:
-  /// `left` and `right` hold power series coefficients (rows: functions, columns: order + 1) at the ends of a
-  /// step of signed length `length`, not zero.
+  /// `left` and `right` hold the power series coefficients at the ends of a step: one row per function, order
+  /// q + 1 columns. `length` is the signed length of the step, not zero.
   HermiteInterpolant(double length, const ComplexMatrix& left, const ComplexMatrix& right);
   HermiteInterpolant() = default;
 
-  /// Its state, for files that a trace goes on from.
+  /// Visits all members, for saving and restoring the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
     visit(self.left_value_, self.right_value_, self.slope_);
@@ -31,40 +31,42 @@ class HermiteInterpolant {
   /// Number of functions.
   Eigen::Index size() const { return slope_.rows(); }
 
-  /// 2q+1: the order from which on `series` has nothing to add.
+  /// Degree of the polynomial, 2q+1: coefficients of higher powers are zero.
   int degree() const { return 2 * static_cast<int>(slope_.cols()) - 1; }
 
-  /// Values of all functions at t; outside [0, 1] it extrapolates, off the real axis it continues
-  /// analytically.
+  /// Values of all functions at t. t outside [0, 1] extrapolates; complex t evaluates the same polynomial
+  /// off the real axis.
   ComplexVector operator()(double t) const;
   ComplexVector operator()(Complex t) const;
 
   /// Derivatives with respect to t.
   ComplexVector slope(double t) const;
 
-  /// Coefficients of all functions in powers of (t - t0), column k that of power k <= order.
+  /// Coefficients of all functions in powers of (t - t0): column k belongs to power k, 0 <= k <= order.
   ComplexMatrix series(double t0, int order) const;
 
-  /// Estimated largest error on the step of every function of the interpolant of order q - 1: the term k = q,
-  /// and what follows it if the terms go on falling as the last two did.
+  /// Estimated largest error on the step of the interpolant of order q - 1, per function: the term k = q and
+  /// the terms after it, if these go on decreasing by the ratio of the last two.
   Vector error_without_last() const;
 
-  /// The last term of one function at t as a share of its largest one there: small where t is near enough
-  /// for the interpolant to tell the function.
+  /// The last term of one function at t divided by its largest term there. Small where t is near enough to
+  /// the step for the interpolant to represent the function.
   double last_share(Eigen::Index function, Complex t) const;
 
  private:
+  /// Bound of |term k| of one function on the step.
   double term(Eigen::Index function, Eigen::Index k) const;
 
   template <class Scalar>
   ComplexVector evaluate(Scalar t) const;
 
-  /// The expansion as seen from the nearer end, in the distance u from it: relative accuracy there also where
-  /// a function vanishes at that end. Seen from the right end the divided differences over i nodes there and
-  /// j at the left are (-1)^(i+j-1) F(j, i).
+  /// The expansion is evaluated in the distance u from the nearer end. So it keeps its relative accuracy
+  /// where a function vanishes at that end. About the right end, the divided difference over i nodes there
+  /// and j at the left end is (-1)^(i+j-1) F(j, i).
   const ComplexMatrix& near_values(bool left) const { return left ? left_value_ : right_value_; }
 
-  /// Column k: F(k+1, k) and F(k, k+1), the values of term k at both ends, and F(k+1, k+1).
+  /// Column k: F(k+1, k) and F(k, k+1), the values of term k at t = 0 and t = 1 without the factor
+  /// (t (t - 1))^k, and F(k+1, k+1).
   ComplexMatrix left_value_, right_value_, slope_;
 };
 

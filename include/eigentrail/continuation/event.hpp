@@ -1,4 +1,4 @@
-// Points of a trace that are worth a line of their own.
+// Events: the special points of a trace.
 #pragma once
 
 #include <cmath>
@@ -13,42 +13,46 @@ enum class EventKind {
   flutter,        ///< a complex pair crosses the imaginary axis
   divergence,     ///< a real eigenvalue crosses zero
   collision,      ///< exceptional point: a pair meets or leaves the real axis, or two modes coalesce
-  crossing,       ///< modes coincide and keep their own vectors
-  veering,        ///< exceptional point beside the real parameter axis: modes come close and part again
+  crossing,       ///< eigenvalues coincide, their eigenvectors stay different
+  veering,        ///< exceptional point beside the real parameter axis: eigenvalues approach and separate
   fold,           ///< the equilibrium path turns back
   branch_point,   ///< another equilibrium path crosses
-  damping_ratio,  ///< the damping ratio of a pair has a value that was asked for
-  resonance,      ///< Im s of a pair is a multiple of the excitation frequency
-  extremum,       ///< the damping ratio of a pair is least or largest
-  log_decrement,  ///< the logarithmic decrement of a pair has a value that was asked for
+  damping_ratio,  ///< the damping ratio of a complex pair has a requested value
+  resonance,      ///< Im s of a complex pair is a requested multiple of the excitation frequency
+  extremum,       ///< the damping ratio of a complex pair has a local minimum or maximum
+  log_decrement,  ///< the logarithmic decrement of a complex pair has a requested value
 };
 
 struct Event {
   EventKind kind = EventKind::flutter;
-  double p = 0.0;           ///< traced parameter
-  Complex s;                ///< the eigenvalue there, the mean of those that meet
-  std::vector<int> modes;   ///< from 0, ascending
+  double p = 0.0;           ///< value of the traced parameter, in its unit
+  Complex s;                ///< the eigenvalue there, 1/s; the mean of all that coincide
+  std::vector<int> modes;   ///< numbers of the modes, from 0, ascending
   double half_width = 0.0;  ///< veering: distance of the exceptional point from the real parameter axis
-  /// Collision of m eigenvalues: s = s* + puiseux (p - p*)^(1/m) + ..., with all m-th roots; zero when not
-  /// known.
+  /// Collision of m eigenvalues: s = s* + puiseux (p - p*)^(1/m) + ..., with all m branches of the root; zero
+  /// if not known.
   Complex puiseux = {};
-  /// Flutter, divergence, damping_ratio: 1 when the mode gets less stable there with growing p, -1 when more.
-  /// Resonance: 1 when the frequency outgrows the excitation. Extremum: 1 where the damping ratio is least,
-  /// -1 where it is largest. 0: it touches only, or the kind has no direction.
+  /// Flutter, divergence, damping_ratio, log_decrement: 1 if the mode becomes less stable there with growing
+  /// p, -1 if more stable. Resonance: 1 if Im s grows faster with p than the multiple of the excitation
+  /// frequency. Extremum: 1 at a minimum of the damping ratio, -1 at a maximum. 0: the function touches zero
+  /// without a change of sign, or the kind has no direction.
   int direction = 0;
-  double value = NAN;  ///< damping_ratio, extremum: the damping ratio -Re s/|s|; resonance: the harmonic
-  ComplexVector shape = {};  ///< of the first of `modes`, physical coordinates, unit M-norm
-  /// ds/dq for every parameter q, all others held; of the mean of those that meet. NaN where it is not
-  /// defined, or not for a parameter that others define.
+  /// damping_ratio, extremum: the damping ratio -Re s/|s|; log_decrement: the decrement; resonance: the
+  /// multiple of the excitation frequency.
+  double value = NAN;
+  ComplexVector shape = {};  ///< eigenvector of the first of `modes`, physical coordinates, unit M-norm
+  /// ds/dq for every parameter q, the others constant; s is the mean of all that coincide. NaN where it is
+  /// not defined, and for parameters that are defined by others.
   ComplexVector sensitivity = {};
-  Vector shift = {};    ///< dp*/dq: how the event moves with every parameter; NaN likewise
+  Vector shift = {};    ///< dp*/dq: how the place of the event moves with every parameter; NaN likewise
   int retrackings = 0;  ///< points computed to locate it
-  int node = 0;         ///< the first path point at or behind it
+  int node = 0;         ///< number of the first path point at or after it
 };
 
+/// The name of a kind in files.
 std::string event_name(EventKind kind);
 
-/// "kind,parameter,real,imag,modes", modes separated by ';' and counted from 1.
+/// A line "kind,p,Re s,Im s,modes", modes separated by ';' and counted from 1.
 std::string event_line(const Event& event);
 
 }  // namespace eigentrail

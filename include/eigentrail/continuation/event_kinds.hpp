@@ -1,6 +1,6 @@
-// The kinds of events: what files, tables and pages call them and say of them. Everything that names a kind
-// reads this table, so that a new kind is a row here, and its function in events/criterion.cpp where a scene
-// asks for it.
+// Table of the kinds of events: their names, marks and remarks in files, tables and pictures. All code that
+// names a kind reads this table. A new kind needs a row in it and, if a scene can request it, its function
+// of the eigenvalue in events/criterion.cpp.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace eigentrail {
 
-/// What the remark on an event is made of; fields as in Event.
+/// The data of an event that its remark is written from; fields as in Event.
 struct EventFacts {
   double half_width = NAN;
   Complex puiseux = {};
@@ -19,12 +19,12 @@ struct EventFacts {
   double value = NAN;
 };
 
-/// How a scene asks for a kind of event: a key of [events] with one number or a list.
+/// How a scene requests a kind of event: a key of [events] with one number or a list of numbers.
 struct EventRequest {
-  std::string_view key;               ///< empty: the kind is always looked for, or by a switch of its own
+  std::string_view key;               ///< empty: the kind is always searched for, or has its own switch
   std::string_view help;              ///< for the reference of scene tables
-  std::string_view expected;          ///< of each number, in words
-  bool (*accepts)(double) = nullptr;  ///< whether a number can be asked for
+  std::string_view expected;          ///< the condition on each number, in words
+  bool (*accepts)(double) = nullptr;  ///< whether a number can be requested
   bool of_excitation = false;         ///< the numbers are multiples of the excitation frequency
 };
 
@@ -32,9 +32,9 @@ struct EventKindInfo {
   EventKind kind;
   std::string_view name;       ///< in files, CSV and JSON
   std::string_view long_name;  ///< in tables and pictures
-  std::string_view symbol;     ///< of the mark in pictures, by Plotly's names
-  bool labelled;               ///< written beside its mark: what changes stability, or the path
-  /// What the event is beside its kind and place, in a few words; may be empty.
+  std::string_view symbol;     ///< mark in pictures, a Plotly symbol name
+  bool labelled;               ///< whether pictures write the name beside the mark
+  /// A few words on the event besides its kind and place; may be empty.
   std::string (*remark)(const EventFacts& facts);
   EventRequest request = {};
 };
@@ -42,13 +42,14 @@ struct EventKindInfo {
 /// All kinds, in the order of EventKind.
 std::span<const EventKindInfo> event_kinds();
 
-/// Throws std::out_of_range for a number that is no kind.
+/// The row of a kind. Throws std::out_of_range for a value that is no kind.
 const EventKindInfo& event_kind(EventKind kind);
 
-/// Whether a number, perhaps from a damaged file, is a kind.
+/// Whether a value, for example from a damaged file, is a kind.
 bool is_event_kind(EventKind kind);
 
-/// The kind of that name, or null: a file may be from another version of the program.
+/// The kind of that name, or null. A file of another version of the program may have kinds that this version
+/// does not know.
 const EventKindInfo* find_event_kind(std::string_view name);
 
 }  // namespace eigentrail

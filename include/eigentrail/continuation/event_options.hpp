@@ -1,4 +1,4 @@
-// The scene's [events] table: what counts as an event beyond stability itself.
+// The scene's [events] table: which events are searched for in addition to those of stability.
 #pragma once
 
 #include <cmath>
@@ -10,26 +10,26 @@
 
 namespace eigentrail {
 
-/// An event that a scene asks for: a kind whose row in event_kinds.hpp has a key, and its number.
+/// An event that a scene requests: a kind whose row in event_kinds.hpp has a key, and the requested value.
 struct WantedEvent {
   EventKind kind;
   double value = 0.0;
 };
 
 struct EventOptions {
-  std::vector<WantedEvent> wanted = {};  ///< in the order of the kinds; each once
-  /// The excitation frequency in rad/s, from the parameters' SI values; there when a multiple of it is
-  /// wanted.
+  std::vector<WantedEvent> wanted = {};  ///< in the order of the kinds, without repetitions
+  /// The excitation frequency in rad/s as a function of the parameters' SI values; present if a multiple of
+  /// it is requested.
   std::optional<Expression> excitation = {};
-  bool extrema = true;  ///< extrema of the damping ratio
+  bool extrema = true;  ///< whether extrema of the damping ratio are searched for
 
-  /// The numbers wanted of one kind.
+  /// The values requested of one kind.
   std::vector<double> values(EventKind kind) const;
 };
 
-/// Defaults where the scene has no [events]; the excitation frequency is the traced parameter unless the
-/// scene says another. `used` collects the parameters that it names. Throws InputError with the place of a
-/// fault.
+/// Reads the [events] table; defaults if the scene has none. The excitation frequency is the traced parameter
+/// unless the table gives another one. The parameters that the table names are added to `used`. Throws
+/// InputError with the place of a fault.
 EventOptions read_event_options(const Scene& scene, const std::string& traced, std::set<int>& used);
 
 }  // namespace eigentrail

@@ -1,30 +1,31 @@
-// Which order of the series makes a trace cheapest.
+// The order q of the series at which a trace costs least.
 //
-// The error of the interpolant of order q falls like (h / 2R)^(2q+2) with the step h and the distance R of
-// the nearest singularity, so at tolerance eps the steps number L / R eps^(-1/(2q+2)), and a few more that
-// the ends and special points ask for. Each point costs what no order changes (corrections, LU, certificate)
-// and q + 1 coefficients of every series. The work is counted in multiplications, not timed: the same scene
-// gives the same order, and the same bits, on every machine. The counts are those of the traces in
-// docs/developers/accuracy.md.
+// The error of the interpolant of order q is about (h / 2R)^(2q+2), with the step length h and the distance R
+// of the nearest singularity. So a range of length L needs about L / R eps^(-1/(2q+2)) steps at tolerance
+// eps, and a few more at the ends of the range and at special points. The cost of a point has a part that
+// does not depend on the order (corrections, LU, certificate) and a part for the q + 1 coefficients of every
+// series. The work is counted in multiplications and not timed, so that a scene gets the same order, and the
+// same bits, on every machine. The counts were measured on the traces in docs/developers/accuracy.md.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace eigentrail {
 
-/// Sizes on which the choice depends. The number of modes is none of them: each costs the same.
+/// Sizes on which the choice depends. It does not depend on the number of modes, because all modes cost the
+/// same.
 struct TraceSize {
-  Eigen::Index freedoms = 0;  ///< of the reduced pencil
+  Eigen::Index freedoms = 0;  ///< size n of the reduced pencil
   bool certify = true;
 };
 
-/// Multiplications of reals per mode and point whose dense output is of order q, 1 to 4.
+/// Multiplications of real numbers per mode and point, with dense output of order q, 1 to 4.
 double work_per_point(const TraceSize& size, int order);
 
-/// Points of a trace of ordinary length, up to a factor that is the same for all orders.
+/// Number of points of a typical trace, up to a factor that is the same for all orders.
 double relative_points(int order, double tolerance);
 
-/// The order from 1 to 4 of least work at this tolerance, the lowest one where several are equal.
+/// The order from 1 to 4 with the least work at this tolerance; the lowest one if several are equal.
 int cheapest_order(const TraceSize& size, double tolerance);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// A point of the path as it is kept: its tracks and series. With it, what a run counts, and the setting of a
+// A point of the path as it is stored: its tracks and series. Also the work counters and the setting of a
 // run.
 #pragma once
 
@@ -13,62 +13,68 @@
 
 namespace eigentrail {
 
-/// A mode, or a block of close ones, at a point.
+/// A single mode, or a block of close modes that are followed together, at a point.
 struct Track {
-  static constexpr int no_mode =
-      -1;                           ///< member of a block that is no mode of its own: the lower one of a pair
-  static constexpr int guest = -2;  ///< member that is not followed, but too close to leave out
+  /// Entry of `modes` for a member of a block that has no mode number: the member of a complex pair with
+  /// Im s < 0 in a block that holds both.
+  static constexpr int no_mode = -1;
+  /// Entry of `modes` for an eigenvalue that is not followed, but belongs to the block because it is too
+  /// close to a followed one.
+  static constexpr int guest = -2;
 
-  InvariantPair pair;         ///< in reduced coordinates
-  PairSeries series;          ///< Z in physical coordinates, V = T Z
-  ComplexMatrix functions;    ///< k x (order + 2): smooth functions of the block (block_functions)
-  ComplexVector roots;        ///< eigenvalues of the block in its chart
-  std::vector<int> modes;     ///< the mode of every root from here on, from 0
-  std::vector<int> arriving;  ///< the same up to here; differs where modes are born or die
+  InvariantPair pair;       ///< in reduced coordinates
+  PairSeries series;        ///< Z in physical coordinates, V = T Z
+  ComplexMatrix functions;  ///< smooth functions of the block as series (block_functions), order + 2 columns
+  ComplexVector roots;      ///< the k eigenvalues of the block in its chart
+  std::vector<int> modes;   ///< mode number of every root on the step after the point, from 0
+  std::vector<int> arriving;  ///< the same for the step before it; differs where modes begin or end
 
-  /// Where eigenvalues meet at the point: who is who a little later, when that is known.
+  /// Set where eigenvalues coincide at the point, so that their order there says nothing: the eigenvalues a
+  /// small distance behind the point, where they differ.
   struct Departure {
-    double distance = 0.0;  ///< in the path's coordinate
-    ComplexVector roots;    ///< in the order of `modes`
+    double distance = 0.0;  ///< from the point, signed, in the path's coordinate
+    ComplexVector roots;    ///< eigenvalues at that distance, in the order of `modes`
   };
   std::optional<Departure> departure;
-  bool told_apart = true;  ///< its roots were, all the way from the last point
-  /// The same number from point to point as long as it is followed as it is; 0: not yet numbered.
+  bool told_apart = true;  ///< whether its roots could be distinguished on the whole step to this point
+  /// Number of the track. It stays the same from point to point until the track is joined, separated or
+  /// changes its chart. 0: not yet numbered.
   std::uint64_t lineage = 0;
-  bool passed = false;   ///< stands as it was continued from the last step
-  std::vector<int> met;  ///< indices of the roots that meet at the point, or veer closely
+  bool passed = false;   ///< accepted as extrapolated from the last step, without correction
+  std::vector<int> met;  ///< indices of the roots that coincide at the point or have a narrow veering there
 
   Eigen::Index size() const { return pair.size(); }
 };
 
-/// What a point leaves behind for prediction, dense output, certificate and the file.
+/// The data of a point that prediction, dense output, certificate and file need. Series are in powers of the
+/// coordinate along the path, measured from the point.
 struct PathNode {
   double p = 0.0;  ///< traced parameter, in its unit
-  Path path;       ///< equilibrium series
+  Path path;       ///< series of parameters, x and lambda
   std::vector<Track> tracks;
   Linearization linearization;  ///< series
   TangentBasis basis;           ///< series
   ReducedPencil pencil;         ///< series
 
-  /// Coefficient k of the eigenvalue of a track of one mode.
+  /// Coefficient k of the eigenvalue of a track of one mode, in its chart.
   Complex s(std::size_t track, Eigen::Index k) const { return tracks[track].functions(0, k); }
 };
 
-/// Work and wall time of a run, stage by stage. Evaluation counters take their size at the first use.
+/// Work and wall time of a run, stage by stage. Evaluation counters get their size at the first use.
 struct RunCounts {
   EvaluationCounts evaluations;
   ModeCounts modes;
   std::uint64_t equilibrium_iterations = 0;      ///< of KINSOL
   std::uint64_t equilibrium_factorizations = 0;  ///< of the KKT matrix
   std::uint64_t spectra = 0;                     ///< full spectra by QZ
-  std::uint64_t event_factorizations = 0;        ///< as ModeCounts::factorizations, to locate special points
-  std::uint64_t certificate_factorizations = 0;  ///< complex LU of size n + 1 (blocks: n k + k^2)
-  std::uint64_t certificate_bases = 0;           ///< inverses of size 2n that serve all modes at once
+  std::uint64_t event_factorizations = 0;        ///< as ModeCounts::factorizations, for locating events
+  std::uint64_t certificate_factorizations = 0;  ///< complex LU; n + k each, or n k + k^2 for small blocks
+  std::uint64_t certificate_bases = 0;           ///< inverses of size 2n, each for all modes at once
   double equilibrium_seconds = 0.0;              ///< solve and linearize
   double reduction_seconds = 0.0;
   double modes_seconds = 0.0;
   double differentiation_seconds = 0.0;
-  double matching_seconds = 0.0;  ///< identity, completeness
+  double matching_seconds = 0.0;  ///< comparison of modes at both ends of a step, search for missing modes
   double certificate_seconds = 0.0;
   double events_seconds = 0.0;
   double output_seconds = 0.0;
@@ -77,7 +83,7 @@ struct RunCounts {
   RunCounts& operator+=(const RunCounts& other);
 };
 
-/// Adds the time between construction and destruction to a counter.
+/// Adds the wall time between its construction and destruction to a counter.
 class StageTimer {
  public:
   explicit StageTimer(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
@@ -92,31 +98,31 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// How the modes of a point are corrected and differentiated. A route serves points at which every mode is
-/// followed and that meet its conditions; the others are left to the next one above it.
+/// How the modes of a point are corrected and differentiated. `state_space` and `symmetric` need every mode
+/// to be followed. Where the route of a run does not work at a point, the route listed before it is used.
 enum class ModeRoute {
   one_by_one,   ///< bordered systems, one mode or block after the other
   state_space,  ///< all at once by products of size 2n (all_pairs.hpp)
-  symmetric     ///< all at once by real products of size n: no damping, symmetric (symmetric_pairs.hpp)
+  symmetric     ///< all at once by real products of size n: undamped symmetric models (symmetric_pairs.hpp)
 };
 
 /// The setting of a run: what does not change from point to point.
 struct PathProblem {
   const Model& model;
   int traced = 0;          ///< index of the traced parameter
-  Vector parameters = {};  ///< declared values; the traced entry is replaced at each point
+  Vector parameters = {};  ///< values of all parameters; the traced entry is replaced at each point
   Structure structure = {};
-  int order = 3;         ///< of the dense output; series have one coefficient more, for its error
+  int order = 3;         ///< of the dense output; series have one more coefficient, for the error estimate
   double s_ref = 1.0;    ///< magnitude below which an eigenvalue counts as zero, 1/s
-  double s_max = 1e300;  ///< magnitude above which it counts as infinite
-  int threads = 1;       ///< for the modes of a point, >= 1
-  ModeRoute route = ModeRoute::one_by_one;  ///< the cheapest one that the model allows
+  double s_max = 1e300;  ///< magnitude above which an eigenvalue counts as infinite, 1/s
+  int threads = 1;       ///< threads that share the modes of a point, >= 1
+  ModeRoute route = ModeRoute::one_by_one;  ///< the cheapest route that the model allows
   BasisChoice basis = BasisChoice::aligned;
   SteadyOptions steady = {};
   CorrectorOptions corrector = {};
   Thresholds thresholds = {};
 
-  /// Magnitude below which the eigenvalue of a chart counts as zero.
+  /// Magnitude below which the eigenvalue mu of a chart (s or 1/s) counts as zero.
   double reference(Chart chart) const { return chart == Chart::finite ? s_ref : 1.0 / s_max; }
 };
 

@@ -1,4 +1,4 @@
-// Where a point of the path is expected, and the point before its modes are differentiated.
+// Prediction of a point of the path, and the computed point before it is differentiated.
 #pragma once
 
 #include <functional>
@@ -13,32 +13,34 @@ namespace eigentrail {
 
 struct SymmetricPairs;
 
-/// Where an equilibrium is looked for.
+/// Initial guess of an equilibrium.
 struct EquilibriumGuess {
   Vector x;
   Vector lambda;        ///< empty: the least-squares multipliers at x
-  bool solved = false;  ///< an equilibrium of a neighbouring point, or its series; not the scene's own guess
+  bool solved = false;  ///< true: from an equilibrium or its series nearby; false: the scene's own guess
 };
 
-/// A single mode as the dense output of the last step goes on, at the next point.
+/// A single mode, extrapolated from the dense output of the last step to the next point.
 struct ContinuedMode {
   InvariantPair pair;  ///< Z in physical coordinates
   PairSeries series;   ///< the same
 };
 
-/// Where the next point is expected.
+/// Prediction of the next point.
 struct Prediction {
   double p = 0.0;
   EquilibriumGuess equilibrium;
   std::vector<InvariantPair> pairs;  ///< Z in physical coordinates
-  /// Per pair another prediction, which may be good enough to stand; empty where there is none.
+  /// A second prediction per pair, which may be accurate enough to be accepted without correction; empty if
+  /// there is none.
   std::vector<std::optional<ContinuedMode>> continued = {};
-  /// Whether the one of that pair may stand; asked, by several threads at once, where it is accurate enough.
+  /// Whether the second prediction of the pair with that index may be accepted without correction. Called,
+  /// possibly by several threads at once, only if it is accurate enough.
   std::function<bool(const ContinuedMode&, std::size_t)> may_pass = {};
-  /// Per pair its track where the same point was computed before, or null; empty where there is none.
+  /// Per pair the track from an earlier computation of the same point, or null; empty if there is none.
   std::vector<const Track*> ready = {};
-  std::optional<PathPlane> plane = {};  ///< where p is not given but found: the plane that the point lies on
-  std::optional<Path> known = {};       ///< the equilibrium's series, where it cannot be solved for
+  std::optional<PathPlane> plane = {};  ///< the plane that the point lies on, if p is an unknown
+  std::optional<Path> known = {};       ///< series of the equilibrium, where it cannot be solved for
 };
 
 enum class PointStatus { computed, no_equilibrium, mode_lost };
@@ -47,7 +49,7 @@ enum class PointStatus { computed, no_equilibrium, mode_lost };
 struct PathPoint {
   PointStatus status = PointStatus::computed;
   std::string message;  ///< reason when not computed
-  int lost_track = -1;  ///< the track that was not corrected
+  int lost_track = -1;  ///< index of the pair whose correction did not converge
   double p = 0.0;
   std::optional<PathPlane> plane;
   std::optional<Path> known;  ///< as in Prediction
@@ -55,9 +57,9 @@ struct PathPoint {
   TangentBasis basis;
   ReducedPencil pencil;  ///< of order 0
   std::vector<InvariantPair> pairs;
-  std::shared_ptr<const AllPairs> all;                 ///< where the pairs were corrected in state space
-  std::shared_ptr<const SymmetricPairs> symmetric;     ///< where they were corrected by the symmetric route
-  std::vector<std::optional<PairSeries>> passed = {};  ///< of pairs that stand as they were continued
+  std::shared_ptr<const AllPairs> all;                 ///< set if the state-space route corrected the pairs
+  std::shared_ptr<const SymmetricPairs> symmetric;     ///< set if the symmetric route corrected them
+  std::vector<std::optional<PairSeries>> passed = {};  ///< series of pairs accepted without correction
   std::vector<const Track*> ready = {};                ///< as in Prediction
 
   /// V = T Z of a pair.

@@ -8,46 +8,47 @@
 
 namespace eigentrail {
 
-/// A place on the path: t in [0, 1] on the step between two nodes. Ordered as the trace goes.
+/// A place on the path: t in [0, 1] on the step from node `step` to node `step` + 1. Ordered along the trace.
 struct PathPosition {
   std::size_t step = 0;
   double t = 0.0;
   auto operator<=>(const PathPosition&) const = default;
 };
 
+/// The points and steps of a trace.
 struct RecordedPath {
   std::vector<double> p;        ///< per node; monotonic unless the path turns back at a fold
-  ComplexMatrix eigenvalues;    ///< node x mode, NaN where a mode does not exist
+  ComplexMatrix eigenvalues;    ///< s, one row per node, one column per mode; NaN where a mode does not exist
   std::vector<PathStep> steps;  ///< between neighbouring nodes
 
   std::size_t n_nodes() const { return p.size(); }
-  double lowest() const;   ///< of the traced range; not a number when there are no points
-  double highest() const;  ///< likewise
+  double lowest() const;   ///< least parameter value of all nodes; NaN without nodes
+  double highest() const;  ///< largest parameter value of all nodes; NaN without nodes
 
   using Position = PathPosition;
 
-  /// Where the path passes a parameter value, in the order of the trace; more than once behind a fold.
+  /// All places with that parameter value, in the order of the trace; several if the path has folds.
   std::vector<Position> positions(double parameter_value) const;
 
-  /// Parameter at a place.
+  /// Value of the traced parameter at a place.
   double parameter_at(const Position& position) const;
 
-  /// Eigenvalues of all modes at a place; NaN where a mode does not exist. A complex pair is reported by its
-  /// member with Im s >= 0.
+  /// Eigenvalues s of all modes at a place; NaN where a mode does not exist. A complex pair is represented by
+  /// its member with Im s >= 0.
   ComplexVector eigenvalues_at(const Position& position) const;
 };
 
-/// Collects the points of a trace, as its observer.
+/// Collects the points that a trace hands to its observer.
 class PathRecorder {
  public:
   PathRecorder() = default;
-  /// Goes on with what was recorded before.
+  /// Starts with the points and steps of `path`, for a trace that is resumed.
   explicit PathRecorder(const RecordedPath& path);
 
   int points() const { return static_cast<int>(p_.size()); }
   void append(const TracePoint& point);
 
-  /// What was collected so far.
+  /// All points and steps so far.
   RecordedPath path() const;
 
  private:

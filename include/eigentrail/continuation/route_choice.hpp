@@ -1,8 +1,9 @@
-// How the modes of a point are computed: one by one, or all at once.
+// Choice how the modes of a point are computed: one by one, or all at once.
 //
-// One LU per mode costs the number of modes times n^3; products in modal coordinates serve all modes for some
-// n^3 but only where all are followed, since the missing ones would be missing in the basis. The choice is by
-// counted multiplications, not by time: the same scene takes the same route on every machine.
+// One by one, each mode needs an LU of about n^3 operations. All at once, matrix products in modal
+// coordinates compute all modes with a few n^3 operations in total, but only if every mode is followed: the
+// eigenvectors of all modes together form the basis. The choice compares counted multiplications and not
+// times, so that a scene takes the same route on every machine.
 #pragma once
 
 #include "eigentrail/continuation/path_point.hpp"
@@ -13,15 +14,15 @@ namespace eigentrail {
 struct ModeWork {
   Eigen::Index freedoms = 0;  ///< n of the reduced pencil
   Eigen::Index modes = 0;     ///< followed, a complex pair counting once
-  bool all = false;           ///< every mode there is, none of them infinite
+  bool all = false;           ///< whether every mode is followed and none is infinite
   int order = 3;
 };
 
-/// Multiplications of reals per point in all, those of matrix products counted by what they cost beside those
-/// of back-substitutions. Infinite where the route does not serve.
+/// Multiplications of real numbers per point, for all modes. Those of matrix products and factorizations are
+/// weighted by their time relative to those of back-substitutions. Infinite if the route cannot be used.
 double route_work(ModeRoute route, const Structure& structure, const ModeWork& work);
 
-/// The route of least work.
+/// The route with the least work.
 ModeRoute cheapest_route(const Structure& structure, const ModeWork& work);
 
 }  // namespace eigentrail

@@ -1,90 +1,99 @@
-// Thresholds that decide what a trace finds: whether a special point is one and of what kind, whether two are
-// the same, whether a mode is what it is taken for. They are no options of a scene: the defaults follow from
-// rounding and from what the numerical methods resolve, and nothing may depend on their exact values. Tests
-// vary each of them by a factor of three.
+// Thresholds that decide what a trace finds: whether an event is listed and with which kind, whether two
+// events are the same, whether a track still follows its mode. They are not options of a scene. The values
+// follow from rounding and from the accuracy of the numerical methods, and no result may depend on the exact
+// values: a test varies each of them by a factor of three.
 #pragma once
 
 namespace eigentrail {
 
-/// Zeros and extrema of functions of single eigenvalues (criteria).
+/// Zeros and extrema of functions of single eigenvalues (events/criterion.hpp).
 struct CriterionThresholds {
-  /// |Re s| / max(|s|, reference) that counts as zero at most. Eigenvalues of systems without damping stay on
-  /// the imaginary axis but for rounding times the condition of the eigenvalue, ...
+  /// |Re s| / max(|s|, reference) up to this counts as zero at most; the same for the functions of the other
+  /// events. In systems without damping Re s is zero except for rounding times the condition of the
+  /// eigenvalue, which is bounded from above by its condition number in the 2-norm.
   double on_axis = 1e-9;
-  /// ... that is, for so many times 2.2e-16 times the condition.
+  /// In units of 2.2e-16 times that condition number: a smaller |Re s| / max(|s|, reference) counts as zero.
   double roundings = 1000.0;
-  /// The same at a double root, where an eigenvalue is known to the root of rounding only.
+  /// |Re s| / reference up to this counts as zero at a double eigenvalue, which is known only to the square
+  /// root of the accuracy of a simple one.
   double double_root_on_axis = 1e-6;
-  /// A mode that comes so close to the axis, in units of the dense output's error, may touch it between two
-  /// samples of a step.
+  /// In units of tolerance times max(|s|, reference). Where a function has an extremum this close to zero,
+  /// two zeros may lie between two samples of a step. The extremum is then located.
   double near_axis = 10.0;
-  /// An extremum is told from the error of the dense output when the damping ratio changes by this many
-  /// tolerances over half a step.
+  /// In units of the tolerance. An extremum is listed if the damping ratio changes by more than this over
+  /// half a step; smaller changes may come from the error of the dense output.
   double extremum = 1.0;
 };
 
-/// Meetings of eigenvalues that are followed in one block.
+/// Coinciding eigenvalues of one block.
 struct MeetingThresholds {
-  /// Of the range: a meeting so close to a point lies on it. Where eigenvalues meet, the place of a double
-  /// root is known to the root of rounding over its curvature; this is far above what Newton's method leaves.
+  /// As a share of the range: eigenvalues that coincide no farther than this from a point count as coinciding
+  /// on it. Newton's method comes much closer. The limit is for double roots of the discriminant: their place
+  /// is known only to the square root of rounding divided by the curvature there.
   double at_point = 1e-10;
-  /// Of the step: exceptional points this far off the real axis get a point of the trace of their own. They
-  /// are so near that the dense output does not tell on which side of the axis they lie.
+  /// As a share of the step: an exceptional point with a half-width up to this gets a point of the trace. So
+  /// narrow a veering cannot be distinguished from a collision on the dense output.
   double narrow = 3e-3;
-  /// Of their separation: two roots of a discriminant that are mirror images of each other, to this accuracy,
-  /// are one exceptional point and its conjugate. Decides how the place of a veering is averaged, not its
-  /// kind.
+  /// As a share of their distance: two roots of a discriminant that are complex conjugates to this accuracy
+  /// are one veering, at their mean. Decides the place of a veering, not its kind.
   double beside_axis = 1e-3;
-  /// Of the reach: a single exceptional point no farther off the axis lies on it.
+  /// As a share of the distance up to which roots are searched for (the step): a single root of a
+  /// discriminant with an imaginary part up to this lies on the real axis, a collision and not a veering.
   double on_axis = 1e-9;
 };
 
 /// Exceptional points beside the real axis.
 struct VeeringThresholds {
-  /// Of the range: half-width up to which two modes that come close and part again are a veering. This is a
-  /// definition, not an accuracy: tests that vary it look at veerings away from it.
+  /// As a share of the range: largest half-width of a veering. This is a definition, not an accuracy. The
+  /// test that varies the thresholds leaves it out.
   double widest = 0.01;
-  /// Terms of a series may be this share of its largest one where it is trusted to tell a root.
+  /// Largest ratio of the last term of a series to its largest term at which a root of the series is trusted;
+  /// the sum of the terms must vanish up to the same share.
   double trusted_share = 0.02;
 };
 
-/// Whether two events are one.
+/// Whether two events are the same.
 struct EventThresholds {
-  /// Of the range: places of zeros, extrema and meetings are settled to 1e-10 or better.
+  /// As a share of the range: events of one kind closer than this in p are the same. Places of zeros, extrema
+  /// and coinciding eigenvalues are located to 1e-10 or better.
   double same_place = 1e-9;
-  /// Of the range: a zero that Newton's method finds to be a double root is known to the root of what other
-  /// zeros are.
+  /// As a share of the range: the same for a zero of Re s at a double eigenvalue and the collision there.
+  /// The place of such a zero is known only to the square root of the accuracy of other zeros.
   double same_double_root = 1e-6;
-  /// Of the range: places of veerings off the axis are settled to 1e-8.
+  /// As a share of the range: the same for veerings, in place and half-width. These are located to 1e-8.
   double same_veering = 1e-7;
-  /// Relatively: eigenvalues at a veering, which vary there like the root of the distance.
+  /// Largest relative difference of the eigenvalues of one veering. They vary there like the square root of
+  /// the distance, and are less accurate than the place.
   double same_eigenvalue = 1e-6;
-  /// A veering that is expected within this share of a known one's half-width, plus `known_veering` of the
-  /// range, is that one: expectations come from the series of a step, and are followed to their place only
-  /// once.
+  /// A predicted veering is a known one if place and half-width differ by no more than this share of the
+  /// known half-width plus `known_veering` of the range. The prediction comes from the series of a step and
+  /// is inaccurate; a veering that is known is not located again.
   double known_veering_share = 0.01;
   double known_veering = 1e-6;
 };
 
 /// Folds and branch points.
 struct StaticThresholds {
-  /// Share of the parameter's force in the kernel of a singular stiffness: at a fold it is of the order of
-  /// one, at a branch point zero but for the error of the point.
+  /// At a singular stiffness, the share of the force of the traced parameter in the kernel of the stiffness:
+  /// of the order of one at a fold, zero at a branch point except for the error of the point. Above this
+  /// value the point is a fold.
   double branch_point_share = 1e-3;
-  /// An eigenvalue below this share of the reference is the zero of the singular stiffness.
+  /// An eigenvalue up to this share of the reference counts as the zero eigenvalue of a singular stiffness.
   double zero = 1e-2;
 };
 
-/// Whether two tracks stand for one mode, and whether a mode is still itself.
+/// Whether two tracks follow the same mode, and whether a track still follows its mode.
 struct IdentityThresholds {
-  /// Two tracks with eigenvalues closer than this, relatively, ...
+  /// Two tracks have merged if their eigenvalues are closer than this, relatively, ...
   double merged_distance = 1e-8;
-  /// ... and vectors of at least this modal assurance have merged.
+  /// ... and their vectors have more than this modal assurance.
   double merged_assurance = 0.999;
-  /// Without a certificate a modal assurance below this makes a match suspicious.
+  /// Without a certificate, a step is rejected if the modal assurance of a single mode between the two ends
+  /// is below this.
   double least_assurance = 0.8;
 };
 
+/// All thresholds.
 struct Thresholds {
   CriterionThresholds criterion = {};
   MeetingThresholds meeting = {};

@@ -1,5 +1,5 @@
-// The trace: a predictor-corrector loop along the path, from the scene's starting equilibrium to the end of
-// the range.
+// The trace: a predictor-corrector continuation of the equilibrium and the eigenvalues, from one end of the
+// range of the parameter to the other.
 #pragma once
 
 #include <string_view>
@@ -9,18 +9,19 @@
 
 namespace eigentrail {
 
-/// Whether the trace produced points before it ended.
+/// Whether a trace that ended with this status has produced points.
 bool has_started(TraceStatus status);
 
-/// Follows the modes of `model` as `options` say. Numerical failures end in the result's status; the points
-/// before them have been handed to the observer. Throws std::invalid_argument for options with faults
-/// (find_faults).
+/// Follows the modes of `model` as `options` say. Numerical failures end the trace and are reported in the
+/// result's status; the points before them have been handed to the observer. `basis` is how the tangent basis
+/// is chosen at each point. Throws std::invalid_argument for invalid options (find_faults).
 TraceResult trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                   BasisChoice basis = BasisChoice::aligned);
 
-/// Goes on from a checkpoint of a trace of the same model with the same options: the points that follow, and
-/// the result, are bit for bit those of the trace that was left; `started` is not called. Throws InputError
-/// when the state is damaged or belongs to another model.
+/// Continues a trace of the same model with the same options from the state that Checkpoint::save returned.
+/// The following points and the result are bit for bit those of an uninterrupted trace. The observer's
+/// `started` is not called. Throws InputError if the state is damaged or belongs to another model, and
+/// std::invalid_argument for invalid options.
 TraceResult resume_trace(const Model& model, const TraceOptions& options, const TraceObserver& observer,
                          std::string_view state);
 

@@ -1,4 +1,4 @@
-// What a trace calls on its way, and what it can be left with.
+// The callbacks of a trace, and the checkpoints from which it can be resumed.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 
 namespace eigentrail {
 
-/// What a trace can go on from: all points up to here have been handed to the observer.
+/// The state of a trace between two points. All points so far have been handed to the observer.
 class Checkpoint {
  public:
   virtual const TraceResult& so_far() const = 0;
-  /// The state of the trace as bytes, for resume_trace. They belong to this version of the program.
+  /// The state of the trace as bytes, for resume_trace. Only the same version of the program can read them.
   virtual std::string save() const = 0;
 
  protected:
   ~Checkpoint() = default;
 };
 
-/// Called during a trace, in this order: `started` once, then `point` for every point; `checkpoint` between
-/// points. The latter two return whether to go on.
+/// Functions that a trace calls: `started` once, then `point` for every point, and `checkpoint` between two
+/// points. The last two return whether the trace shall go on.
 struct TraceObserver {
   std::function<void(const TraceStart&)> started = [](const TraceStart&) {};
   std::function<bool(const TracePoint&)> point = [](const TracePoint&) { return true; };

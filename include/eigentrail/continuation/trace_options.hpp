@@ -1,5 +1,5 @@
-// Options of a trace. One list of fields feeds the scene's [trace] table, the command line and the file's
-// provenance.
+// Options of a trace. One list of fields serves the scene's [trace] table, the command line and the record of
+// the options in the loci file.
 #pragma once
 
 #include <map>
@@ -15,36 +15,38 @@
 
 namespace eigentrail {
 
-/// The order where none is asked for and none is chosen for its cost: along the curves of boundaries.
+/// Order of the series along the curves of boundaries, if the options give none. Traces choose the order by
+/// its cost instead (order_choice.hpp).
 constexpr int usual_order = 3;
 
 struct TraceOptions {
-  std::string parameter;     ///< name of the traced parameter
-  double from = 0.0;         ///< where the trace begins, in the parameter's unit
-  double to = 0.0;           ///< where it ends; may be below `from`, not equal
-  double tolerance = 1e-6;   ///< bounds |s_dense - s| <= tolerance * max(|s|, reference), 1e-13 <= . <= 0.1
-  std::optional<int> modes;  ///< follow the N modes of least |s|, >= 1; absent: all
-  std::optional<int> order;  ///< of the series at each point, 1 to 4; absent: the one that costs least
-  std::optional<double> reference;   ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
-                                     ///< absent: 1e-3 of the median |s| of the followed modes at the start
+  std::string parameter;            ///< name of the traced parameter
+  double from = 0.0;                ///< where the trace begins, in the parameter's unit
+  double to = 0.0;                  ///< where it ends; may be below `from`, not equal
+  double tolerance = 1e-6;          ///< bounds |s_dense - s| <= tolerance * max(|s|, reference); 1e-13 to 0.1
+  std::optional<int> modes;         ///< follow the N modes of least |s|, >= 1; absent: all
+  std::optional<int> order;         ///< of the series at each point, 1 to 4; absent: the one that costs least
+  std::optional<double> reference;  ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
+                                    ///< absent: 1e-3 of the median |s| of the followed modes at the start
   std::optional<double> first_step;  ///< in the parameter's unit, > 0; absent: from the series at the start
   std::optional<double> max_step;    ///< in the parameter's unit, > 0; absent: a quarter of the range
-  int max_nodes = 100000;            ///< the trace stops there, >= 2
-  bool certify = true;               ///< evidence step by step that no modes were exchanged (certificate.hpp)
+  int max_nodes = 100000;            ///< largest number of points, >= 2; the trace stops there
+  bool certify = true;               ///< test at every step that no modes were exchanged (certificate.hpp)
 
-  std::vector<int> branch =
-      {};  ///< which path to go on along at each branch point, in order, 1 to 3; a single
-           ///< number holds for all; 1 is straight on, also after the last number
+  /// The path to continue on at each branch point, in their order: 1 is straight on, 2 and 3 are the two
+  /// directions of the other path. A single number holds for all branch points; 1 is used after the last one.
+  std::vector<int> branch = {};
 
   std::vector<std::string> without = {};  ///< effects of the scene that are switched off
 
-  /// Other parameters at other values than the scene declares, in their units. Not an option of a scene: one
-  /// model serves many traces at different values, in several threads.
+  /// Values of other parameters that replace those declared in the scene, in their units. Not an option of a
+  /// scene: it lets one model serve many traces at different values, in several threads.
   std::map<std::string, double> values = {};
 
   EventOptions events = {};  ///< of the scene's [events]
 
-  /// Threads that share the modes of a point, >= 1. Not an option of a scene: results do not depend on it.
+  /// Threads that share the modes of a point, >= 1. Not an option of a scene, because results do not depend
+  /// on it.
   int threads = 1;
 
   Thresholds thresholds = {};  ///< not an option of a scene
@@ -72,7 +74,7 @@ struct TraceOptions {
   }
 };
 
-/// Values given on the command line: key and text, in order.
+/// Options given on the command line: keys and texts, in order.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// An option that cannot be used: its key and what is wrong.
@@ -81,16 +83,16 @@ struct OptionFault {
   std::string message;
 };
 
-/// Every violated inequality above. Empty when the options can be used.
+/// All faults of the options: unknown or unsuitable parameters and violated bounds of the fields. Empty if
+/// the options can be used.
 std::vector<OptionFault> find_faults(const TraceOptions& options, const Parameters& parameters);
 
-/// Options from the scene's [trace] table, overridden by `overrides`; checks every inequality above. Numbers
-/// may be expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values.
-/// Throws InputError listing what is wrong, in the scene's [events] too. `used` collects the parameters that
-/// the options name.
+/// Options from the scene's [trace] and [events] tables, overridden by `overrides`. Numbers may be
+/// expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values. The
+/// parameters that the options name are added to `used`. Throws InputError that names the faults.
 TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used);
 
-/// A scene that is ready to be traced.
+/// A scene with its options and its model, ready to be traced.
 struct TraceSetup {
   Scene scene;
   TraceOptions options;
@@ -100,11 +102,11 @@ struct TraceSetup {
   int traced() const { return scene.parameters.index(options.parameter).value(); }
 };
 
-/// Reads the options and builds the model of a scene, with `strengths` of its effects as further parameters.
-/// Throws InputError for every fault of either.
+/// Reads the options and builds the model of a scene. With `strengths` the model has the strengths of its
+/// effects as further parameters. Throws InputError for faults of the options or the model.
 TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths = false);
 
-/// Every option as text, for provenance; options that were not given read "auto" or "all".
+/// Every option as text, for the record in the loci file; options that were not given are "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// What a trace returns, and what it hands out on its way.
+// The result of a trace, and the data that it hands to its observer.
 #pragma once
 
 #include <string>
@@ -10,73 +10,74 @@
 
 namespace eigentrail {
 
+/// How a trace ended.
 enum class TraceStatus {
   completed,
   no_equilibrium,   ///< at the start
-  singular_pencil,  ///< at the start: every number is an eigenvalue
+  singular_pencil,  ///< at the start: det P(s) = 0 for every s
   no_modes,         ///< nothing to follow
-  multiple_mode,    ///< the modes at the start cannot be told apart
-  step_too_small,   ///< stopped on the way; the reason is in the message
-  no_branch,        ///< the path asked for at a branch point was not found
+  multiple_mode,    ///< the modes at the start could not be separated or differentiated
+  step_too_small,   ///< ended within the range; the message gives the reason
+  no_branch,        ///< the path requested at a branch point was not found
   too_many_nodes,
-  stopped  ///< the observer asked to stop
+  stopped  ///< the observer requested it
 };
 
-/// Steps that were tried and not taken, by reason.
+/// Numbers of rejected steps, by reason.
 struct Rejections {
   int inaccurate = 0;  ///< dense-output error above the tolerance
   int no_equilibrium = 0;
-  int mode_lost = 0;    ///< corrector did not converge
-  int mismatch = 0;     ///< a single mode changed its shape too much (without certificate)
-  int merged = 0;       ///< two tracks arrived at one eigenpair
-  int uncertified = 0;  ///< the certificate did not close
+  int mode_lost = 0;    ///< the corrector did not converge, or a series is not finite
+  int mismatch = 0;     ///< the shape of a single mode changed too much (only without certificate)
+  int merged = 0;       ///< two tracks converged to the same eigenpair
+  int uncertified = 0;  ///< the certificate of a track failed
   int total() const { return inaccurate + no_equilibrium + mode_lost + mismatch + merged + uncertified; }
 };
 
-/// Changes of what is followed together.
+/// Numbers of changes in how modes and path are followed.
 struct Regroupings {
-  int joined = 0;
-  int parted = 0;
+  int joined = 0;    ///< blocks formed
+  int parted = 0;    ///< tracks gained by separating blocks
   int charts = 0;    ///< changes between s and 1/s
-  int repaired = 0;  ///< modes found missing and added
-  int planes = 0;    ///< changes of the path's coordinate
+  int repaired = 0;  ///< missing modes that were added
+  int planes = 0;    ///< changes of the coordinate along the path
 };
 
 struct [[nodiscard]] TraceResult {
   TraceStatus status = TraceStatus::completed;
-  std::string message;             ///< reason when not completed, in words
-  std::vector<std::string> notes;  ///< what the user should know, in words
-  int nodes = 0;
-  int n_modes = 0;                 ///< followed at the start
-  int n_columns = 0;               ///< modes that existed somewhere
+  std::string message;             ///< reason if not completed
+  std::vector<std::string> notes;  ///< remarks for the user
+  int nodes = 0;                   ///< number of points
+  int n_modes = 0;                 ///< modes followed at the start
+  int n_columns = 0;               ///< modes that were followed on any part of the range
   int n_available = 0;             ///< finite modes at the start
   int n_infinite = 0;              ///< infinite eigenvalues at the start
   Eigen::Index n_independent = 0;  ///< size of the reduced pencil, n - rank A
-  int order = 0;                   ///< of the series at each point: as asked for, or chosen
+  int order = 0;                   ///< of the series at each point, as requested or chosen
   double reached = 0.0;            ///< last parameter value
-  double s_ref = 0.0;
+  double s_ref = 0.0;              ///< magnitude below which an eigenvalue counts as zero, 1/s
   std::vector<Event> events;
-  long mode_steps = 0;       ///< modes times steps
-  long certified_steps = 0;  ///< those whose identity is certified
+  long mode_steps = 0;       ///< sum over all steps of the number of modes
+  long certified_steps = 0;  ///< the same for the modes certified on the step
   Rejections rejections;
   Regroupings regroupings;
   RunCounts counts;
   double seconds = 0.0;
 };
 
-/// What is known when the first point stands.
+/// What is known after the first point has been computed; fields as in TraceResult.
 struct TraceStart {
   double s_ref = 0.0;
   int n_available = 0;
-  int n_modes = 0;  ///< followed from the start; more may be born
-  int order = 0;    ///< of the series
+  int n_modes = 0;  ///< modes may be added later, where complex pairs become two real modes
+  int order = 0;
 };
 
 /// A mode at a point.
 struct ModeState {
   int mode = 0;         ///< from 0
-  Complex s;            ///< Im s >= 0
-  Complex slope;        ///< ds/dp; NaN where eigenvalues meet, infinite at a fold
+  Complex s;            ///< the eigenvalue with Im s >= 0
+  Complex slope;        ///< ds/dp; NaN where eigenvalues coincide, infinite at a fold
   ComplexVector shape;  ///< physical coordinates
   double backward_error = 0.0, condition = 0.0;
 };
@@ -84,8 +85,8 @@ struct ModeState {
 /// A point of the trace with the step that led to it.
 struct TracePoint {
   const PathNode& node;
-  std::vector<ModeState> modes;    ///< those that exist at the point
-  const PathStep* step = nullptr;  ///< from the point before; none at the first
+  std::vector<ModeState> modes;    ///< all modes that exist at the point
+  const PathStep* step = nullptr;  ///< from the point before; null at the first point
 };
 
 }  // namespace eigentrail

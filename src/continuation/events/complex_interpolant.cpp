@@ -13,7 +13,7 @@ void ComplexInterpolant::add(double x, const ComplexVector& series) {
   refresh();
 }
 
-/// Divided differences, confluent where points repeat.
+/// Computes the divided differences; where all points of one coincide, it is a Taylor coefficient.
 void ComplexInterpolant::refresh() {
   const std::size_t n = x_.size();
   std::vector<Complex> column(n);
@@ -47,9 +47,12 @@ double ComplexInterpolant::last_contribution(Complex x) const {
 }
 
 Complex ComplexInterpolant::root_near(Complex root, double width) const {
-  constexpr int most_secants = 30;
-  constexpr double first = 1e-3;     // of the width: where the second point of the first secant lies
-  constexpr double settled = 1e-15;  // of the width
+  constexpr int most_secants = 30;  // about ten suffice near a simple root
+  // Shares of the width: distance of the second starting point of the first secant, small against the scale
+  // of the function and large against rounding; and the move that ends the iteration, at the level of
+  // rounding.
+  constexpr double first = 1e-3;
+  constexpr double settled = 1e-15;
   Complex a = root + first * width;
   Complex at_a = (*this)(a);
   for (int i = 0; i < most_secants; ++i) {
@@ -70,7 +73,10 @@ double ComplexInterpolant::error_of_root(Complex root, double width) const {
 }
 
 bool ComplexInterpolant::is_double_root(Complex root, double trusted_share) const {
-  const double step = 0.1 * std::abs(root.imag());
+  // Share of the distance from the axis: step of the central differences. Their truncation error is about a
+  // hundredth, which is below the share that decides.
+  constexpr double difference_step = 0.1;
+  const double step = difference_step * std::abs(root.imag());
   const Complex ahead = (*this)(root + step);
   const Complex back = (*this)(root - step);
   const Complex slope = (ahead - back) / (2.0 * step);

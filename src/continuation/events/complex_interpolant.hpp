@@ -1,5 +1,6 @@
-// A smooth function of the coordinate along the path, continued beside the real axis: the polynomial that
-// shares its series at several points (Hermite interpolation in Newton's form).
+// Evaluation of a smooth function of the coordinate along the path at complex values of the coordinate: the
+// polynomial that agrees with its power series at several real points (Hermite interpolation in Newton's
+// form).
 #pragma once
 
 #include <vector>
@@ -10,29 +11,31 @@ namespace eigentrail {
 
 class ComplexInterpolant {
  public:
-  /// `series`: coefficients of the function at x.
+  /// Adds an interpolation point. `series`: Taylor coefficients of the function at x.
   void add(double x, const ComplexVector& series);
 
   Complex operator()(Complex x) const;
 
-  /// What the last derivative that was added contributes at x, or the one before: about the error there.
+  /// Magnitude of the larger of the last two terms at x: an estimate of the error there.
   double last_contribution(Complex x) const;
 
-  /// A root near a guess by the secant method; `width` is the scale on which the function changes.
+  /// A root near a guess, by the secant method; `width` is the length scale of the function.
   Complex root_near(Complex guess, double width) const;
 
-  /// Error of a root, as the last terms tell it; infinite where the slope, taken over `width`, is zero.
+  /// Estimated error of a root: last_contribution divided by the slope, a central difference over +-`width`.
+  /// Infinite where the slope is zero.
   double error_of_root(Complex root, double width) const;
 
-  /// Whether a root is a double one: two eigenvalues that do not influence each other coincide at a complex
-  /// parameter.
+  /// Whether a complex root is a double one: the slope there is at most `trusted_share` times the second
+  /// derivative times the distance of the root from the real axis. At a double root of a discriminant, two
+  /// eigenvalues of uncoupled modes coincide at a complex parameter: a crossing, not an exceptional point.
   bool is_double_root(Complex root, double trusted_share) const;
 
  private:
   void refresh();
 
-  std::vector<double> x_;              ///< a point repeats for every coefficient that it gives
-  std::vector<ComplexVector> table_;   ///< the series of the point
+  std::vector<double> x_;              ///< every point, once per coefficient of its series
+  std::vector<ComplexVector> table_;   ///< series of the point, one entry per element of x_
   std::vector<Complex> coefficients_;  ///< divided differences
 };
 

@@ -6,19 +6,23 @@
 namespace eigentrail {
 namespace {
 
-/// Samples on a step. The dense output of one mode is a polynomial of degree 2 order + 1, at most 9, whose
-/// values between samples cannot bend twice; blocks have square roots of those, which can near a meeting.
+/// Intervals between samples of a step. The dense output of one mode is a polynomial of degree 2 order + 1,
+/// at most 9, so that each of its extrema has about three intervals. Eigenvalues of blocks are not
+/// polynomials and can vary faster near an exceptional point. With fewer samples two zeros can lie between
+/// two of them.
 constexpr int samples_per_step = 24;
-/// Halvings that locate a change of sign on the dense output, and an extremum: guesses for Newton's method.
+/// Bisections that locate a change of sign, and an extremum, on the dense output. The result only starts
+/// Newton's method.
 constexpr int sign_halvings = 30;
 constexpr int extremum_halvings = 20;
-/// Half the distance in t over which the slope at an extremum is taken.
+/// In t: half the distance of the two values whose difference gives the sign of the slope near an extremum.
+/// Much shorter than the distance of samples, but long enough that rounding does not decide the sign.
 constexpr double slope_width = 1e-3;
-/// In t: where eigenvalues coincide at the right end, they are known to half their digits there; the last
-/// sample lies this much before it.
+/// In t: distance of the last sample from the right end where eigenvalues coincide there. At the end itself
+/// they are known to the square root of rounding only.
 constexpr double before_meeting = 1e-7;
 
-/// Where the value, of the sign of `before` at t = from, changes sign.
+/// Place of the change of sign between t = from, where the value has the sign of `before`, and t = to.
 double sign_change(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double from,
                    double to, double before) {
   for (int i = 0; i < sign_halvings; ++i) {
@@ -28,7 +32,7 @@ double sign_change(CriteriaOnStep& on_step, const Criterion& criterion, std::siz
   return 0.5 * (from + to);
 }
 
-/// Where the value has its extremum, between one sample before `about` and one behind it.
+/// Place of the extremum between one interval before t = about and one after it.
 double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double about) {
   const auto slope = [&](double t) {
     return on_step.value(criterion, member, std::min(t + slope_width, 1.0)) -
@@ -44,7 +48,7 @@ double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::s
   return 0.5 * (from + to);
 }
 
-/// The scan of one track.
+/// Samples the eigenvalues of one track.
 class TrackScan {
  public:
   TrackScan(const EventSearch& search, const Step& step, std::size_t track,
@@ -75,13 +79,13 @@ class TrackScan {
 
   const Track& track() const { return step_.left->tracks[index_]; }
 
-  /// All criteria of a mode at one sample, and what lies between it and the last one.
+  /// Evaluates all criteria of a mode at the sample t; `last` is the sample before it.
   void look(std::size_t member, double last, double t) {
     const Complex s = on_step_.root(member, t);
     const bool is_pair = s.imag() != 0.0;
     for (std::size_t c = 0; c < search_.criteria.size(); ++c) {
       CriterionHistory& history = histories_[{track().modes[member], c}];
-      // The end of the last step is known; a mode that is new is not.
+      // The value at the left end is known from the last step, unless the mode begins there.
       if (t <= last && history.is_known()) continue;
       if (search_.criteria[c].asks_for_pairs() && !is_pair) {
         history = {};
@@ -91,11 +95,13 @@ class TrackScan {
     }
   }
 
+  /// Compares a criterion at the sample t with the samples before, and locates the zero or extremum that
+  /// they show.
   void take(const Criterion& criterion, CriterionHistory& history, std::size_t member, Complex s, double last,
             double t) {
     const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
     const double value = on_step_.value(criterion, s, t);
-    // Undamped modes stay on the axis but for rounding.
+    // The sign of a value this small, as of Re s of an undamped mode, is rounding.
     const double on_axis =
         std::max(axis_width(search_.thresholds().criterion, track()) * size, on_step_.noise());
     if (!criterion.asks_for_extrema() && std::abs(value) <= on_axis) {
@@ -106,7 +112,7 @@ class TrackScan {
     const bool pair = s.imag() != 0.0 && history.is_pair();
     const Seen seen = history.next(value);
     history.is_pair(s.imag() != 0.0);
-    // Where eigenvalues meet at the left end, what looks like an extremum is a kink.
+    // Where eigenvalues coincide at the left end the criterion may have a kink there, which is no extremum.
     if (seen == Seen::extremum && track().departure && last <= on_step_.begin()) return;
     if (seen == Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = sign_change(on_step_, criterion, member, last, t, before);
@@ -119,17 +125,22 @@ class TrackScan {
     }
   }
 
-  /// Whether an extremum is told from the error of the dense output, by what it changes over half a step.
+  /// Whether an extremum is distinct from the error of the dense output: a parabola with its second
+  /// difference changes by more than the threshold over half a step.
   bool is_told(const CriterionHistory& history) const {
+    // f''/2 (1/2)^2, where f'' is the second difference times samples_per_step^2.
     constexpr double half_a_step = 0.125 * samples_per_step * samples_per_step;
     return half_a_step * std::abs(history.bend()) >
            search_.thresholds().criterion.extremum * search_.options.tolerance;
   }
 
-  /// Whether two zeros may hide in a dip towards zero.
+  /// Whether the function may have two zeros near an extremum at which the samples do not change sign.
+  /// `before` is the sample next to the extremum.
   bool may_touch(const CriterionHistory& history, double before, double size) const {
+    // Assumed error of the vertex of the parabola, as a share of its distance from the sample.
+    constexpr double vertex_error = 0.5;
     const double doubt = search_.thresholds().criterion.near_axis * search_.options.tolerance * size +
-                         0.5 * std::abs(before - history.top());
+                         vertex_error * std::abs(before - history.top());
     return history.top() * before <= 0.0 || std::abs(history.top()) <= doubt;
   }
 
@@ -140,7 +151,7 @@ class TrackScan {
     locate_at(member, target, extremum_near(on_step_, target.criterion, member, about));
   }
 
-  /// A change of sign that Newton's method does not confirm is no event, but told.
+  /// Adds a note for the user on a change of sign that Newton's method did not confirm. It is not an event.
   void note_unlocated(std::size_t member, double t) {
     const Vector parameters = evaluate_series(step_.left->path.parameters, t * step_.h);
     found_.notes.push_back("Re s of mode " + std::to_string(track().modes[member] + 1) +

@@ -1,6 +1,7 @@
-// Looks along a step for zeros and extrema of functions of single eigenvalues: flutter, divergence, damping
-// ratios, resonances. The values of every criterion for every mode are taken at several samples of the dense
-// output; where they change sign, bend, or leave the axis, the place is located (criterion_walk.hpp).
+// Search on a step for zeros and extrema of functions of single eigenvalues: flutter, divergence, damping
+// ratios, logarithmic decrements, resonances. Every criterion of every mode is sampled on the dense output.
+// Where consecutive samples show a change of sign or an extremum, the place is located by Newton's method
+// (criterion_walk.hpp).
 #pragma once
 
 #include <map>
@@ -11,24 +12,28 @@
 
 namespace eigentrail {
 
-/// The last values of a criterion for a mode, from sample to sample.
+/// The last samples of one criterion of one mode.
 class CriterionHistory {
  public:
   enum class Seen { nothing, zero, extremum };
 
-  /// Takes the next value. Returns what lies between the last value and this one, or (an extremum) about at
-  /// the last one. A value that was skipped as not told from zero counts as an extremum.
+  /// Takes the value at the next sample. Returns `zero` if the sign changes between the last sample and this
+  /// one, and `extremum` if the function has one near the last sample. After skipped samples the function has
+  /// touched zero, or has crossed it: `extremum` if the sign is the same as before, else `zero`.
   Seen next(double value);
+  /// Leaves out a sample whose value cannot be distinguished from zero.
   void skip() { skipped_ = known_; }
 
   bool is_known() const { return known_; }
   double value() const { return value_; }
   bool is_pair() const { return is_pair_; }
   void is_pair(bool value) { is_pair_ = value; }
-  double bend() const { return bend_; }  ///< second difference at the extremum
-  double top() const { return top_; }    ///< value at the extremum, about
+  /// At the last extremum: second difference of the samples, and value at the vertex of the parabola through
+  /// them. After skipped samples: the value after them, and zero.
+  double bend() const { return bend_; }
+  double top() const { return top_; }
 
-  /// Its state, for files that a trace goes on from.
+  /// Visits all members, for saving and restoring the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
     visit(self.known_, self.skipped_, self.is_pair_, self.value_, self.change_, self.bend_, self.top_);
@@ -39,14 +44,15 @@ class CriterionHistory {
   double value_ = 0.0, change_ = 0.0, bend_ = 0.0, top_ = 0.0;
 };
 
-/// Per mode and criterion.
+/// By mode number and index of the criterion.
 using CriterionHistories = std::map<std::pair<int, std::size_t>, CriterionHistory>;
 
-/// A mode that begins comes from where its parent was: what it crosses at once is not missed.
+/// Gives modes that begin the histories of their parents, for criteria that apply to real eigenvalues. Then a
+/// zero between the beginning of a mode and its first sample is not missed.
 void inherit_histories(const std::vector<Birth>& births, const std::vector<Criterion>& criteria,
                        CriterionHistories& histories);
 
-/// Scans a step, and locates what it sees.
+/// Samples all criteria on a step, and locates the zeros and extrema that the samples show.
 FoundEvents scan_criteria(const EventSearch& search, const Step& step, CriterionHistories& histories);
 
 }  // namespace eigentrail

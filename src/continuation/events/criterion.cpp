@@ -11,12 +11,12 @@ namespace {
 
 using RealSeries = Series<double, max_order>;
 
-/// The damping ratio of a logarithmic decrement: delta = 2 pi zeta / sqrt(1 - zeta^2).
+/// Damping ratio zeta that belongs to a logarithmic decrement: delta = 2 pi zeta / sqrt(1 - zeta^2).
 double ratio_of_decrement(double decrement) {
   return decrement / std::hypot(2.0 * std::numbers::pi, decrement);
 }
 
-/// The function of mu = re + im j and the excitation, all of them numbers or all of them series.
+/// The criterion at mu = re + im j. Scalar: double, or a power series.
 template <class Scalar>
 Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, Chart chart,
                 const Scalar& excitation) {

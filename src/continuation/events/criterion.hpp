@@ -1,4 +1,4 @@
-// Real functions of an eigenvalue whose zeros, or extrema, are events of a trace.
+// Criteria: real functions of an eigenvalue whose zeros or extrema are events.
 #pragma once
 
 #include <vector>
@@ -10,32 +10,36 @@
 
 namespace eigentrail {
 
-/// With mu = s, or 1/s in the reciprocal chart, and Im s > 0 of a pair:
+/// The functions, with mu = s, or mu = 1/s in the reciprocal chart, and s the member of a complex pair with
+/// Im s > 0:
 ///
-///   flutter        Re mu                    real roots too: their divergence
-///   damping_ratio  Re mu + value |mu|       pairs only, as the following
+///   flutter        Re mu                    also of real eigenvalues, where a zero is divergence
+///   damping_ratio  Re mu + value |mu|       this and the following: of complex pairs only
 ///   log_decrement  Re mu + zeta |mu|        with zeta = value / sqrt(4 pi^2 + value^2)
 ///   resonance      Im s - value excitation  times |mu|^2 in the reciprocal chart
-///   extremum       Re mu / |mu|             its extrema
+///   extremum       Re mu / |mu|             its extrema are the events, not its zeros
 struct Criterion {
   EventKind kind = EventKind::flutter;
-  double value = 0.0;  ///< the damping ratio, the decrement, or the harmonic
+  double value = 0.0;  ///< damping ratio, logarithmic decrement, or multiple of the excitation
 
   bool asks_for_extrema() const { return kind == EventKind::extremum; }
   bool asks_for_pairs() const { return kind != EventKind::flutter; }
 };
 
+/// The criteria that a trace evaluates: flutter always, and those that the scene requests.
 std::vector<Criterion> criteria_of(const EventOptions& options);
 
-/// Coefficients of the function from those of mu and of the excitation frequency (rad/s; not used but for
-/// resonances), of one length. Not finite where mu vanishes and the function has no series there.
+/// Taylor coefficients of the criterion, as many as `mu` has, from those of mu and of the excitation
+/// frequency (rad/s; used for resonances only). Not finite where mu vanishes and the function has no power
+/// series.
 Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Chart chart,
                         const Vector& excitation);
 
+/// Value of the criterion.
 double criterion_value(const Criterion& criterion, Complex mu, Chart chart, double excitation);
 
-/// The excitation frequency along a series of the parameters (declared units, one column per power); zero
-/// without one.
+/// Series of the excitation frequency (rad/s, order + 1 coefficients) from the series of the parameters
+/// (declared units, one row per parameter, one column per power). Zero if the scene has no excitation.
 Vector excitation_series(const EventOptions& options, const Parameters& parameters,
                          const VectorSeries& series, int order);
 

@@ -19,17 +19,25 @@ namespace {
 using Sought = CriterionTarget::Sought;
 using RealSight = Sight<double>;
 
-/// Of the range: how well zeros and extrema are located. Extrema are known to the root of what zeros are.
+/// Shares of the range: accuracy to which zeros and extrema are located. Extrema are less accurate, since the
+/// function changes with the square of the distance from them.
 constexpr double zero_resolution = 1e-12;
 constexpr double extremum_resolution = 1e-10;
-/// Steps: how far outside the step a walk may lead on its way, and its end may lie for a zero. What lies
-/// behind the last point was seen from there.
+/// In steps: how far outside the step an iterate may lie, and a zero. Zeros farther outside belong to other
+/// steps, which find them.
 constexpr double way_outside = 0.5;
 constexpr double end_outside = 0.05;
-/// Of what the eigenvalue moved on the last look: eigenvalues closer than that meet at the place.
+/// As a share of the last move of the eigenvalue: eigenvalues of the block that are closer than this coincide
+/// at the place that is located.
 constexpr double meeting_gap = 1e-7;
-/// Of |s|: imaginary parts below this are those of a pair that touches the real axis.
+/// |Im s| / |s| up to this is rounding of a double real eigenvalue: the pair meets on the real axis.
 constexpr double on_real_axis = 1e-6;
+/// Newton's method for a root of a series: largest number of corrections, of which a simple root takes about
+/// five, and relative size of the last one, at the level of rounding.
+constexpr int most_corrections = 20;
+constexpr double last_correction = 1e-15;
+/// Safety factor on the estimated rounding error of a block's eigenvalues.
+constexpr double rounding_margin = 10.0;
 
 Vector derivative(const Vector& series) {
   Vector result(series.size() - 1);
@@ -37,16 +45,15 @@ Vector derivative(const Vector& series) {
   return result;
 }
 
-/// A polynomial's root nearest to zero as Newton's method finds it, and how far its last term moves it.
+/// The root of a power series to which Newton's method converges from zero.
 struct RootOfSeries {
   double offset = 0.0;
-  double doubt = INFINITY;
+  double doubt = INFINITY;  ///< change of the root by the last term: estimated truncation error
 };
 
 RootOfSeries root_near_zero(const Vector& series) {
-  constexpr int corrections = 20;
   RootOfSeries root;
-  for (int i = 0; i < corrections; ++i) {
+  for (int i = 0; i < most_corrections; ++i) {
     double value = 0.0;
     double slope = 0.0;
     for (Eigen::Index k = series.size() - 1; k >= 0; --k) {
@@ -56,7 +63,7 @@ RootOfSeries root_near_zero(const Vector& series) {
     if (slope == 0.0 || !std::isfinite(value / slope)) return {};
     const double move = value / slope;
     root.offset -= move;
-    if (std::abs(move) > 1e-15 * std::abs(root.offset) && i + 1 < corrections) continue;
+    if (std::abs(move) > last_correction * std::abs(root.offset) && i + 1 < most_corrections) continue;
     const auto last = static_cast<double>(series.size() - 1);
     root.doubt = std::abs(series[series.size() - 1] * std::pow(root.offset, last) / slope);
     break;
@@ -68,17 +75,19 @@ int sign_of(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-/// A target on its way to be located.
+/// Locates one zero or extremum.
 class CriterionWalk {
  public:
   CriterionWalk(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
                 const CriterionTarget& target, FoundEvents& found)
       : search_(search), step_(step), on_step_(on_step), member_(member), target_(target), found_(found) {}
 
+  /// As `locate`.
   bool run(double t);
 
  private:
-  /// What a look may find that ends the walk without a place that Newton's method has settled on.
+  /// Why a look ends the walk before Newton's method converges. at_meeting: the zero of Re s is at a double
+  /// eigenvalue and is recorded there. passed: there is no event.
   enum class Ending { none, at_meeting, passed };
 
   RealSight look(double distance);
@@ -97,15 +106,16 @@ class CriterionWalk {
   FoundEvents& found_;
   std::optional<NearbyMode> mode_;  ///< at the last look
   Vector g_;                        ///< series of the criterion there
-  double moved_ = 0.0;              ///< by the eigenvalue, on the last look
+  double moved_ = 0.0;              ///< change of the eigenvalue by the last move
   int looks_ = 0;
   Ending ending_ = Ending::none;
 };
 
+/// Whether the walk has reached a double eigenvalue, and what that means.
 CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
   const bool meets = series.size() < 2 || mode_->gap <= meeting_gap * moved_;
   if (!meets) return Ending::none;
-  // Newton has led to a double root, where derivatives of one eigenvalue end.
+  // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
   const double near =
       search_.thresholds().criterion.double_root_on_axis * search_.problem().reference(chart());
   const bool on_axis = std::abs(mode_->root.real()) <= near;
@@ -113,9 +123,10 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
                                                                                : Ending::passed;
 }
 
-/// A move to a zero between the meeting that the step begins on and a place near it. From the meeting the
-/// criterion varies like the root of the distance, g = g_m + c sqrt(d), and Newton's method overshoots. Empty
-/// where that is not so.
+/// Replaces Newton's move where eigenvalues coincide at the left end of the step and that move would lead
+/// past it. Beside such a point the criterion varies like g = g_m + c sqrt(d), d being the distance from the
+/// left end; the move leads to the zero of this function. Empty where it does not apply: also where g has the
+/// same sign at the left end as at the present iterate.
 std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
   const Track& track = step_.left->tracks[member_.track];
   const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
@@ -128,6 +139,7 @@ std::optional<double> CriterionWalk::move_behind_meeting(double distance, double
   return (share * share - 1.0) * distance;
 }
 
+/// One Newton step from a distance from the left end.
 RealSight CriterionWalk::look(double distance) {
   ++looks_;
   const Complex expected = on_step_.member_near(member_.index, distance / step_.h);
@@ -139,7 +151,7 @@ RealSight CriterionWalk::look(double distance) {
   if (ending_ != Ending::none) return {RealSight::Kind::absent};
   g_ = criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
   const bool is_zero = target_.sought == Sought::zero;
-  // A mode that stays on the axis crosses it by rounding only.
+  // A slope this small is rounding: the mode stays on the axis and does not cross it.
   const double still =
       axis_width(search_.thresholds().criterion, mode_->solved.node.tracks.front()) * std::abs(series[1]);
   if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
@@ -154,7 +166,8 @@ RealSight CriterionWalk::look(double distance) {
   moved_ = std::abs(series[1] * move);
   const double share = (distance + move) / step_.h;
   if (!(share > -way_outside && share < 1.0 + way_outside)) return {RealSight::Kind::failed};
-  // One correction more would square what is left.
+  // A move this short is accurate enough also for a zero: the error after a Newton step is about the square
+  // of the move.
   const double range = search_.frame().coordinate_range();
   const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
   const bool settled = !behind_meeting && ((useful && root.doubt <= resolution) ||
@@ -178,16 +191,17 @@ bool CriterionWalk::run(double t) {
   return true;
 }
 
-/// What a zero or an extremum that has been located means.
+/// Decides whether the zero or extremum at `distance` + `offset` is an event, and records it. Beside an
+/// extremum near zero it locates the two zeros.
 void CriterionWalk::finish(double offset, double distance, int looks) {
   if (target_.sought == Sought::zero) return record(offset, true, looks);
   double value = 0.0;
   for (Eigen::Index k = g_.size() - 1; k >= 0; --k) value = value * offset + g_[k];
   const double curvature = derivative(derivative(g_))[0];
   if (target_.sought == Sought::extremum) {
-    // Where a pair touches the real axis the damping ratio cannot be exceeded.
+    // Where a pair meets on the real axis its damping ratio is 1 or -1, an extremum of no interest.
     const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
-    const double change = std::abs(curvature) * step_.h * step_.h / 8.0;
+    const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
     const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
     if (oscillates && matters) record(offset, true, looks);
     return;
@@ -218,7 +232,8 @@ int CriterionWalk::direction(double offset) const {
   }
 }
 
-/// Records the event `offset` behind the last look. `located`: the criterion's series led there.
+/// Records the event at the distance `offset` from the last look. `located`: Newton's method converged there;
+/// else it is a zero at a double eigenvalue.
 void CriterionWalk::record(double offset, bool located, int looks) {
   const PathNode& node = mode_->solved.node;
   const Track& there = node.tracks.front();
@@ -237,8 +252,8 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
   if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;
   if (located) event.direction = direction(offset);
-  // Modes that coalesce leave the imaginary axis, or pass it, at their meeting: one point, one event. In the
-  // reciprocal chart zero is infinity.
+  // A zero of Re s at a recorded collision on the imaginary axis is that collision, not a second event. A
+  // real eigenvalue 1/s that passes zero is at infinity: no divergence.
   if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
     return;
   if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
@@ -287,8 +302,7 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
 
 double CriteriaOnStep::noise() const {
   if (track_.size() == 1) return 0.0;
-  constexpr double safety = 10.0;
-  const double level = safety * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
+  const double level = rounding_margin * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
   return least_gap(track_.roots) <= level ? level : 0.0;
 }
 

@@ -1,5 +1,5 @@
-// Locates a zero or an extremum of a criterion: Newton's method on the series of one mode, which is solved
-// anew at every guess.
+// Locates a zero or an extremum of a criterion by Newton's method on the power series of one mode. The point
+// of the path and the mode are computed anew at every iterate.
 #pragma once
 
 #include "continuation/events/event_search.hpp"
@@ -8,59 +8,62 @@
 
 namespace eigentrail {
 
-/// An eigenvalue of a track.
+/// An eigenvalue of a track: index of the track, and index of the eigenvalue among its roots.
 struct Member {
   std::size_t track = 0, index = 0;
 };
 
-/// What is looked for.
+/// What is to be located.
 struct CriterionTarget {
   enum class Sought {
     zero,
     extremum,
-    touch  ///< an extremum near zero, in which two zeros may hide
+    touch  ///< an extremum near zero; there may be two zeros beside it
   };
   Criterion criterion;
   bool pair = false;  ///< the eigenvalue is one of a complex pair
   Sought sought = Sought::zero;
 };
 
-/// The criteria of one eigenvalue of a track on a step, at any t in [0, 1].
+/// Eigenvalues of one track and their criteria from the dense output of a step, at any t in [0, 1].
 class CriteriaOnStep {
  public:
-  /// `excitation`: the excitation frequency on the step. Refers to the step and to it.
+  /// `excitation`: the excitation frequency on the step. Keeps references to it and to the step.
   CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation);
 
-  /// Where the members are told apart first: zero, or a little behind a meeting at the left end.
+  /// Smallest t at which the eigenvalues can be distinguished: zero, or a little more where some of them
+  /// coincide at the left end.
   double begin() const { return begin_; }
 
-  /// The eigenvalue in the track's chart, with t moved into the step.
+  /// The eigenvalue in the track's chart; t beyond the step is replaced by its nearest end.
   Complex member_near(std::size_t member, double t);
-  /// The upper member of its pair.
+  /// The same for t in [0, 1], but of a complex pair the member with Im s > 0.
   Complex root(std::size_t member, double t);
+  /// The criterion at t, of an eigenvalue as `root` returns it, or of a member.
   double value(const Criterion& criterion, Complex root, double t) const;
   double value(const Criterion& criterion, std::size_t member, double t);
 
-  /// What rounding leaves of a value: of eigenvalues that coincide at the left end it is half their digits.
+  /// Rounding error of the eigenvalues if some of them coincide at the left end, where they are known to the
+  /// square root of rounding only; else zero.
   double noise() const;
 
  private:
   const Track& track_;
   StrandSampler roots_;
   const HermiteInterpolant& excitation_;
-  double departing_ = 0.0;  ///< where the members are told apart, in steps; may lie before the step
+  double departing_ = 0.0;  ///< where the eigenvalues can be distinguished, in steps; may be negative
   double begin_ = 0.0;
 };
 
-/// |Re s| / max(|s|, reference) that counts as zero for the eigenvalues of a track: what rounding leaves of
-/// it by the condition of the track, at most `on_axis`.
+/// |Re s| / max(|s|, reference) up to which an eigenvalue of a track counts as on the imaginary axis:
+/// rounding times the condition number of the track, at most `on_axis`.
 double axis_width(const CriterionThresholds& thresholds, const Track& track);
 
-/// The excitation frequency at a point as a series.
+/// The excitation frequency (rad/s) at a point, as a power series along the path.
 Vector excitation_at(const EventSearch& search, const PathNode& node);
 
-/// Locates a target for a member near t. Appends the event, if there is one. False where no place was found,
-/// though the dense output shows one.
+/// Locates a zero or extremum of a member near t. Appends the event to `found`, if there is one. Returns
+/// false if Newton's method fails, although the dense output shows a zero or extremum.
 bool locate(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
             const CriterionTarget& target, double t, FoundEvents& found);
 

@@ -15,6 +15,7 @@ std::string rounded(double value) {
   return text.str();
 }
 
+/// `up` or `down` by the sign of the direction; empty if it is zero.
 std::string turns(const EventFacts& facts, const std::string& up, const std::string& down) {
   return facts.direction > 0 ? up : facts.direction < 0 ? down : "";
 }
@@ -54,7 +55,7 @@ std::string decrement_remark(const EventFacts& facts) {
   return "decrement " + rounded(facts.value) + turns(facts, ", falling", ", rising");
 }
 
-/// Modes of damping ratio zero are those on the imaginary axis, which are flutter.
+/// Zero is allowed: a damping ratio of zero is flutter, which every trace looks for.
 bool is_ratio(double value) {
   return std::abs(value) < 1.0;
 }

@@ -8,25 +8,28 @@
 namespace eigentrail {
 namespace {
 
-/// Share of the range by which an event may lie outside it: rounding of its place.
+/// Share of the range by which an event may lie outside it: the accuracy to which its place is located.
 constexpr double off_range = 1e-12;
-/// Nodes: an event may be seen from two neighbouring steps. On a path that turns back it is another one
-/// farther on, even where all numbers are the same.
+/// Largest difference of the node numbers of one event that is found from neighbouring steps. On a path that
+/// turns back, an event with the same p and modes can occur again later; that is another event.
 constexpr int neighbouring = 2;
+/// Safety factor on the rounding of coinciding eigenvalues.
+constexpr double rounding_margin = 10.0;
 
 template <class Condition>
 bool any_of(const std::vector<Event>& events, const Condition& holds) {
   return std::any_of(events.begin(), events.end(), holds);
 }
 
-/// How far eigenvalues that meet at a collision may seem from it, at places known to `place`: they move like
-/// the m-th root of the distance in p, and are known to the m-th root of rounding.
+/// Largest distance in s between a collision of m eigenvalues and one of them at a place that differs by
+/// `place` in p: the Puiseux coefficient times the m-th root of `place`, plus the m-th root of rounding, to
+/// which the eigenvalues are known.
 double spread_at(const Event& collision, double place, double s_ref) {
-  // A pair that meets on the real axis may be recorded before its second mode begins.
+  // A collision of a pair on the real axis may be recorded with one mode, before the second one begins.
   const double m = std::max<double>(2.0, static_cast<double>(collision.modes.size()));
   const double scale = std::max(std::abs(collision.s), s_ref);
   return std::abs(collision.puiseux) * std::pow(place, 1.0 / m) +
-         10.0 * scale * std::pow(std::numeric_limits<double>::epsilon(), 1.0 / m);
+         rounding_margin * scale * std::pow(std::numeric_limits<double>::epsilon(), 1.0 / m);
 }
 
 }  // namespace
@@ -39,7 +42,8 @@ void append(FoundEvents more, FoundEvents& all) {
 
 bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds) {
   if (a.kind != b.kind || std::abs(a.node - b.node) > neighbouring) return false;
-  // Between two zeros in one direction there is one in the other.
+  // Zeros in opposite directions are different events, however close they are; so are a minimum and a
+  // maximum.
   if (a.direction * b.direction < 0) return false;
   const bool veering = a.kind == EventKind::veering;
   const double place = (veering ? thresholds.same_veering : thresholds.same_place) * range;
@@ -62,13 +66,15 @@ bool EventLog::has(const Event& event) const {
 bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) const {
   return any_event([&](const Event& other) {
     if (other.kind != EventKind::collision) return false;
-    // A pair that meets its own conjugate and stays a pair does not leave the axis by that.
+    // In a collision of one mode a pair touches the real axis and stays a pair. Its crossing of the imaginary
+    // axis is another event.
     if (zero.kind == EventKind::flutter && other.modes.size() < 2) return false;
     const bool takes_part = std::any_of(zero.modes.begin(), zero.modes.end(), [&](int mode) {
       return std::find(other.modes.begin(), other.modes.end(), mode) != other.modes.end();
     });
-    // Modes that meet on the axis itself leave it there, and on their way rounding makes zeros beside it.
-    // Modes that meet off the axis pass it elsewhere, however near that is.
+    // Beside a collision on the imaginary axis, rounding can cause zeros of Re s within the accuracy of a
+    // double eigenvalue. If the collision is off the axis, a zero that has been located is a different event
+    // unless its place is the same to the accuracy of a zero.
     const double on_axis = thresholds.criterion.on_axis * std::max(std::abs(other.s), s_ref);
     const bool meets_on_axis = std::abs(other.s.real()) <= on_axis;
     const EventThresholds& same = thresholds.event;

@@ -1,4 +1,4 @@
-// The events of a trace so far, and the one rule by which two events are the same.
+// The events of a trace so far, and the rules by which two events are the same.
 #pragma once
 
 #include <string>
@@ -10,37 +10,37 @@
 
 namespace eigentrail {
 
-/// What a search found.
+/// The result of a search for events.
 struct FoundEvents {
   std::vector<Event> events = {};
-  std::vector<Event> dismissed = {};    ///< looked at, and none: they need not be looked at again
-  std::vector<std::string> notes = {};  ///< for the user, in words
+  std::vector<Event> dismissed = {};    ///< located, but no events; kept so that they are not located again
+  std::vector<std::string> notes = {};  ///< remarks for the user
 };
 
 /// Adds `more` to `all`.
 void append(FoundEvents more, FoundEvents& all);
 
-/// A view of what is recorded.
+/// A view of the recorded events. Refers to the lists.
 struct EventLog {
   const std::vector<Event>& events;
   const std::vector<Event>& dismissed;
   const PathRange& range;
   const Thresholds& thresholds;
-  const FoundEvents* found = nullptr;  ///< on the step at hand, not yet recorded; may be null
+  const FoundEvents* found = nullptr;  ///< on the present step, not yet recorded; may be null
 
-  /// Whether `event` is recorded, seen from another step.
+  /// Whether the same event is recorded already, for example from the step before.
   bool has(const Event& event) const;
 
-  /// Whether the modes that pass the imaginary axis at `zero` meet there: one point, recorded as a collision.
-  /// `located`: its place was located as a zero; else it is one near a double root, where derivatives of one
-  /// eigenvalue end. `s_ref` is the magnitude that counts as zero.
+  /// Whether `zero`, a zero of Re s, is a recorded collision in which its mode takes part. `located`:
+  /// Newton's method converged to the zero; else it is one at a double eigenvalue, whose place is less
+  /// accurate. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
   bool has_collision_at(const Event& zero, bool located, double s_ref) const;
 
-  /// Whether a veering of these modes that is expected at a complex place of the parameter is known, or was
-  /// dismissed.
+  /// Whether a veering of these modes, predicted at the complex parameter value p, is recorded or dismissed
+  /// already.
   bool knows_veering(Complex p, const std::vector<int>& modes) const;
 
-  /// Whether an event lies on the traced range, up to rounding.
+  /// Whether an event lies within the traced range, up to rounding.
   bool is_on_range(const Event& event) const;
 
  private:
@@ -48,14 +48,15 @@ struct EventLog {
   bool any_event(const Condition& holds) const;
 };
 
-/// Appends what is on the range and not yet recorded. `log` is a view of the same lists.
+/// Appends to `events` what is within the range and not recorded yet, and to the other lists what is
+/// dismissed and noted. `log` is a view of the same lists.
 void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, std::vector<Event>& dismissed,
             std::vector<std::string>& notes);
 
-/// Whether two events are one: of one kind, not in opposite directions, of the same modes, with the same
-/// eigenvalue, at places that are no farther apart than they are known, seen from the same step or
-/// neighbouring ones. An exceptional point beside the axis belongs to two eigenvalues, whichever modes these
-/// are taken for on either side of it: of a veering the modes do not count.
+/// Whether two events are the same: of one kind, found on the same or on neighbouring steps, not in opposite
+/// directions, of the same modes, and in place and half-width no farther apart than the accuracy to which
+/// these are known. Of veerings the eigenvalues are compared instead of the modes: the two eigenvalues at an
+/// exceptional point can be labelled with different modes on either side. `range`: length of the range.
 bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds);
 
 }  // namespace eigentrail

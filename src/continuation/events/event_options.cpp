@@ -9,7 +9,8 @@
 namespace eigentrail {
 namespace {
 
-/// The numbers that a scene asks for of one kind: without parameters, each once.
+/// The numbers that a scene requests for one kind of event, without repetitions. They may not depend on
+/// parameters.
 std::vector<double> read_numbers(TableReader& table, const EventRequest& request) {
   const std::string key(request.key);
   std::vector<double> values;
@@ -24,7 +25,9 @@ std::vector<double> read_numbers(TableReader& table, const EventRequest& request
   return values;
 }
 
-/// The traced parameter as the excitation frequency, if it is one. Turns are counted in Hz, too.
+/// The traced parameter as the excitation frequency, in rad/s. Fails if its unit is not one of a frequency.
+/// Parameters in units of angular velocity, and those without a unit, are in rad/s by their SI value; hertz
+/// need the factor 2 pi.
 Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
   constexpr std::array<std::string_view, 9> angular{"",    "rad/s", "rad s^-1", "1/s",   "s^-1",
                                                     "rpm", "rev/s", "deg/s",    "mrad/s"};
@@ -62,7 +65,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
   for (const EventKindInfo& kind : event_kinds()) {
     if (kind.request.key.empty()) continue;
     for (const double value : read_numbers(table, kind.request)) {
-      // Modes of no damping are those on the imaginary axis: flutter.
+      // A damping ratio or decrement of zero is flutter, which every trace looks for.
       if (value != 0.0) options.wanted.push_back({kind.kind, value});
       is_excited = is_excited || kind.request.of_excitation;
     }
@@ -71,7 +74,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
     if (!is_excited) table.fail("excitation", "is of no use without `harmonics`");
     options.excitation = table.expression("excitation");
   } else if (is_excited && scene.parameters.index(traced)) {
-    // A parameter that does not exist is reported with the other options.
+    // A traced parameter that does not exist is reported where the other options are read.
     options.excitation = traced_frequency(scene, traced, table);
   }
   if (table.has("extrema")) options.extrema = table.flag("extrema");

@@ -14,19 +14,19 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// ds/dh from that of the chart's eigenvalue.
+/// ds/dh from the derivative of the chart's eigenvalue mu = s or 1/s.
 Complex slope_of_s(Complex slope, Complex mu, Chart chart) {
   return chart == Chart::finite ? slope : -slope / (mu * mu);
 }
 
-/// All series of a point along one parameter at first order only.
+/// The point differentiated once with respect to one parameter. Empty if that fails.
 std::optional<PathNode> slopes_along(PathProblem problem, const PathPoint& point, int parameter,
                                      RunCounts& counts) {
   problem.order = 0;
   return differentiate_point(problem, point, parameter, counts);
 }
 
-/// Every sensitivity is unknown.
+/// Sets all sensitivities to NaN.
 void leave_unknown(std::size_t n_parameters, Event& event) {
   const auto count = static_cast<Eigen::Index>(n_parameters);
   event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
@@ -94,7 +94,9 @@ double shift_of_meeting(const Track& along_path, const Track& along_q, EventKind
   if (kind == EventKind::collision)
     return -(discriminant_series(q, 1)[1] / discriminant_series(path, 1)[1]).real();
   if (kind != EventKind::crossing) return nan;
-  // Semisimple: to first order each eigenvalue goes on along its own vector.
+  // A semisimple double eigenvalue: the eigenvalues of the derivative of Lambda along the path are the two
+  // slopes, and its eigenvectors are those of the two branches. In them, the diagonal of the derivative with
+  // respect to q has the slopes in q.
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(path[1]);
   const ComplexMatrix along = solver.eigenvectors().inverse() * q[1] * solver.eigenvectors();
   return -((along(0, 0) - along(1, 1)) / (solver.eigenvalues()[0] - solver.eigenvalues()[1])).real();

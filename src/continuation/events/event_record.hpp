@@ -1,4 +1,5 @@
-// What an event keeps beside its place: the eigenvector, and how it depends on every parameter of the scene.
+// Data of an event besides its place: the eigenvector, and the derivatives of the eigenvalue and of the place
+// with respect to every parameter of the scene.
 #pragma once
 
 #include <functional>
@@ -9,27 +10,31 @@
 
 namespace eigentrail {
 
-/// d/dh of the mean of some eigenvalues of a block, in its chart; NaN where they are not told from the
-/// others.
+/// Derivative along the path of the mean of some eigenvalues of a block, in its chart. NaN where they cannot
+/// be separated from the other eigenvalues of the block.
 Complex mean_slope(const Track& track, const std::vector<Complex>& roots);
 
-/// Sets the eigenvector of the first of `members` of a track, at an offset from the point.
+/// Sets the shape of the event: the eigenvector of the first of `members` of a track, evaluated from the
+/// series at a distance `offset` from the point.
 void keep_shape(const PathNode& node, const Track& track, const std::vector<int>& members, double offset,
                 Event& event);
 
-/// The point of the path that a node is the series of, as it was before it was differentiated; no modes.
+/// The path point of a node as it was before differentiation, without pencil and modes.
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts);
 
-/// How far an event moves along the path for a change of another parameter, from the track along both:
-/// moves(along_path, node_q, along_q) = -(dg/dq) / (dg/dh); NaN where it is not known.
+/// Derivative of the place of an event, in the path's coordinate h, with respect to another parameter q. If
+/// the event is a zero of g, moves(along_path, node_q, along_q) = -(dg/dq) / (dg/dh). Arguments: the track
+/// with its series in h; the node, and the track, with their series in q. NaN where it is not known.
 using Movement = std::function<double(const Track&, const PathNode&, const Track&)>;
 
-/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q. One more back-substitution each.
+/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q. Both are NaN where they are not
+/// known. Every q costs one more back-substitution.
 void keep_sensitivities(const PathProblem& problem, const PathPoint& point, const PathNode& node,
                         const Track& track, const std::vector<int>& members, const Movement& moves,
                         Event& event, RunCounts& counts);
 
-/// Movement of a meeting of two eigenvalues of one block; NaN for more, and beside the real axis.
+/// The Movement of a crossing or collision of two eigenvalues of one block. NaN for more than two and for
+/// veerings.
 double shift_of_meeting(const Track& along_path, const Track& along_q, EventKind kind,
                         const std::vector<int>& members);
 

@@ -1,4 +1,4 @@
-// What every search for events on a step has at hand.
+// Data that every search for events on a step needs.
 #pragma once
 
 #include "continuation/events/criterion.hpp"
@@ -8,7 +8,7 @@
 
 namespace eigentrail {
 
-/// Refers to all of its parts.
+/// Keeps references to its parts.
 struct EventSearch {
   const PointSolver& solver;
   const TraceOptions& options;

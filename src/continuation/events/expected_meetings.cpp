@@ -14,36 +14,51 @@
 namespace eigentrail {
 namespace {
 
-/// Double roots of an interpolant may lie this share of an interval off the axis, or off its ends.
+// A gap below is the discriminant ((s_a - s_b) / 2)^2 of two eigenvalues as a function of the coordinate. Its
+// roots are the meetings. The error of an interpolant splits a double root into two close ones, also off the
+// real axis. Therefore roots close to the axis and to the ends of an interval are accepted, too.
+
+/// In steps: largest distance from the real axis of a root that can be a meeting on the axis.
 constexpr double looked_into = 0.1;
+/// As a share of an interval: distance from its ends up to which roots are accepted.
 constexpr double beside = 0.05;
-constexpr double smallest_piece = 1e-8;  ///< of a step
-/// Of an interval: roots that are not computed, because there are none, lie farther outside by this.
+/// In steps: intervals are not halved below this length; one that is still not resolved counts as a root.
+constexpr double smallest_piece = 1e-8;
+/// Roots closer than this many of these lengths are the same.
+constexpr double same_piece = 10.0;
+/// As a share of an interval: the tests that there is no root cover a region larger by this on every side
+/// than the one in which roots are accepted. Then rounding of roots at the border changes no result.
 constexpr double margin = 0.02;
 
+/// Whether a mode, and not only a conjugate or a guest, is among the strand's eigenvalues.
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
   return std::any_of(strand.members.begin(), strand.members.end(),
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
 }
 
-/// Roots of a gap near a step, in shares of it. A gap that is not smooth there, because one of the two meets
-/// a third on the way, is looked at piece by piece; roots farther off the axis than a piece is long are not
-/// seen.
+/// Roots of the gap of two eigenvalues of a block near a step, in shares of the step, from Chebyshev
+/// interpolants. Where the gap is not smooth, because one of the two meets a third eigenvalue, the step is
+/// halved repeatedly. On such a piece only roots up to half its length off the real axis are found.
 class RootsOnStep {
  public:
-  /// Roots farther off the axis than `off_axis` are not asked for.
+  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps.
   RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis)
       : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis) {}
 
+  /// All roots.
   std::vector<Complex> find() {
     if (!of_two_has_none()) search(0.0, 1.0);
     return roots_;
   }
 
-  /// Whether the two come closest where a root is said to lie: interpolants of kinks have others.
+  /// Whether the two eigenvalues are closer to each other at the real part of a root than on both sides of
+  /// it. Roots for which this does not hold come from the interpolation of a function with kinks. At the
+  /// distance of three half-widths from a true root a +- ib, the eigenvalues are sqrt(1 + 3^2) = 3.2 times as
+  /// far apart.
   bool is_closest(Complex root) {
-    constexpr double farther = 1.3;
-    const double reach = 3.0 * std::abs(root.imag());
+    constexpr double half_widths = 3.0;
+    constexpr double farther = 1.3;  // far below 3.2, since other eigenvalues disturb this law
+    const double reach = half_widths * std::abs(root.imag());
     const double at = std::clamp(root.real(), 0.0, 1.0);
     const double here = std::abs(distance(at));
     const auto parts = [&](double t) {
@@ -53,10 +68,13 @@ class RootsOnStep {
   }
 
  private:
+  /// Degree of the Chebyshev interpolant of a gap on a piece, a little above that of the dense output.
   static constexpr int degree = 12;
+  /// A piece is halved if one of the last two Chebyshev coefficients is more than this share of the largest
+  /// one. The roots only start Newton's method, so that this accuracy suffices.
   static constexpr double resolved = 1e-4;
-  /// A kink takes some thirty pieces. A gap of many more is rounding: the two are one, as at s = 0 where no
-  /// force acts.
+  /// Isolating a kink takes about thirty halvings. Many more pieces mean that the gap is rounding: the two
+  /// eigenvalues coincide on the whole step, like those of rigid-body modes at s = 0.
   static constexpr int most_pieces = 300;
 
   Complex distance(double t) {
@@ -65,14 +83,19 @@ class RootsOnStep {
   }
   bool given_up() const { return pieces_ > most_pieces; }
 
-  /// Where a piece of that length is looked at for roots.
+  /// Region in which roots of a piece of that length must be excluded, in shares of the piece.
   Rectangle looked_at(double length) const {
     return {0.5, 0.5 + beside + margin, farthest_off_axis(length) + margin};
   }
-  double farthest_off_axis(double length) const { return std::min(0.5, off_axis_ / length); }
+  /// Largest distance from the axis of accepted roots, in shares of the piece. A Chebyshev interpolant is not
+  /// accurate farther away than half the piece.
+  double farthest_off_axis(double length) const {
+    constexpr double half_piece = 0.5;
+    return std::min(half_piece, off_axis_ / length);
+  }
 
-  /// The gap of a block of two is one of its functions, which need not be sampled to tell that it has no
-  /// root.
+  /// Whether the gap of a block of two certainly has no root near the step. That gap is the second smooth
+  /// function of the block, a polynomial on the step: bounds by its coefficients need no samples.
   bool of_two_has_none() const {
     const HermiteInterpolant& functions = sampler_.functions();
     if (functions.size() != 2) return false;
@@ -81,7 +104,8 @@ class RootsOnStep {
     return has_no_root_in(functions.series(middle, functions.degree()).row(1).transpose(), step);
   }
 
-  /// Far apart for what they move on the piece.
+  /// Whether the difference of the two eigenvalues at five samples of the piece is everywhere more than three
+  /// times its change. Then there is no root nearby.
   bool stay_apart(double begin, double end) {
     constexpr double share = 3.0;
     double least = INFINITY;
@@ -95,13 +119,15 @@ class RootsOnStep {
     return least > share * moved;
   }
 
+  /// Adds the roots between t = begin and t = end.
   void search(double begin, double end) {
     if (given_up() || stay_apart(begin, end)) return;
     ++pieces_;
     if (given_up()) roots_.clear();
     const double length = end - begin;
     if (length < smallest_piece) {
-      if (roots_.empty() || std::abs(begin - roots_.back()) > 10.0 * smallest_piece) roots_.push_back(begin);
+      if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece)
+        roots_.push_back(begin);
       return;
     }
     const auto gap = [&](double u) {
@@ -131,13 +157,14 @@ class RootsOnStep {
   std::vector<Complex> roots_;
 };
 
-/// Whether both have just met at the left end: their gap's root there is known.
+/// Whether both eigenvalues take part in a meeting at the left end, so that their gap has a known root there.
 bool have_just_met(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
   const auto met = [&](int i) { return std::find(track.met.begin(), track.met.end(), i) != track.met.end(); };
   return met(a.front()) && met(b.front());
 }
 
-/// Adds a position unless one is there already, up to a share of it: two roots beside the axis are one place.
+/// Adds a position unless the list has one within this share of it: the two roots into which a double root
+/// splits are one place.
 void add_position(double position, std::vector<double>& found, double share = 1e-3) {
   const auto is_there = [&](double other) {
     return std::abs(other - position) <= share * std::abs(position);
@@ -145,13 +172,14 @@ void add_position(double position, std::vector<double>& found, double share = 1e
   if (std::none_of(found.begin(), found.end(), is_there)) found.push_back(position);
 }
 
-/// The series at the left end tells roots close to it that an interpolant over the whole step blurs.
+/// Adds the positions of roots of the gap's series at the left end. Close to that end the series is more
+/// accurate than an interpolant over the whole step.
 void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                        double length, std::vector<double>& found) {
-  constexpr double close = 0.2;    // of the step: as far as the series tells
-  constexpr double apart = 1e-6;   // of the step: nearer ones are at the end itself
-  constexpr double on_axis = 0.1;  // double roots split
-  constexpr double known = 0.1;
+  constexpr double close = 0.2;    // share of the step up to which the series is accurate
+  constexpr double apart = 1e-6;   // share of the step: nearer roots are at the end itself
+  constexpr double on_axis = 0.1;  // largest |Im| / Re of a root on the axis, since double roots split
+  constexpr double known = 0.1;    // share of the position: nearer to a known one it is the same root
   const ComplexVector gap = discriminant_of(track, a, b);
   if (gap.size() == 0 || has_no_root_within(gap, close * std::abs(length))) return;
   for (const Complex root : polynomial_roots(gap)) {
@@ -161,20 +189,22 @@ void add_near_left_end(const Track& track, const std::vector<int>& a, const std:
   }
 }
 
-/// How far the dense output of a block of two may misplace a root of its gap on the real axis.
+/// Estimated error, from that of the dense output, of a real root of the gap of a block of two. Infinite for
+/// larger blocks.
 double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
                      double position) {
   if (left.tracks[track].size() != 2) return INFINITY;
-  constexpr Eigen::Index gap = 1;  // of the functions
+  constexpr Eigen::Index gap = 1;  // index of the gap among the functions
   const HermiteInterpolant functions = functions_on_step(left, right, track, length);
   const double slope = std::abs(functions.slope(position / length)[gap] / length);
-  // Where it does not vanish the root lies beside the axis.
+  // The value counts as an error, too: it is not zero where the root lies beside the real axis.
   return (functions.error_without_last()[gap] + std::abs(functions(position / length)[gap])) / slope;
 }
 
 }  // namespace
 
 std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length) {
+  // In steps: roots nearer to the left end are the known meeting there.
   constexpr double behind_a_meeting = 1e-4;
   std::vector<ExpectedMeeting> meetings;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
@@ -208,7 +238,8 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
 
 namespace {
 
-/// Mean of a strand at one end; empty when it cannot be told.
+/// Series of the eigenvalue of a strand at one end, the mean of all that coincide. Empty when these cannot be
+/// separated from the others of the block.
 ComplexVector strand_series(const Track& track, const Strand& strand) {
   if (track.size() == 1) return track.functions.row(0).transpose();
   std::vector<Complex> roots;
@@ -217,31 +248,34 @@ ComplexVector strand_series(const Track& track, const Strand& strand) {
   return part.empty() ? ComplexVector() : mean_series(part);
 }
 
-/// A strand's mean at one end, and a bound of how far it moves within some reach of it.
+/// The eigenvalue of a strand at one end, and a bound of its change, by the series, within a distance
+/// `reach`.
 struct MovingMean {
   MovingMean(const Track& track, const Strand& strand, double reach) : series(strand_series(track, strand)) {
     double power = 1.0;
     for (Eigen::Index k = 1; k < series.size(); ++k) moves += std::abs(series[k]) * (power *= reach);
   }
 
-  ComplexVector series;  ///< empty when it cannot be told
-  double moves = 0.0;
+  ComplexVector series;  ///< as strand_series
+  double moves = 0.0;    ///< sum of |c_k| reach^k for k >= 1
 };
 
-/// Whether the square of their distance certainly has no root within reach, all its coefficients bounded by
-/// those of the factors: (|d| + m)^2 - |d|^2 < |d|^2 where m < (sqrt 2 - 1) |d|.
+/// Whether the gap certainly has no root within reach. With the distance d of the two eigenvalues at the end
+/// and the bound m of its change, all terms of the series of the squared distance but the first add up to at
+/// most (|d| + m)^2 - |d|^2. This is less than the first, |d|^2, where m < (sqrt 2 - 1) |d|.
 bool stay_apart(const MovingMean& a, const MovingMean& b) {
-  constexpr double share = 0.41;
+  constexpr double share = 0.41;  // sqrt 2 - 1, rounded down
   if (a.series.size() == 0 || b.series.size() == 0) return false;
   return a.moves + b.moves < share * std::abs(a.series[0] - b.series[0]);
 }
 
-/// A strand as seen from both ends of the step.
+/// A strand with its eigenvalue at both ends of the step.
 struct SeenStrand {
   Strand strand;
   MovingMean left, right;
 };
 
+/// The strands with their eigenvalues; `reach` as in MovingMean.
 std::vector<SeenStrand> seen_from_both_ends(std::vector<Strand> strands, const PathNode& left,
                                             const PathNode& right, double reach) {
   std::vector<SeenStrand> seen;
@@ -253,6 +287,7 @@ std::vector<SeenStrand> seen_from_both_ends(std::vector<Strand> strands, const P
   return seen;
 }
 
+/// Series of the gap of two strands at one end; empty when it is not known.
 ComplexVector gap_at(const PathNode& node, const Strand& a, const MovingMean& mean_a, const Strand& b,
                      const MovingMean& mean_b) {
   if (a.track == b.track) return discriminant_of(node.tracks[a.track], a.members, b.members);
@@ -260,30 +295,35 @@ ComplexVector gap_at(const PathNode& node, const Strand& a, const MovingMean& me
   return discriminant_series(mean_a.series, mean_b.series);
 }
 
-/// Roots of an interpolant where its last term is a larger share than this are its own, not the function's.
+/// A root of an interpolant is not accepted where the last term is a larger share of the largest one: there
+/// the interpolant does not represent the function.
 constexpr double told_by_series = 0.05;
 
-/// How far from the ends of a step of that length roots of gaps are looked for.
+/// Distance from an end of a step within which roots of gaps are searched for: the other end, and twice
+/// `width` around it.
 double reach_of(double length, double width) {
   return std::abs(length) + 2.0 * width;
 }
 
-/// What lies outside these shares of the step is left out when it is located; beside a short step far ones
-/// are told poorly, and the next, longer steps look back.
+/// In steps: veerings up to this far beyond the ends of the step are located from it.
 constexpr double off_the_ends = 0.1;
+/// The same for the left end, for a root that is `off_axis` steps off the axis. Predictions far off the axis
+/// of a short step are inaccurate; the next, longer step finds such a veering behind its left end.
 double behind_the_step(double off_axis) {
-  return std::max(off_the_ends, 0.2 * off_axis);
+  constexpr double share_of_height = 0.2;
+  return std::max(off_the_ends, share_of_height * off_axis);
 }
 
-/// Where roots off the axis by up to `off_axis` (in steps) are of interest, in shares of the step; a little
-/// larger, for the rounding of roots.
+/// Region in which roots up to `off_axis` (in steps) off the axis are wanted, in shares of the step and
+/// enlarged by `margin`.
 Rectangle surroundings(double off_axis) {
   const double from = -behind_the_step(off_axis) - margin;
   const double to = 1.0 + off_the_ends + margin;
   return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin};
 }
 
-/// Roots of the gap as seen from both ends, or from the one where the two can be told from all others.
+/// Roots of the gap near a step, as distances from its left end: from the interpolant of the series at both
+/// ends, or from one series where only that is known.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
   const double reach = reach_of(length, width);
@@ -315,20 +355,26 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
 
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width) {
+  // In steps: meetings within a block that are closer to the real axis get a point of the trace
+  // (landing.hpp).
   constexpr double on_axis = 1e-3;
-  const double widest = 1.1 * width;  // what is wider is left out when it is located
+  // Relative distance of a root from the conjugate of a known one, by rounding.
+  constexpr double conjugate_rounding = 1e-6;
+  // Predicted half-widths are inexact. A tenth more is accepted here; what is too wide once it is located is
+  // left out then.
+  constexpr double margin_of_width = 1.1;
+  const double widest = margin_of_width * width;
   std::vector<ExpectedMeeting> meetings;
   const auto expect = [&](const Strand& a, const Strand& b, Complex position,
                           const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
     const double t = position.real() / length;
     const double off_axis = std::abs(position.imag());
-    // Nearer ones within a block have a point of their own.
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
     const double behind = behind_the_step(off_axis / std::abs(length));
     const auto mirrors = [&](const ExpectedMeeting& other) {
       return other.a.track == a.track && other.b.track == b.track && other.a.members == a.members &&
              other.b.members == b.members &&
-             std::abs(other.position - std::conj(position)) <= 1e-6 * off_axis;
+             std::abs(other.position - std::conj(position)) <= conjugate_rounding * off_axis;
     };
     if (std::any_of(meetings.begin(), meetings.end(), mirrors)) return;
     if (t > -behind && t < 1.0 + off_the_ends && off_axis <= widest)

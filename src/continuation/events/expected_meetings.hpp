@@ -1,23 +1,25 @@
-// Where on a step eigenvalues are expected to meet, as the series at both of its ends tell.
+// Prediction, from the series at both ends of a step, of the places where eigenvalues meet (meetings.hpp).
 #pragma once
 
 #include "continuation/events/meetings.hpp"
 
 namespace eigentrail {
 
-/// A meeting that is expected on a step, at `position` from the left end.
+/// A predicted meeting of the eigenvalues a and b.
 struct ExpectedMeeting {
   Strand a, b;
-  Complex position;
-  ComplexVector discriminant_at_left = {}, discriminant_at_right = {};  ///< series, where they were told
-  double doubt = INFINITY;  ///< how far the position may be off; infinite: not known
+  Complex position;  ///< distance from the left end; complex beside the real axis
+  /// Series of ((s_a - s_b) / 2)^2 at both ends; empty where not known.
+  ComplexVector discriminant_at_left = {}, discriminant_at_right = {};
+  double doubt = INFINITY;  ///< estimated error of the position; infinite: not known
 };
 
-/// Meetings on or close to the real axis of two eigenvalues that are followed in one block, in the order in
-/// which the step passes them.
+/// Meetings, on or close to the real axis, of eigenvalues of one block, by ascending distance from the left
+/// end. `length`: signed length of the step.
 std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length);
 
-/// Meetings within `width` beside the step of any two eigenvalues, in no particular order.
+/// Meetings of any two eigenvalues at positions up to about `width` off the real axis, in no particular
+/// order. Within a block, those close to the axis are left out: expected_in_blocks has them.
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width);
 

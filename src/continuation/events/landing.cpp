@@ -9,18 +9,40 @@
 namespace eigentrail {
 namespace {
 
-/// Of the range: a place is located when a walk to it moves by less; a double has two digits more.
+/// As a share of the range: a place is located when a move to it is shorter than this, a few hundred
+/// times rounding.
 constexpr double settled = 1e-13;
-/// p on the end of the range, relatively to the larger of both: rounding of a step's length.
+/// p counts as the end of the range if the difference is at most this share of the larger of the end and the
+/// length of the range: rounding of the length of a step.
 constexpr double on_end = 1e-14;
-/// Newton's method for p(h) = end may leave the step by half its length on the way.
+/// In steps: iterates of Newton's method for p(h) = end may lie up to this far from the left end.
 constexpr double beyond_step = 1.5;
-/// Of the step: on steps longer than this share of the range the start of a trace looks for meetings.
+/// As a share of the range: distance within which meetings near the start are considered, before the length
+/// of the first step is known.
 constexpr double reach_at_start = 0.05;
+/// In steps: from points nearer than this to a meeting, the series locate it to all digits.
+constexpr double seen_well = 3e-3;
+/// A prediction by the dense output is used if its error is at most this share of the distance within which a
+/// meeting counts as on the point.
+constexpr double sure = 0.1;
+/// In half-widths: from points nearer than this the series distinguish a wide veering from a double root on
+/// the real axis, which from afar can look like one.
+constexpr double near_veering = 2.0;
+/// In steps: what the series show nearer to the left end than this was found on the step before.
+constexpr double at_left_end = 1e-3;
+/// In steps: a position this little beyond the right end counts as the end: rounding of the position.
+constexpr double beyond = 1e-9;
+/// An iterate outside the step means that the meeting is not on it, if the last move was shorter than this
+/// (in steps) or there were more looks than `few_looks`. Otherwise the prediction was too inaccurate to tell.
+constexpr double has_left = 0.3;
+constexpr int few_looks = 2;
+/// In steps: predicted meetings this close to the one that was located may lie on the same point.
+constexpr double worth_a_look = 1e-3;
 
 using RealSight = Sight<double>;
 
-/// In the coordinate across a plane the end of the range lies where p says so.
+/// Shortens a step in the coordinate across a plane to the end of the range in p. False if that fails. In the
+/// coordinate p, a step never passes the end.
 bool land_on_end(StepSolver& solver, Step& step) {
   const PathFrame& frame = solver.points().frame();
   if (!frame.plane) return true;
@@ -48,8 +70,9 @@ bool land_on_end(StepSolver& solver, Step& step) {
   return true;
 }
 
-/// A fold becomes a point of the trace: eigenvalues vary beside it like the root of the distance, so p has to
-/// be told relatively to its value there.
+/// Shortens a step to the fold that it passes. False if that fails. A fold must be a point of the trace:
+/// beside it the eigenvalues vary like the square root of p - p_fold, so that p_fold must be known
+/// accurately.
 bool land_on_fold(StepSolver& solver, Step& step) {
   const PathFrame& frame = solver.points().frame();
   if (!frame.plane) return true;
@@ -70,7 +93,7 @@ bool land_on_fold(StepSolver& solver, Step& step) {
   return walk(step.h * before / (before - behind), rules, look).end == WalkEnd::settled;
 }
 
-/// The first meeting on a step: where it lies, and the step that ends on it.
+/// Locates the first meeting on a step, and shortens the step to it.
 class MeetingLanding {
  public:
   MeetingLanding(StepSolver& solver, const Step& step, bool on_any_terms)
@@ -80,13 +103,14 @@ class MeetingLanding {
         thresholds_(solver.points().problem().thresholds.meeting),
         at_point_(thresholds_.at_point * solver.points().frame().coordinate_range()) {}
 
-  /// Cuts the step on the first meeting that it passes. False where it is seen and not reached.
+  /// Shortens the step to the first meeting that it passes. False if one is predicted and cannot be located.
   bool land();
-  /// The shorter step; empty where the step ends as it is.
+  /// The shorter step; empty where the step is not shortened.
   std::optional<Step> take_cut() { return std::move(cut_); }
   std::vector<MeetingOnEnd> take_meetings() { return std::move(meetings_); }
 
  private:
+  /// reached: the meeting is located; nothing: there is none on the step; failed: it cannot be located.
   enum class Approach { reached, nothing, failed };
   enum class Cut { done, none, failed };
 
@@ -103,21 +127,21 @@ class MeetingLanding {
   }
 
   StepSolver& solver_;
-  const Step& step_;  ///< as it came: distances are told by it
+  const Step& step_;  ///< the whole step; distances are measured from its left end
   bool on_any_terms_;
   const MeetingThresholds& thresholds_;
-  double at_point_;  ///< in the coordinate along the path
+  double at_point_;  ///< threshold of the same name, in the coordinate along the path
   std::optional<Step> cut_;
   std::vector<MeetingOnEnd> meetings_;
 };
 
-/// Cuts the step at a distance, if the point there is found.
+/// Computes the step that ends at a distance. False if the point there is not found.
 bool MeetingLanding::attempt(double distance) {
   cut_ = solver_.attempt(distance).step;
   return cut_.has_value();
 }
 
-/// The meeting as seen from the end of the step, cut or not, if it lies there.
+/// The meeting at the end of the step, shortened or not, if there is one.
 std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& expected) const {
   const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
   const Meeting meeting =
@@ -128,10 +152,9 @@ std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& exp
   return meeting;
 }
 
-/// Where the dense output tells the place well enough the point is there at once; `nothing` when it does not,
-/// or when the meeting is not there.
+/// Ends the step at the predicted position, if the prediction is accurate enough. `nothing` if it is not, or
+/// if the point there does not have the meeting.
 MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& expected) {
-  constexpr double sure = 0.1;  // of what counts as on the point
   const double position = expected.position.real();
   if (expected.doubt > sure * at_point_ || left_track(expected).departure || position == step_.h ||
       std::abs(position) <= at_point_)
@@ -142,11 +165,11 @@ MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& exp
   return Approach::nothing;
 }
 
-/// The meeting as seen from a distance along the step. `earlier` is set to the offset of another one that the
-/// step passes before it.
+/// Estimates the offset of the meeting from the point at a distance from the left end. `earlier` is set to
+/// the offset of another meeting that the step passes before it, or to zero. `trusting`: ends the walk as
+/// soon as the series there give the place to all digits.
 RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
                                     StrandSampler& strands, double& earlier) {
-  constexpr double seen_well = 3e-3;  // of the step: from here the series tell the place to all digits
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -163,8 +186,7 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
   const double move = std::abs(meeting.offset);
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
-  // Double roots look like wide veerings from afar.
-  if (is_wide && move < 2.0 * meeting.half_width) return {RealSight::Kind::absent};
+  if (is_wide && move < near_veering * meeting.half_width) return {RealSight::Kind::absent};
   const bool near = move <= std::max(seen_well * std::abs(h), at_point_);
   earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
   const double share = (distance + meeting.offset) / h;
@@ -173,13 +195,10 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
   return {trusted ? RealSight::Kind::settled : RealSight::Kind::seen, meeting.offset};
 }
 
-/// Follows a meeting to where it lies, as seen from ever nearer points, beginning at `distance`. `trusting`:
-/// to where a near point sees it.
+/// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
+/// look_from. If another meeting lies before the result, goes back to it once.
 MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected, bool trusting,
                                                 double& distance, int& looks) {
-  constexpr double at_left_end = 1e-3;  // of the step: what lies nearer was seen before
-  constexpr double beyond = 1e-9;       // of the step
-  constexpr double has_left = 0.3;      // of the step: a move outside by more was a bad guess
   const PathFrame& frame = solver_.points().frame();
   const double h = step_.h;
   const double resolution =
@@ -205,28 +224,30 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     distance = found.position;
     if (found.end == WalkEnd::absent) return Approach::nothing;
     if (found.end == WalkEnd::outside)
-      return std::abs(found.move) < has_left * std::abs(h) || looks > 2 ? Approach::nothing
-                                                                        : Approach::failed;
+      return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
+                                                                                : Approach::failed;
     if (found.end != WalkEnd::settled) return Approach::failed;
     if (own_end && std::abs(found.move) > resolution) {
       distance += found.move;
       return Approach::reached;
     }
-    // The walk may have settled on one behind the first.
+    // The walk may have converged to a later meeting than the first.
     const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
-    // The meeting on which the last step ended is known.
+    // A meeting at the left end of the step is known already.
     if (!goes_back) return std::abs(distance) > at_point_ ? Approach::reached : Approach::nothing;
     distance += earlier;
   }
   return Approach::failed;
 }
 
+/// Adds the meeting to the list if it is at the end of the step.
 void MeetingLanding::record(const ExpectedMeeting& expected, int looks) {
   if (const std::optional<Meeting> meeting = meeting_at_end(expected))
     meetings_.push_back({expected.a.track, *meeting, looks});
 }
 
-/// Cuts the step at one expected meeting.
+/// Shortens the step to one predicted meeting. `distance` is set to its position, and `looks` counts the
+/// points computed.
 MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, double& distance, int& looks) {
   const Approach as_told = land_as_told(expected);
   if (as_told == Approach::failed && !on_any_terms_) return Cut::failed;
@@ -236,7 +257,8 @@ MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, doub
   }
   Approach approach = follow(expected, true, distance, looks);
   if (approach == Approach::nothing) return Cut::none;
-  // A block's modes are told apart at one end of a step at least: between two meetings there is a point.
+  // At one end of every step, at least, the eigenvalues of a block must be distinct, so that they can be
+  // identified. If the step begins at a meeting it ends half way to the next one.
   const bool between = approach == Approach::reached && left_track(expected).departure.has_value();
   if (between) distance *= 0.5;
   bool landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
@@ -251,7 +273,6 @@ MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, doub
 }
 
 bool MeetingLanding::land() {
-  constexpr double worth_a_look = 1e-3;  // of the step: others that may lie on the same point
   const std::vector<ExpectedMeeting> expected = expected_in_blocks(*step_.left, step_.right, step_.h);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     double distance = expected[i].position.real();

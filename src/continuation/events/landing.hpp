@@ -1,5 +1,5 @@
-// A step that passes a place where modes, or the path, must be known exactly on both sides is cut there: at
-// the end of the range, at a fold, and at the first meeting of eigenvalues in one block.
+// Landing: a step that passes the end of the range, a fold, or a meeting of eigenvalues of one block
+// (meetings.hpp) is shortened so that it ends there. Then the path and the modes are known on both sides.
 #pragma once
 
 #include "continuation/events/expected_meetings.hpp"
@@ -7,24 +7,26 @@
 
 namespace eigentrail {
 
-/// A meeting on the end of a step.
+/// A meeting at the right end of a step.
 struct MeetingOnEnd {
   std::size_t track = 0;
   Meeting meeting;
-  int looks = 0;  ///< points computed to find it
+  int looks = 0;  ///< points computed to locate it
 };
 
-/// A step that ends where it has to. It is judged anew when it is shorter than the one that was cut.
+/// The step after landing. If it was shortened, it must be judged again.
 struct LandedStep {
   Step step;
   std::vector<MeetingOnEnd> meetings = {};
 };
 
-/// Cuts a step where it has to end. Empty where such a place is seen and not reached; a shorter step may
-/// help. `on_any_terms`: a step so short that meetings which are not reached are passed over.
+/// Shortens a step to the first such place that it passes. Empty if a predicted place cannot be located; a
+/// shorter step may help. `on_any_terms`: the step cannot become shorter, and meetings that cannot be located
+/// are ignored.
 std::optional<LandedStep> land(StepSolver& solver, Step step, bool on_any_terms);
 
-/// Meetings on a point, as at the start of a trace: of every two eigenvalues of every block.
+/// The meetings of any two eigenvalues of a block at a point. For the start of a trace, where no step leads
+/// to the point.
 std::vector<MeetingOnEnd> meetings_at(const PathProblem& problem, const PathFrame& frame,
                                       const PathNode& node);
 

@@ -10,7 +10,8 @@
 namespace eigentrail {
 namespace {
 
-/// The mean of the eigenvalues that meet; of conjugates that meet on the real axis it is real.
+/// The eigenvalue of the event: the mean of those that meet, with Im s >= 0. `is_pair`: a pair and its
+/// conjugate meet, and the mean is real but for rounding.
 Complex place_of(const Track& track, const Meeting& meeting, bool is_pair) {
   Complex mean = 0.0;
   for (const int i : meeting.members) mean += track.roots[i];
@@ -19,7 +20,7 @@ Complex place_of(const Track& track, const Meeting& meeting, bool is_pair) {
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
 
-/// Nothing where the meeting is none of modes.
+/// The event of a meeting; empty where no modes take part or the meeting is not an event.
 std::optional<Event> event_of(const EventSearch& search, const PathNode& node, const MeetingOnEnd& found) {
   const Track& track = node.tracks[found.track];
   const Meeting& meeting = found.meeting;
@@ -27,10 +28,10 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   for (const int i : meeting.members) modes.push_back(track.modes[static_cast<std::size_t>(i)]);
   modes = sorted_modes(modes);
   if (modes.empty()) return std::nullopt;
-  // One mode alone: a pair and its conjugate. They touch the real axis, or merely come near it.
+  // With one mode only, a complex pair meets or approaches its own conjugate. An approach is no event.
   const bool is_pair = modes.size() == 1 && track.pair.is_real;
   if (is_pair && meeting.kind == EventKind::veering) return std::nullopt;
-  // Eigenvalues that meet at infinity, where the mass is singular, are no coincidence of modes.
+  // Eigenvalues that are equal only because they are infinite, where the mass is singular, are no event.
   if (track.pair.chart == Chart::reciprocal && std::abs(track.roots.mean()) * search.problem().s_max <= 1.0)
     return std::nullopt;
   const double speed = search.frame().speed(node);

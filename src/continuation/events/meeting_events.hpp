@@ -1,4 +1,4 @@
-// The events of eigenvalues that meet at a point of the trace.
+// Events of meetings (meetings.hpp) at a point of the trace: collisions, crossings and narrow veerings.
 #pragma once
 
 #include "continuation/events/event_search.hpp"
@@ -7,18 +7,19 @@
 
 namespace eigentrail {
 
-/// The events of meetings on a point. Modes that begin there are not yet among theirs: call before the
-/// modes behind the point are ordered, and name_births afterwards.
+/// The events of the meetings at a point. Must be called before the modes behind the point are ordered
+/// (mode_order.hpp). Modes that begin there are not in the lists of the events; name_births adds them
+/// afterwards.
 FoundEvents meeting_events(const EventSearch& search, const PathNode& node,
                            const std::vector<MeetingOnEnd>& meetings);
 
-/// Notes on the tracks of a point which of their roots meet there.
+/// Adds to Track::met of the tracks of a point which of their roots take part in the meetings.
 void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node);
 
-/// Adds the modes that begin at the point to the collisions that their parents take part in.
+/// Adds the modes that begin at the point to the collisions in which their parents take part.
 void name_births(const std::vector<Birth>& births, FoundEvents& found);
 
-/// Per track of a point, whether eigenvalues coincide there: they meet, and do not merely veer.
+/// Per track of a point, whether eigenvalues coincide there: there is a meeting other than a veering.
 std::vector<bool> coinciding_tracks(const PathNode& node, const std::vector<MeetingOnEnd>& meetings);
 
 }  // namespace eigentrail

@@ -16,21 +16,31 @@
 namespace eigentrail {
 namespace {
 
-/// The eigenvalues with these indices as a block of their own; empty when it cannot be told from the others.
+/// Newton corrections of roots whose first approximation has a few digits: three reach rounding.
+constexpr int root_corrections = 3;
+/// Safety factor on estimates of rounding errors.
+constexpr double rounding_margin = 10.0;
+/// As a share of the reach: step of central differences of Lambda and of functions of it. Their truncation
+/// error, about the square, is below `remainder`.
+constexpr double difference_step = 1e-3;
+
+/// Series of the part of Lambda with these eigenvalues; empty when it cannot be separated from the others.
 std::vector<ComplexMatrix> part_of_track(const Track& track, const std::vector<int>& members) {
   return part_series(track.series.Lambda, roots_of(track, members));
 }
 
+/// The indices of either list, ascending; both lists are ascending.
 std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> members;
   std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(members));
   return members;
 }
 
-/// The eigenvalues that lie about as close to the two as these to each other, or this share of their size.
+/// `members` and the eigenvalues that are not much farther from one of them than these are from each other.
+/// Distances up to the share `one_point` of the largest eigenvalue count as none.
 std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members,
                                  double one_point = 1e-10) {
-  constexpr double as_close = 3.0;
+  constexpr double as_close = 3.0;  // times the largest distance among the members
   double inside = one_point * roots.cwiseAbs().maxCoeff();
   for (const int i : members) {
     for (const int j : members) inside = std::max(inside, std::abs(roots[i] - roots[j]));
@@ -46,7 +56,7 @@ std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> me
   return all;
 }
 
-/// Value, slope and second derivative of a polynomial.
+/// Value, first and second derivative of a polynomial.
 std::array<Complex, 3> jet(const ComplexVector& series, Complex at) {
   std::array<Complex, 3> result{};
   for (Eigen::Index j = series.size() - 1; j >= 0; --j) {
@@ -57,12 +67,14 @@ std::array<Complex, 3> jet(const ComplexVector& series, Complex at) {
   return result;
 }
 
-/// Two roots much closer to each other than to zero: as the parabola about the point between them has them.
+/// Replaces two roots that are much closer to each other than to zero by the roots of the parabola about the
+/// place between them where the slope vanishes. Close to a double root this keeps more digits than Newton's
+/// method for each root.
 void improve_double_root(const ComplexVector& series, std::array<Complex, 2>& roots) {
-  constexpr double close = 0.1;
+  constexpr double close = 0.1;  // their distance as a share of the distance from zero
   Complex middle = 0.5 * (roots[0] + roots[1]);
   if (!(std::abs(roots[0] - roots[1]) <= close * std::abs(middle))) return;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < root_corrections; ++k) {
     const auto [value, slope, curvature] = jet(series, middle);
     if (curvature == 0.0) return;
     middle -= slope / curvature;
@@ -73,9 +85,16 @@ void improve_double_root(const ComplexVector& series, std::array<Complex, 2>& ro
   if (std::abs(roots[1]) < std::abs(roots[0])) std::swap(roots[0], roots[1]);
 }
 
-/// Roots of a series by magnitude. A companion matrix tells small roots to rounding of the large ones only;
-/// those near the point come from the first three coefficients, improved by Newton's method with all of them.
+/// Roots of a series by ascending magnitude. The companion matrix gives small roots with an absolute error of
+/// the rounding of large ones. The two nearest to zero therefore come from the first three coefficients and
+/// Newton's method with all of them.
 std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reach) {
+  // As a share of the reach: only for roots nearer than this do three coefficients give a few digits.
+  constexpr double close = 0.03;
+  // A slope at the root up to these shares of the slope at zero, and of the curvature times the reach, is
+  // that of a double root. There Newton's method loses digits, and improve_double_root has done the work.
+  constexpr double flat_for_slope = 1e-6;
+  constexpr double flat_for_curvature = 1e-12;
   std::vector<Complex> roots = polynomial_roots(series);
   std::sort(roots.begin(), roots.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   const Complex root_of_discriminant = std::sqrt(series[1] * series[1] - 4.0 * series[0] * series[2]);
@@ -87,11 +106,11 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
   if (sum != 0.0) near = {-2.0 * series[0] / sum, -0.5 * sum / series[2]};
   improve_double_root(series, near);
   for (std::size_t i = 0; i < std::min<std::size_t>(2, roots.size()); ++i) {
-    if (!(std::abs(near[i]) < 0.03 * std::abs(reach))) continue;
-    for (int k = 0; k < 3; ++k) {
+    if (!(std::abs(near[i]) < close * std::abs(reach))) continue;
+    for (int k = 0; k < root_corrections; ++k) {
       const auto [value, slope, curvature] = jet(series, near[i]);
-      // Double roots are as the parabola has them.
-      if (std::abs(slope) > 1e-6 * std::abs(series[1]) + 1e-12 * std::abs(series[2] * reach))
+      if (std::abs(slope) >
+          flat_for_slope * std::abs(series[1]) + flat_for_curvature * std::abs(series[2] * reach))
         near[i] -= value / slope;
     }
     roots[i] = near[i];
@@ -99,30 +118,36 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
   return roots;
 }
 
-/// Kind and place of a meeting, from the roots of the discriminant nearest to the point. A root is an
-/// exceptional point; on the real axis it is a collision, beside it a veering. A double root on the axis is a
-/// crossing, or a collision where the block is defective.
+/// Sets kind, offset and half-width of a meeting from the roots of the discriminant nearest to the point. A
+/// root is an exceptional point: a collision on the real axis, a veering beside it. A double root on the axis
+/// is a crossing, or a collision where the block is defective. `resolution`: error of a root; `noise`: error
+/// of the imaginary part of a single root; `defective`: whether the block is defective at a double root.
 void classify(const std::vector<Complex>& roots, double reach, double resolution, double noise,
               bool defective, const MeetingThresholds& thresholds, Meeting& meeting) {
+  // A second root so many times farther away than the first one belongs to another meeting.
+  constexpr double much_farther = 1e3;
+  // In units of the resolution: half the distance of two roots that form a double root, and the sum of their
+  // imaginary parts up to which it lies on the axis. The second is twice the first, since it adds two parts.
+  constexpr double of_double_root = 10.0;
+  constexpr double sum_on_axis = 20.0;
   const Complex first = roots[0];
   const bool has_second =
-      roots.size() > 1 && std::abs(roots[1]) <= 1e3 * std::max(std::abs(first), resolution);
+      roots.size() > 1 && std::abs(roots[1]) <= much_farther * std::max(std::abs(first), resolution);
   const Complex second = has_second ? roots[1] : first;
   const double separation = 0.5 * std::abs(first - second);
-  // The slope of the discriminant, which `noise` is divided by, vanishes halfway between two roots.
+  // The slope of the discriminant, by which `noise` is divided, vanishes halfway between two roots.
   const double on_axis = has_second ? resolution : std::max(noise, thresholds.on_axis * reach);
   meeting.offset = first.real();
-  if (has_second && separation <= 10.0 * resolution) {
-    // A double root at a complex parameter: the eigenvalues pass each other on the real axis.
-    meeting.found = std::abs((first + second).imag()) <= 20.0 * std::max(resolution, noise);
+  if (has_second && separation <= of_double_root * resolution) {
+    // At a crossing at a complex parameter nothing happens on the real axis.
+    meeting.found = std::abs((first + second).imag()) <= sum_on_axis * std::max(resolution, noise);
     meeting.kind = defective ? EventKind::collision : EventKind::crossing;
     meeting.offset = 0.5 * (first + second).real();
   } else if (std::abs(first.imag()) <= on_axis) {
     meeting.kind = EventKind::collision;
   } else {
     meeting.kind = EventKind::veering;
-    // Mirror images are one point, seen from both sides of the axis; others are two points, of which the
-    // first is nearer.
+    // A conjugate pair of roots is one veering. Otherwise there are two, and the nearer one is returned.
     const bool around =
         has_second && std::abs(first - std::conj(second)) <= thresholds.beside_axis * separation;
     if (around) meeting.offset = 0.5 * (first + second).real();
@@ -131,34 +156,38 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
   }
 }
 
-/// Two eigenvalues whose distance stays within `resolution` are one, which meets nobody.
+/// Whether two eigenvalues coincide everywhere: a bound of their half distance within reach, from the
+/// coefficients of the discriminant, is at most `resolution`.
 bool vanishes(const ComplexVector& gap, double reach, double resolution) {
   double size = 0.0;
   for (Eigen::Index k = gap.size() - 1; k >= 0; --k) size = size * std::abs(reach) + std::abs(gap[k]);
   return std::sqrt(size) <= resolution;
 }
 
+/// Lambda at h less the mean of its eigenvalues times the unit matrix.
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
   ComplexMatrix N = evaluate_series(Lambda, h);
   N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
   return N;
 }
 
-/// What rounding leaves of a part of a block: of its Lambda, and of its slope.
+/// Rounding error of a part of a block, and the scale by which it becomes an error of the coordinate.
 struct Rounding {
-  double lambda = 0.0;
-  double slope = 0.0;
+  double lambda = 0.0;  ///< absolute error of Lambda
+  double slope = 0.0;   ///< norm of the derivative of the part of Lambda
 };
 
-/// Lambda is known to rounding times the condition of the block, which is normwise and overrates graded
-/// pencils.
+/// The error of Lambda is the unit rounding times the condition of the block.
 Rounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& part) {
+  // The condition refers to norms of the pencil's matrices. It is far too large where the entries of these
+  // differ by orders of magnitude, and is therefore bounded.
   constexpr double worst_condition = 100.0;
+  constexpr double unit_error = 4e-15;  // relative, for a condition of one: some twenty machine epsilons
   const double condition = std::clamp(track.pair.condition, 1.0, worst_condition);
-  return {4e-15 * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
+  return {unit_error * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
 }
 
-/// Distance of members of a block from its other eigenvalues.
+/// Least distance of members of a block from its other eigenvalues; infinite when there are none.
 double distance_from_others(const ComplexVector& roots, const std::vector<int>& members) {
   double distance = INFINITY;
   for (int i = 0; i < static_cast<int>(roots.size()); ++i) {
@@ -168,27 +197,32 @@ double distance_from_others(const ComplexVector& roots, const std::vector<int>& 
   return distance;
 }
 
-/// How well members of a block are told apart on a step of length `reach`: the nearer the others are, the
-/// less is known of the members' slopes.
+/// Distance within which members of a block cannot be distinguished on a step of length `reach`: at least a
+/// share of the block's norm, and more where other eigenvalues are close and make the slopes of the members
+/// inaccurate.
 double member_resolution(const Track& track, const std::vector<int>& members, double reach) {
-  constexpr double coinciding = 1e-12;
+  constexpr double coinciding = 1e-12;  // of the norm of the block, for rounding
   const Rounding rounding = rounding_of(track, track.series.Lambda);
-  const double of_slope =
-      10.0 * rounding.lambda * rounding.slope * std::abs(reach) / distance_from_others(track.roots, members);
+  const double of_slope = rounding_margin * rounding.lambda * rounding.slope * std::abs(reach) /
+                          distance_from_others(track.roots, members);
   return std::max(coinciding * track.pair.Lambda.norm(), of_slope);
 }
 
-/// All eigenvalues of a part in one point: their distances from the mean vanish together, linearly.
+/// The crossing of all eigenvalues of a part in one point, where the part of Lambda is a multiple of the unit
+/// matrix. The centred part is approximated by a linear function; its zero is found by least squares. Empty
+/// if the centred part does not vanish there.
 std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, const Rounding& rounding,
                                        double reach) {
-  constexpr double remainder = 1e-3;
+  constexpr double remainder = 1e-3;  // of its norm at the point: what may be left at the zero
   const ComplexMatrix here = centred(part, 0.0);
-  const ComplexMatrix slope = (centred(part, 1e-3 * reach) - centred(part, -1e-3 * reach)) / (2e-3 * reach);
+  const ComplexMatrix slope =
+      (centred(part, difference_step * reach) - centred(part, -difference_step * reach)) /
+      (2.0 * difference_step * reach);
   const double size = slope.squaredNorm();
   if (!(size > 0.0)) return std::nullopt;
   const double offset = -slope.cwiseProduct(here.conjugate()).sum().real() / size;
   const double left = centred(part, offset).norm();
-  if (!(left <= remainder * here.norm() || left <= 10.0 * rounding.lambda)) return std::nullopt;
+  if (!(left <= remainder * here.norm() || left <= rounding_margin * rounding.lambda)) return std::nullopt;
   Meeting meeting;
   meeting.found = true;
   meeting.kind = EventKind::crossing;
@@ -196,9 +230,14 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
   return meeting;
 }
 
-/// All eigenvalues of a part in one exceptional point: the product of their distances from the mean has a
-/// simple root there, while each of them varies like the m-th root of the distance.
+/// The collision of all m eigenvalues of a part in one exceptional point. The product of their differences
+/// from the mean has a simple root there, while each of them varies like the m-th root of the distance. Empty
+/// if this does not hold near the point.
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
+  constexpr double on_axis = 1e-3;  // of the reach: about the error of the linear approximation of the root
+  // Largest radius of the eigenvalues about their mean at the root, as a share of that beside it. In exact
+  // arithmetic the first is zero.
+  constexpr double closes_in = 0.5;
   const auto product = [&](double h) { return centred(part, h).determinant(); };
   const auto radius = [&](double h) {
     return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false)
@@ -206,12 +245,12 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
         .cwiseAbs()
         .maxCoeff();
   };
-  const double width = 1e-3 * std::abs(reach);
+  const double width = difference_step * std::abs(reach);
   const Complex slope = (product(width) - product(-width)) / (2.0 * width);
   if (slope == 0.0) return std::nullopt;
   const Complex root = -product(0.0) / slope;
-  const bool near = std::abs(root.imag()) <= 1e-3 * std::abs(reach) && std::abs(root) <= std::abs(reach);
-  if (!near || !(radius(root.real()) < 0.5 * radius(root.real() + width))) return std::nullopt;
+  const bool near = std::abs(root.imag()) <= on_axis * std::abs(reach) && std::abs(root) <= std::abs(reach);
+  if (!near || !(radius(root.real()) < closes_in * radius(root.real() + width))) return std::nullopt;
   Meeting meeting;
   meeting.found = true;
   meeting.kind = EventKind::collision;
@@ -221,7 +260,8 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   return meeting;
 }
 
-/// Where all of a cluster meet, if it has more eigenvalues than these members.
+/// The meeting of all eigenvalues of a cluster in one point; empty if there is none, or if the cluster has no
+/// more eigenvalues than `members`.
 std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vector<int>& members,
                                             const std::vector<int>& cluster, double reach) {
   if (cluster.size() == members.size()) return std::nullopt;
@@ -241,7 +281,7 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
     const std::vector<ComplexMatrix> part = part_of_track(track, members);
     if (!part.empty()) return discriminant_series(part, static_cast<Eigen::Index>(a.size()));
   }
-  // Apart from each other, they are told one by one.
+  // Another eigenvalue is as close as these two. Each of them may be separated by itself.
   const std::vector<ComplexMatrix> first = part_of_track(track, a);
   const std::vector<ComplexMatrix> second = part_of_track(track, b);
   if (first.empty() || second.empty()) return {};
@@ -257,13 +297,15 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const ComplexVector gap = discriminant_of(track, a, b);
   if (gap.size() == 0) return meeting;
   if (vanishes(gap, reach, member_resolution(track, members, reach))) {
-    // The two are one, and meet others together.
+    // The two coincide everywhere. They may meet others together: those within the square root of rounding,
+    // to which multiple eigenvalues are known.
     constexpr double nearby = 1e-7;
     const std::vector<int> others = with_bystanders(track.roots, members, nearby);
     return meeting_in_one_point(track, members, others, reach).value_or(meeting);
   }
   const std::vector<Complex> roots = roots_by_magnitude(gap, reach);
-  if (roots.empty() || std::abs(roots[0]) > 2.0 * std::abs(reach)) return meeting;
+  constexpr double farthest = 2.0;  // in units of the reach: the series is inaccurate beyond
+  if (roots.empty() || std::abs(roots[0]) > farthest * std::abs(reach)) return meeting;
   meeting.found = true;
   meeting.members = members;
   meeting.puiseux = std::sqrt(gap[1]);
@@ -271,22 +313,31 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const std::vector<ComplexMatrix>& Lambda = part.empty() ? track.series.Lambda : part;
   const Rounding rounding = rounding_of(track, Lambda);
   const double distance = centred(Lambda, 0.0).norm();
-  // The coordinate itself is rounded, too: what counts where the eigenvalues that meet are zero.
+  // Rounding of the coordinate itself, relative to the reach. It matters where the eigenvalues are zero,
+  // which have no rounding error of their own.
   constexpr double coordinate_rounding = 1e-14;
   double resolution = coordinate_rounding * std::abs(reach);
-  const double noise = std::abs(gap[1]) > 0.0
-                           ? 10.0 * rounding.lambda * std::max(distance, rounding.lambda) / std::abs(gap[1])
-                           : 0.0;
-  // The gap of a defective part is known to rounding times its size: double roots to the root of that, single
-  // ones, whose parabola has no other root within reach, to its share in their slope.
+  const double noise = std::abs(gap[1]) > 0.0 ? rounding_margin * rounding.lambda *
+                                                    std::max(distance, rounding.lambda) / std::abs(gap[1])
+                                              : 0.0;
+  // The discriminant of a part that is not a multiple of the unit matrix has an error of about four times the
+  // error of Lambda times the norm of the centred part. A single root, whose parabola has no other root
+  // within reach, moves by this error over the slope; a double root by the square root of the error over the
+  // curvature. Where the part is a multiple of the unit matrix, a crossing moves by the error of Lambda over
+  // its slope.
+  constexpr double error_factor = 4.0;
+  // Norm of the centred part, relative to the block or to a thousandth of its change within reach, above
+  // which the part is defective at a double root; below it the double eigenvalue is semisimple.
+  constexpr double scalar = 1e-6;
+  constexpr double share_of_change = 1e-3;
   const double curvature = std::abs(gap[2]);
   const bool is_single = std::abs(gap[1]) > 2.0 * std::abs(reach) * curvature;
-  const bool defective =
-      distance > 1e-6 * std::max(track.pair.Lambda.norm(), 1e-3 * rounding.slope * std::abs(reach));
+  const bool defective = distance > scalar * std::max(track.pair.Lambda.norm(),
+                                                      share_of_change * rounding.slope * std::abs(reach));
   if (defective && is_single) {
-    resolution = std::max(resolution, 4.0 * rounding.lambda * distance / std::abs(gap[1]));
+    resolution = std::max(resolution, error_factor * rounding.lambda * distance / std::abs(gap[1]));
   } else if (defective && curvature > 0.0) {
-    resolution = std::max(resolution, std::sqrt(4.0 * rounding.lambda * distance / curvature));
+    resolution = std::max(resolution, std::sqrt(error_factor * rounding.lambda * distance / curvature));
   } else if (rounding.slope > 0.0) {
     resolution = std::max(resolution, rounding.lambda / rounding.slope);
   }
@@ -295,9 +346,9 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
 }
 
 double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h) {
-  constexpr double nearby = 0.2;  // of the step: as far as the series tells
-  constexpr double apart = 1e-6;  // of the step: nearer ones are this one
-  constexpr double on_axis = 1e-2;
+  constexpr double nearby = 0.2;    // share of the step up to which the series is accurate
+  constexpr double apart = 1e-6;    // share of the step: a nearer root is the meeting at the point itself
+  constexpr double on_axis = 1e-2;  // largest |Im| / |Re| of a root on the axis, since double roots split
   const ComplexVector gap = discriminant_of(track, a, b);
   double offset = 0.0;
   if (gap.size() == 0) return offset;

@@ -1,8 +1,9 @@
-// Where two eigenvalues meet, or would meet beside the real parameter axis: roots of ((s_a - s_b) / 2)^2 in
-// the complex plane of the path's coordinate. That function stays smooth where they meet.
+// Meetings: places where two eigenvalues coincide, on the real parameter axis or at a complex parameter
+// beside it. They are the roots of the discriminant ((s_a - s_b) / 2)^2 in the complex plane of the path's
+// coordinate. That function stays smooth where the eigenvalues coincide.
 //
-//     simple root on the real axis      exceptional point: modes coalesce, s = tau +- sqrt(delta)
-//     double root on the real axis      crossing: the vectors stay apart
+//     simple root on the real axis      exceptional point (collision): the eigenvectors coalesce, too
+//     double root on the real axis      crossing: the eigenvectors stay different
 //     root a + ib beside the axis       veering of half-width |b|
 #pragma once
 
@@ -15,26 +16,29 @@
 
 namespace eigentrail {
 
-/// A meeting seen from a point beside or on it.
+/// A meeting, located from the series at a point on or beside it.
 struct Meeting {
   bool found = false;
   EventKind kind = EventKind::collision;  ///< collision, crossing or veering
   double offset = 0.0;                    ///< from the point, in the path's coordinate
-  double half_width = 0.0;
-  Complex puiseux;           ///< leading Puiseux coefficient in the path's coordinate
+  double half_width = 0.0;                ///< of a veering, in the path's coordinate
+  Complex puiseux;           ///< of a collision: leading Puiseux coefficient in the path's coordinate
   std::vector<int> members;  ///< indices of the roots of the block that meet, ascending
 };
 
-/// The meeting of two strands of a block nearest to a point; others that are as close as the two are to each
-/// other may meet with them. `reach` bounds how far to look.
+/// The meeting of two strands of a block (indices of their roots) that is nearest to the point. Other
+/// eigenvalues of the block that are as close as the two are to each other may take part in it. `reach`:
+/// length scale of the search, such as the length of the step; roots farther away than twice this do not
+/// count.
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds = {});
 
-/// Offset of the farthest meeting on the real axis that a step of length h has passed on its way to the
-/// point; zero when there is none.
+/// Offset of the farthest meeting on the real axis between the beginning of a step of signed length h and the
+/// point, as far as the series at the point is accurate. Zero when there is none.
 double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h);
 
-/// ((s_a - s_b) / 2)^2 at a point; empty when the two cannot be told from the others there.
+/// Series of ((s_a - s_b) / 2)^2 at a point. Empty when the two cannot be separated from the other
+/// eigenvalues of the block there.
 ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b);
 
 }  // namespace eigentrail

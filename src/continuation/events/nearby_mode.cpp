@@ -10,10 +10,11 @@
 namespace eigentrail {
 namespace {
 
-/// Of its size: an eigenvalue of a block is found alone where the others are no nearer. Single modes cost
-/// less and are more accurate; nearer ones spoil each other's vectors.
+/// Relative distance of an eigenvalue of a block from the others above which it is computed as a single mode.
+/// This costs less and is more accurate; at smaller distances the eigenvectors are ill-conditioned.
 constexpr double apart = 1e-3;
-/// Of the distance to the next one: a mode found alone that has moved by more may be the other.
+/// As a share of the distance to the nearest other eigenvalue: if the single mode differs from its prediction
+/// by more, the corrector may have converged to the other one.
 constexpr double moved_too_far = 0.1;
 
 Eigen::Index nearest_root(const ComplexVector& roots, Complex expected) {
@@ -22,7 +23,8 @@ Eigen::Index nearest_root(const ComplexVector& roots, Complex expected) {
   return nearest;
 }
 
-/// One eigenvalue of a block without the others, where it is far enough from them to be found alone.
+/// The point at distance h with one eigenvalue of a block as a single mode. Empty for a track that is a
+/// single mode anyway, and where the other eigenvalues are too close.
 std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt& base, Complex expected,
                                        double h) {
   if (base.tracks.front()->size() == 1) return std::nullopt;
@@ -67,7 +69,7 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
   }
   const bool is_mean = of_pair && there.pair.is_real && there.size() == 2;
   if (is_mean) {
-    // The real part of a conjugate pair is its mean, smooth also where the pair is defective.
+    // The real part of a complex pair is the mean of the block, smooth also where the pair is defective.
     series = mean_series(there.series.Lambda);
     s.real(series[0].real());
   }

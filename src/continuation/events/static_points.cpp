@@ -10,23 +10,26 @@
 namespace eigentrail {
 namespace {
 
-/// Of the range: an event this close to the branch point on the bridge is it.
+/// As a share of the range: an event this close to the branch point on the bridge is that branch point. The
+/// place of a double eigenvalue is known to about the square root of rounding.
 constexpr double at_branch_point = 1e-8;
+/// Smallest reference magnitude of eigenvalues, 1/s: keeps the limit of zero eigenvalues above zero.
+constexpr double least_reference = 1e-300;
 
 std::string note_on_branch_point(const EventSearch& search, double p) {
   return "another equilibrium path crosses at " + place_text(search.options, p) +
          "; the trace stays on its own";
 }
 
-/// Share of the traced parameter's force in the kernel of the singular stiffness: zero where another path
-/// crosses.
+/// Share of the force of the traced parameter in the kernel of the singular stiffness: zero at a branch
+/// point, not at a fold.
 double kernel_share(const EventSearch& search, const PathNode& node) {
   const PathProblem& problem = search.problem();
   return kernel_share_of_parameter(problem.model, node.path, problem.traced, node.linearization,
                                    node.basis.T[0], search.solver.counts().evaluations);
 }
 
-/// The modes and the shape of the eigenvalue that vanishes with the tangent stiffness.
+/// Sets modes and shape of an event from the eigenvalue that is nearest to zero.
 void keep_vanishing_mode(const PathNode& node, Event& event) {
   double least = INFINITY;
   for (const Track& track : node.tracks) {
@@ -51,7 +54,8 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   const bool is_fold = kernel_share(search, node) > search.thresholds().statics.branch_point_share;
   event.kind = is_fold ? EventKind::fold : EventKind::branch_point;
   if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
-  // p(h) is a parabola there, of which the slope at the point leads to the top.
+  // The vertex of the parabola p(h): with the distance d to it and the slope at the point, p changes by
+  // d / 2 times the slope on the way.
   event.p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node);
   event.retrackings = 1;
   event.node = search.node;
@@ -69,7 +73,7 @@ FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
   event.retrackings = 1;
   event.node = search.node;
   keep_vanishing_mode(node, event);
-  event.modes.clear();  // of this path; the other one has them, too
+  event.modes.clear();  // the mode numbers are those of one path; the point belongs to both
   return {{std::move(event)}};
 }
 
@@ -77,7 +81,7 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   const PathProblem& problem = search.problem();
   const PathFrame& frame = search.frame();
   const StaticThresholds& thresholds = search.thresholds().statics;
-  const bool is_zero = std::abs(event.s) <= thresholds.zero * std::max(problem.s_ref, 1e-300);
+  const bool is_zero = std::abs(event.s) <= thresholds.zero * std::max(problem.s_ref, least_reference);
   const bool of_one = event.kind == EventKind::crossing && event.modes.size() == 1;
   const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::divergence || of_one;
   if (problem.structure.known_equilibrium || !is_zero || !may_be) return {{std::move(event)}};

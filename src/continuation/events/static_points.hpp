@@ -1,20 +1,23 @@
-// Events of the equilibrium: where its path bends back (fold), and where another path crosses (branch point).
+// Events of the equilibrium path: folds, where it turns back, and branch points, where another path crosses.
 #pragma once
 
 #include "continuation/events/event_search.hpp"
 
 namespace eigentrail {
 
-/// The fold at the end of a step, if the path bends back there.
+/// The fold at the end of a step, if the path turns back there. If the force of the traced parameter has no
+/// share in the kernel of the stiffness, the point is a branch point and is returned as such. h: signed
+/// length of the step.
 FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h);
 
-/// The branch point that a point lies on, if the frame's bridge says so. The survey of its paths is not part
-/// of it (other_path.hpp).
+/// The branch point, if the node is the branch point on the frame's bridge. The paths there are examined in
+/// other_path.hpp.
 FoundEvents find_branch_point(const EventSearch& search, const PathNode& node);
 
-/// An event at s = 0 as what it is where the equilibrium is not isolated: the fold or the branch point is an
-/// event of its own, and then nothing is found; else another path crosses, and the event is a branch point.
-/// Any other event is returned as it is.
+/// Replaces an event that a zero eigenvalue causes at a fold or branch point. There a divergence, collision,
+/// or crossing of one mode with its conjugate at s = 0 is a consequence of the singular stiffness. Returns
+/// nothing at a fold or at the branch point of the bridge, which are events of their own; else, if another
+/// path crosses, a branch point. Any other event is returned unchanged.
 FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Event event);
 
 }  // namespace eigentrail

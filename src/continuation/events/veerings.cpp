@@ -21,30 +21,41 @@ namespace {
 
 using ComplexSight = Sight<Complex>;
 
-/// Of the range: how well exceptional points beside the axis are located.
+/// As a share of the range: accuracy to which exceptional points beside the axis are located.
 constexpr double resolution_share = 1e-10;
-/// In units of the resolution: a walk that no longer comes nearer ends within this; narrower points are
-/// always walked to, since the two roots above and below the axis spoil each other's series.
+/// In units of the resolution. Moves up to this length that no longer shrink end the walk. For half-widths up
+/// to this the error estimate does not end the walk, since the conjugate root is so close that it makes the
+/// estimate unreliable.
 constexpr double loose = 100.0;
-/// Rounding of the widest half-width, so that a veering on the limit is one.
+/// Relative increase of the largest half-width, so that a veering exactly on the limit is found.
 constexpr double limit_rounding = 1e-9;
-/// In units of the widest half-width: how far a walk may lead, and what counts as too wide at once.
+/// In units of the largest half-width: iterates may be this far off the axis ...
+constexpr double off_axis_on_the_way = 2.0;
+/// ... and, in units of that distance, a single move may be this long.
 constexpr double walks_as_far = 3.0;
+/// Largest number of iterations; each computes between one and five points.
 constexpr int most_rounds = 6;
-/// dp/dsigma near a fold, where a width in p becomes wide along the path, is taken no smaller than this.
+/// Iterations after which moves must shrink: the first ones use inaccurate predictions.
+constexpr int free_rounds = 2;
+/// In units of the largest distance off the axis: least distance of the points on both sides of the root.
+constexpr double least_width = 1e-6;
+/// Smallest |dp/dsigma| by which a half-width in p is converted to the path's coordinate. Near a fold, where
+/// dp/dsigma vanishes, the search would otherwise become too wide.
 constexpr double least_speed = 1e-3;
+/// Largest half-width of the search, in units of the range.
+constexpr double widest_search = 2.0;
 
-/// Half-width up to which veerings are looked for, in the coordinate along the path.
+/// Half-width up to which veerings are searched for, in the coordinate along the path.
 double search_width(const EventSearch& search, const PathNode& node) {
   const PathFrame& frame = search.frame();
   const double range = frame.range.length();
   const double speed = frame.plane ? std::abs(frame.speed(node)) : 1.0;
   const double widest = search.thresholds().veering.widest * (1.0 + limit_rounding);
-  return std::min(widest * range / std::max(speed, least_speed), 2.0 * range);
+  return std::min(widest * range / std::max(speed, least_speed), widest_search * range);
 }
 
-/// Whether a series, too, has its root about where the interpolant has: its terms still fall there, and
-/// cancel.
+/// Whether a power series confirms a root of the interpolant: there, the last term and the sum of all terms
+/// are at most `trusted_share` of the largest term.
 bool confirms_root(const ComplexVector& series, Complex root, double trusted_share) {
   double largest = 0.0;
   Complex term = 0.0;
@@ -59,10 +70,11 @@ bool confirms_root(const ComplexVector& series, Complex root, double trusted_sha
   return std::abs(term) <= trusted_share * largest && std::abs(sum) <= trusted_share * largest;
 }
 
-/// The discriminant as seen from both ends of a step of length h; an end next to where the root is expected
-/// is left out, since points will follow there.
+/// The discriminant from its series at both ends of a step of length h. An end close to the predicted root is
+/// left out: the walk adds points there, and points of an interpolant that nearly coincide cause rounding
+/// errors.
 ComplexInterpolant discriminant_from_ends(const ExpectedMeeting& expected, double h) {
-  constexpr double next_to = 0.02;  // of the step
+  constexpr double next_to = 0.02;  // share of the step
   ComplexInterpolant discriminant;
   const auto add = [&](double position, const ComplexVector& series) {
     const bool far = std::abs(position - expected.position.real()) > next_to * std::abs(h);
@@ -73,30 +85,33 @@ ComplexInterpolant discriminant_from_ends(const ExpectedMeeting& expected, doubl
   return discriminant;
 }
 
+/// Series of the sum of the eigenvalues of a track.
 ComplexVector sum_of_roots(const Track& track) {
   return static_cast<double>(track.size()) * mean_series(track.series.Lambda);
 }
 
-/// Whether a block has jumped to other modes than the ones it began with: its trace does not fit their
-/// series.
+/// Whether the corrector has converged to other modes than those that were predicted: the sum of the
+/// eigenvalues of `to` differs from the series of the sum at `from`, over a distance, by more than its
+/// truncation error.
 bool has_jumped(const PathProblem& problem, const std::vector<const Track*>& from, const Track& to,
                 double distance) {
-  constexpr double safety = 10.0;
-  constexpr double no_drift = 1e-6;
+  constexpr double safety = 10.0;    // on the estimated truncation error
+  constexpr double no_drift = 1e-6;  // relative difference that is always allowed
   ComplexVector trace = sum_of_roots(*from.front());
   for (std::size_t i = 1; i < from.size(); ++i) trace += sum_of_roots(*from[i]);
   const double step = std::abs(distance);
   if (step == 0.0) return false;
   const Complex expected = evaluate_series(ComplexMatrix(trace.transpose()), distance)[0];
   const Eigen::Index last = trace.size() - 1;
-  // One of the last terms alone may happen to be small.
+  // The larger of the last two terms, since one of them may be small by chance.
   const double uncertain = std::pow(step, static_cast<double>(last)) *
                            std::max(std::abs(trace[last]), std::abs(trace[last - 1]) / step);
   const double drift = std::abs(sum_of_roots(to)[0] - expected);
   return drift > safety * uncertain + no_drift * std::max(std::abs(expected), problem.s_ref);
 }
 
-/// One expected veering: the two eigenvalues as one block below it, and a walk to the exceptional point.
+/// Locates one predicted veering. The two eigenvalues are computed as one block at real points near the
+/// exceptional point; the complex root of their discriminant follows from its series at these points.
 class VeeringWalk {
  public:
   VeeringWalk(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
@@ -123,15 +138,16 @@ class VeeringWalk {
   const Step& step_;
   const ExpectedMeeting& expected_;
   std::vector<int> modes_;
-  std::optional<PathNode> base_;   ///< the block below where the point is expected
-  std::optional<PathNode> below_;  ///< at the last look
-  double position_ = 0.0;          ///< of that, in the coordinate along the path
+  std::optional<PathNode> base_;   ///< the block at the real part of the predicted root
+  std::optional<PathNode> below_;  ///< the block at the last real point
+  double position_ = 0.0;          ///< of the last real point, as a distance from the left end
   ComplexInterpolant discriminant_;
-  double widest_ = 0.0, resolution_ = 0.0;  ///< in the coordinate along the path
+  /// Largest distance of iterates from the real axis, and accuracy, in the coordinate along the path.
+  double widest_ = 0.0, resolution_ = 0.0;
   int looks_ = 0, rounds_ = 0;
 };
 
-/// The tracks at a distance, unless one has jumped.
+/// The tracks at a distance; empty if the corrector failed or converged to other modes.
 std::optional<PathNode> VeeringWalk::follow(const TracksAt& base, double distance) const {
   std::optional<SolvedPoint> there = search_.solver.follow(base, distance);
   if (!there || has_jumped(search_.problem(), base.tracks, there->node.tracks.front(), distance))
@@ -139,13 +155,13 @@ std::optional<PathNode> VeeringWalk::follow(const TracksAt& base, double distanc
   return std::move(there->node);
 }
 
-/// Two tracks as one block at a distance.
+/// Two tracks as one block at a distance; empty as above.
 std::optional<PathNode> VeeringWalk::joined(const TracksAt& apart, double distance) const {
   Prediction prediction = search_.solver.predict(apart, distance);
   const InvariantPair& a = prediction.pairs[0];
   const InvariantPair& b = prediction.pairs[1];
   InvariantPair pair = join_pairs({&a, &b}, a.is_real || b.is_real);
-  // A real one beside a pair brings the conjugate along: these do not veer.
+  // A real mode joined with a complex one would need the conjugate, too. Such modes cannot veer.
   if (pair.size() != a.size() + b.size()) return std::nullopt;
   prediction.pairs = {std::move(pair)};
   std::optional<SolvedPoint> there = search_.solver.solve(prediction, apart.node.basis.T[0]);
@@ -154,7 +170,8 @@ std::optional<PathNode> VeeringWalk::joined(const TracksAt& apart, double distan
   return std::move(there->node);
 }
 
-/// Both strands belong to one block, which may have more members.
+/// The point at a distance with the two strands as a block, if both belong to one track, which may have more
+/// eigenvalues.
 std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double distance) const {
   const std::size_t index = expected_.a.track;
   std::optional<PathNode> point = follow(one_track(nearer, index), distance);
@@ -162,7 +179,7 @@ std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double
   const std::vector<int> members = united(expected_.a.members, expected_.b.members);
   Track& block = point->tracks.front();
   if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
-  // In a larger block the two are told from the others where they are close to each other.
+  // Separate the two from a larger block, where they are closer to each other than to the others.
   StrandSampler strands(*step_.left, step_.right, index, step_.h);
   const double share = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0);
   block.roots = in_order_of(strands(share), block.roots);
@@ -172,7 +189,7 @@ std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double
   return point;
 }
 
-/// A point below the expected place, whose only track is the two strands as one block.
+/// The real point at the predicted position, with the two strands as one block as its only track.
 std::optional<PathNode> VeeringWalk::as_one_block() const {
   const Strand& a = expected_.a;
   const Strand& b = expected_.b;
@@ -190,7 +207,7 @@ std::optional<PathNode> VeeringWalk::as_one_block() const {
   return joined({nearer, {&apart[0], &apart[1]}}, distance);
 }
 
-/// Solves the block at a place, and adds its discriminant to an interpolant.
+/// Computes the block at a real place and adds its discriminant to an interpolant. False if that fails.
 bool VeeringWalk::look_from(double where, ComplexInterpolant& discriminant) {
   const double distance = where - expected_.position.real();
   position_ = where;
@@ -201,12 +218,14 @@ bool VeeringWalk::look_from(double where, ComplexInterpolant& discriminant) {
   return true;
 }
 
-/// The exceptional point as seen from the point below `root` and, from the second round on, from points on
-/// both sides as far away as the root is off the axis.
+/// One iteration: the complex root from the series at the real part of `root` and, from the second iteration
+/// on, at points on both sides of it, as far away as the root is off the axis. In the first iteration the
+/// ends of the step take the place of these points.
 ComplexSight VeeringWalk::look(Complex root) {
-  const double width = std::max(std::abs(root.imag()), 1e-6 * widest_);
+  const double width = std::max(std::abs(root.imag()), least_width * widest_);
   ComplexInterpolant around;
   const auto look_beside = [&](double offset) {
+    // If there is no point at that distance, one may be found half as far away.
     return look_from(root.real() + offset, around) || look_from(root.real() + 0.5 * offset, around);
   };
   const bool seen = rounds_ > 0 && look_beside(-width) && look_beside(width);
@@ -220,9 +239,9 @@ ComplexSight VeeringWalk::look(Complex root) {
   const double error = discriminant_.error_of_root(refined, resolution_);
   const double speed = search_.frame().speed(*step_.left);
   const Complex p(step_.left->p + refined.real() * speed, refined.imag() * speed);
-  // Another way to one that is recorded, or one that is too wide.
+  // The veering is recorded already, or certainly too wide.
   if (search_.log.knows_veering(p, modes_)) return {ComplexSight::Kind::absent};
-  if (std::abs(refined.imag()) - error > 0.5 * widest_) return {ComplexSight::Kind::absent};
+  if (std::abs(refined.imag()) - error > widest_ / off_axis_on_the_way) return {ComplexSight::Kind::absent};
   const bool narrow = std::abs(refined.imag()) <= loose * resolution_;
   const bool settled = !narrow && error <= resolution_;
   return {settled ? ComplexSight::Kind::settled : ComplexSight::Kind::seen, move};
@@ -244,7 +263,9 @@ Event VeeringWalk::event_at(Complex root) const {
   return event;
 }
 
-/// Another exceptional point as near as this one spoils the series: then nothing can be told.
+/// Whether the root is a veering: not a double root of the discriminant, confirmed by the series at its real
+/// part, and neither too wide nor narrower than the resolution. The series does not confirm a root if another
+/// exceptional point is as close.
 bool VeeringWalk::counts(const Event& event, Complex root) const {
   const VeeringThresholds& thresholds = search_.thresholds().veering;
   const double widest = thresholds.widest * (1.0 + limit_rounding) * search_.frame().range.length();
@@ -258,18 +279,20 @@ FoundEvents VeeringWalk::run() {
   if (!base_) return {};
   const double range = search_.frame().range.length();
   const double speed = std::abs(search_.frame().speed(*base_));
-  widest_ = 2.0 * search_.thresholds().veering.widest * (1.0 + limit_rounding) * range / speed;
+  widest_ =
+      off_axis_on_the_way * search_.thresholds().veering.widest * (1.0 + limit_rounding) * range / speed;
   resolution_ = resolution_share * range / speed;
   WalkRules rules;
   rules.resolution = resolution_;
   rules.rounding = loose * resolution_;
-  rules.free_moves = 2;
+  rules.free_moves = free_rounds;
   rules.looks = most_rounds;
   const auto found = walk(expected_.position, rules, [this](Complex root) { return look(root); });
   if (found.end != WalkEnd::settled) return {};
   const Complex root = found.position + found.move;
   Event event = event_at(root);
-  // One beyond the ends of the range is not kept: it would stand for another one inside that is close to it.
+  // A veering beyond the ends of the range is not even dismissed: by knows_veering it could hide another one
+  // within the range that is close to it.
   if (!search_.log.is_on_range(event)) return {};
   if (!counts(event, root)) return {{}, {std::move(event)}};
   const Track& there = below_->tracks.front();
@@ -278,14 +301,14 @@ FoundEvents VeeringWalk::run() {
   keep_shape(*below_, there, members, root.real() - position_, event);
   RunCounts& counts = search_.solver.counts();
   const auto stays = [](const Track&, const PathNode&, const Track&) {
-    return std::numeric_limits<double>::quiet_NaN();  // the point itself is complex
+    return std::numeric_limits<double>::quiet_NaN();  // the exceptional point is at a complex parameter
   };
   keep_sensitivities(search_.problem(), solved_point(search_.problem(), *below_, counts), *below_, there,
                      members, stays, event, counts);
   return {{std::move(event)}};
 }
 
-/// The modes of both strands of an expected meeting.
+/// The modes of both strands of a predicted meeting.
 std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected) {
   std::vector<int> modes;
   for (const Strand* strand : {&expected.a, &expected.b}) {

@@ -1,4 +1,5 @@
-// Veerings: exceptional points beside the real parameter axis, where two modes come close and part again.
+// Veerings: exceptional points at complex parameters close to the real axis. On the real axis two eigenvalues
+// approach, turn away from each other and exchange their shapes.
 #pragma once
 
 #include "continuation/events/event_search.hpp"
@@ -6,7 +7,8 @@
 
 namespace eigentrail {
 
-/// The veerings on a step, or just beside its ends, of any two modes.
+/// The veerings of any two modes on a step or close to its ends. Dismissed are those that are located but too
+/// wide, too narrow, or not confirmed.
 FoundEvents find_veerings(const EventSearch& search, const Step& step);
 
 }  // namespace eigentrail

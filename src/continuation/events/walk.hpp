@@ -1,9 +1,9 @@
-// A safeguarded walk to a special point.
+// A safeguarded iteration (walk) to a special point.
 //
-// From a guess, each look at a position tells how far away the place lies as seen from there; Newton's method
-// on a series is one such look. The walk ends where the move is at the level of what is asked for, or where
-// moves no longer become smaller at the level of rounding. It ends without a place where positions leave
-// the interval, moves do not shrink, or looks run out.
+// At each position a function, the look, estimates the distance to the special point; Newton's method on a
+// power series is one such function. The walk converges when a move is no longer than the resolution, or when
+// moves at the level of rounding no longer shrink. It fails when a position leaves the interval, when longer
+// moves do not shrink, or after too many looks.
 #pragma once
 
 #include <algorithm>
@@ -13,38 +13,44 @@
 
 namespace eigentrail {
 
-/// Points computed for one special point, at most: Newton's method squares the error, so eight take any guess
-/// within reach to rounding, with some to spare for the first, coarse ones.
+/// Largest number of looks at one special point. Newton's method squares the error each time, so about five
+/// looks suffice near the solution; the others are for inaccurate guesses.
 constexpr int most_looks = 8;
 
-/// What is seen from a position. Position: double, or Complex beside the real axis.
+/// A move longer than this share of the move before does not count as shrinking: such an iteration would need
+/// tens of looks.
+constexpr double slowest_contraction = 0.5;
+
+/// The result of one look. Position: double, or Complex beside the real axis.
 template <class Position>
 struct Sight {
   enum class Kind {
-    seen,     ///< the place lies `move` away, about
-    settled,  ///< the place lies `move` away, as accurately as it is wanted
-    absent,   ///< there is no such place
-    failed    ///< nothing can be told from here: no point was found
+    seen,     ///< `move` is an estimate of the distance to the special point
+    settled,  ///< the same, and accurate enough to end the walk
+    absent,   ///< the special point does not exist
+    failed    ///< no estimate, for example because no point of the path was found
   } kind = Kind::failed;
   Position move = {};
 };
 
+/// How a walk ended. settled, absent, failed: as in Sight; outside: a position left the interval; wandering:
+/// moves did not shrink; exhausted: too many looks.
 enum class WalkEnd { settled, absent, failed, outside, wandering, exhausted };
 
 struct WalkRules {
-  double resolution = 0.0;  ///< a move no longer than this settles the walk
-  double rounding = 0.0;    ///< so does one no longer than this that is not half as long as the last one
-  double begin = -INFINITY, end = INFINITY;  ///< positions (real parts) lie between these
-  double slack = 0.0;           ///< beyond `end`, up to this distance, a position counts as `end`
-  int free_moves = most_looks;  ///< after this many a move that is not half as long as the last ends the walk
-  int looks = most_looks;
+  double resolution = 0.0;                   ///< a move no longer than this settles the walk
+  double rounding = 0.0;                     ///< so does one no longer than this that does not shrink
+  double begin = -INFINITY, end = INFINITY;  ///< interval of the real parts of positions
+  double slack = 0.0;                        ///< a position up to this far beyond `end` is replaced by `end`
+  int free_moves = most_looks;  ///< after this many looks, a move that does not shrink ends the walk
+  int looks = most_looks;       ///< largest number of looks
 };
 
 template <class Position>
 struct Walk {
   WalkEnd end = WalkEnd::exhausted;
-  Position position = {};  ///< the last one looked from, or the one outside
-  Position move = {};      ///< from there to the place, as far as seen
+  Position position = {};  ///< position of the last look, or the one outside the interval
+  Position move = {};      ///< result of the last look
   int looks = 0;
 };
 
@@ -64,7 +70,7 @@ Walk<Position> walk(Position start, const WalkRules& rules, Look&& look) {
       return result;
     }
     const double length = std::abs(sight.move);
-    const bool shrinks = length <= 0.5 * last;
+    const bool shrinks = length <= slowest_contraction * last;
     if (sight.kind == Kind::settled || length <= rules.resolution || (!shrinks && length <= rules.rounding)) {
       result.end = WalkEnd::settled;
       return result;

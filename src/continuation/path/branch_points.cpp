@@ -10,31 +10,38 @@
 namespace eigentrail {
 namespace {
 
-/// Share of a step inside its ends at which the test function is looked at: on the end itself it may be zero.
+/// In steps: distance inside an end of the step at which the test function is evaluated. At the end itself it
+/// may be zero.
 constexpr double within_step = 1e-3;
-/// Share of a step behind its end up to which a branch point is bridged, too: the equilibrium's equations are
-/// nearly singular there already.
+/// In steps: a branch point up to this far beyond the end gets a bridge, too, since the steady equations at
+/// the end are nearly singular already.
 constexpr double look_ahead = 0.3;
-/// A stiffness whose reciprocal condition is smaller than this has a determinant without a sign: rounding in
-/// the factorization, with a margin for the projection.
+/// In steps: places at which the series of the left end is evaluated, besides the end of the step, if the
+/// right end was not found. Two changes of sign between neighbouring places are not seen.
+constexpr double first_place = 0.4, second_place = 0.7;
+/// A matrix whose smallest singular value is at most about this share of its scale counts as singular, since
+/// rounding determines the sign of its determinant. The value has a margin for the rounding of the
+/// projection.
 constexpr double regular = 1e-11;
-/// Half the length of the first bridge that is tried, as a share of the step. It shrinks until the bridge is
-/// good; a longer one is more accurate at its ends, a shorter one in the middle.
+/// Half the length of the first bridge, as a share of the step. Shorter ones follow until one is accurate:
+/// the polynomial of a long bridge has a larger truncation error, and the ends of a short one are so close to
+/// the branch point that the nearly singular equations make them inaccurate.
 constexpr double first_bridge = 0.25;
-constexpr double shrinking = 0.6;  ///< of the length of a bridge from one try to the next
-constexpr int most_lengths = 8;    ///< the last one is 0.03 of the first
-constexpr int most_tries = 3;      ///< of bridges from one point
-/// A bridge that has been found is replaced only by one so much better: shorter ones follow at once.
+constexpr double shrinking = 0.6;  ///< ratio of the lengths of consecutive bridges
+constexpr int most_lengths = 8;    ///< the last bridge has 0.03 times the length of the first
+constexpr int most_tries = 3;      ///< attempts to build a bridge from one point
+/// A bridge is replaced by a shorter one only if the error of that is at most this share of its own.
 constexpr double much_better = 0.3;
-/// The root may move by this many half lengths of a bridge; farther away another point was meant.
+/// In half lengths of a bridge: if the root of the test function moves by more, the prediction was of another
+/// point.
 constexpr double farthest_root = 10.0;
 
-/// Sign and logarithm of a determinant; of large matrices the number itself may overflow.
+/// Sign and logarithm of a determinant. The determinant of a large matrix may overflow.
 struct Determinant {
-  double sign = 0.0;  ///< 0: singular up to rounding
+  double sign = 0.0;  ///< 0: the matrix is singular up to rounding
   double logarithm = 0.0;
 
-  /// `scale` is the magnitude of what the matrix is the projection of.
+  /// `scale`: norm of the matrix of which this one is a projection.
   Determinant(const Matrix& matrix, double scale) {
     const Eigen::PartialPivLU<Matrix> lu(matrix);
     const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
@@ -45,9 +52,11 @@ struct Determinant {
       logarithm += std::log(std::abs(pivot));
     }
   }
+  /// This determinant, with its sign, divided by the magnitude of another one.
   double relative_to(const Determinant& other) const { return sign * std::exp(logarithm - other.logarithm); }
 };
 
+/// Derivative of a row of a series at h.
 double slope(const VectorSeries& series, Eigen::Index row, double h) {
   double value = 0.0;
   for (Eigen::Index k = series.cols() - 1; k > 0; --k)
@@ -55,12 +64,13 @@ double slope(const VectorSeries& series, Eigen::Index row, double h) {
   return value;
 }
 
-/// Where a function that is a at 0 and b at 1 is zero, if it is straight.
+/// Zero of the linear function that is a at 0 and b at 1.
 double straight_root(double a, double b) {
   return a / (a - b);
 }
 
-/// Where a branch point is expected between `node` and a little behind `next`, as a distance from the node.
+/// Predicted distance of a branch point from `node`, up to a little beyond `next`, from a change of sign of
+/// the test function. Empty if there is none.
 std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode& node, double h,
                                           const PathNode* next) {
   const int traced = frame.range.traced;
@@ -72,7 +82,7 @@ std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode
   const Determinant begin = test(node, within_step * h, heading);
   if (begin.sign == 0.0) return std::nullopt;
   std::array<std::pair<const PathNode*, double>, 4> places{
-      {{&node, 0.4}, {&node, 0.7}, {&node, 1.0}, {&node, 1.0 + look_ahead}}};
+      {{&node, first_place}, {&node, second_place}, {&node, 1.0}, {&node, 1.0 + look_ahead}}};
   if (next != nullptr) places = {{{next, -within_step}, {next, look_ahead}}};
   double left = within_step;
   double at_left = 1.0 / heading;
@@ -89,9 +99,9 @@ std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode
   return std::nullopt;
 }
 
-/// Where p turns on a bridge, by halving dp/dsigma between its ends.
+/// Place on a bridge where dp/dsigma vanishes, by bisection between its ends.
 double turning_point(const Bridge& bridge, int traced, const SidePoint& left, const SidePoint& right) {
-  constexpr int halvings = 80;  // more than a double has digits
+  constexpr int halvings = 80;  // more than the 53 bits of a double
   double a = left.coordinate;
   double b = right.coordinate;
   for (int i = 0; i < halvings; ++i) {
@@ -101,12 +111,14 @@ double turning_point(const Bridge& bridge, int traced, const SidePoint& left, co
   return a;
 }
 
-/// The branch point on a bridge. Where p turns on it dp/dsigma has a simple root there and det K a double
-/// one; elsewhere det K has a simple one.
+/// Coordinate of the branch point on a bridge: a root of det K, by the secant method from `guess`. If p has
+/// an extremum at the branch point, as on the bifurcating path of a pitchfork, det K has a double root there,
+/// and the simple root of dp/dsigma is used.
 double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& bridge, const SidePoint& left,
                  const SidePoint& right, double guess) {
   constexpr int most_secants = 20;
-  constexpr double same_turn = 0.2;  // of the bridge: a turn farther away is no pitchfork
+  constexpr double same_turn = 0.2;          // of the bridge: an extremum of p farther away is another point
+  constexpr double last_correction = 1e-15;  // relative: rounding of the coordinate
   if (solver.frame().plane && left.heading * right.heading < 0.0) {
     const double turn = turning_point(bridge, solver.problem().traced, left, right);
     if (std::abs(turn - guess) < same_turn * std::abs(bridge.end() - bridge.begin())) return turn;
@@ -126,18 +138,18 @@ double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& b
     a = b;
     at_a = at_b;
     b = next;
-    if (!bridge.covers(b) || std::abs(b - a) <= 1e-15 * std::abs(b)) break;
+    if (!bridge.covers(b) || std::abs(b - a) <= last_correction * std::abs(b)) break;
     at_b = stiffness(b);
   }
   return b;
 }
 
-/// The path at a distance from a point.
+/// The side point at a distance from `node`.
 std::optional<SidePoint> side_point_at(const PointSolver& solver, const PathNode& node, double distance) {
   return side_point(solver, solver.reduce(node, distance), node.pencil.size());
 }
 
-/// A path that begins or ends in its branch point does so there, not beside it by a rounding.
+/// Moves a branch point that is at an end of the range up to rounding exactly to that end.
 void settle_on_ends(PathFrame& frame) {
   for (const double end : {frame.range.from, frame.range.to}) {
     const double scale = std::max(frame.range.length(), std::abs(end));
@@ -147,8 +159,9 @@ void settle_on_ends(PathFrame& frame) {
   }
 }
 
-/// Builds a bridge in the frame over the branch point that is expected at a distance from `node`. Bridges
-/// become shorter until one is good, or none gets better.
+/// Builds a bridge in the frame over the branch point predicted at the distance `guess` from `node`, on a
+/// step of length h. Takes the first bridge with an error of at most `good_bridge`; if there is none, the
+/// best one up to `fair_bridge`. False if there is none.
 bool build_bridge(const PointSolver& solver, PathFrame& frame, const PathNode& node, double guess, double h) {
   const int traced = frame.range.traced;
   const double origin = frame.coordinate(node);
@@ -214,7 +227,7 @@ std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& 
 bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const PathNode& node, double h,
                          const PathNode* next, int& tries) {
   if (!equilibrium_moves(solver.problem()) || node.pencil.size() == 0 || tries >= most_tries) return false;
-  // On a bridge nothing has to be looked for.
+  // A step that begins or ends on a bridge leads over a branch point that is known.
   const double here = frame.coordinate(node);
   if (frame.bridge && (frame.bridge->covers(here) || frame.bridge->covers(here + h))) return false;
   const StageTimer timer(solver.counts().events_seconds);

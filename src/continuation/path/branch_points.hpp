@@ -1,42 +1,45 @@
-// Branch points: where another equilibrium path crosses, the trace builds a bridge over the point and ends a
-// step on it.
+// Detection of branch points, where another equilibrium path crosses. The trace represents its own path over
+// such a point by a bridge (bridge.hpp) and ends a step on the point.
 //
-// Test function: det of the bordered steady equations changes its sign at a branch point, and at none of the
-// folds. In the path's coordinate it is det(T^T K T) / (dp / dsigma), of which a point has series.
+// Test function: the determinant of the steady equations bordered by the path's plane. It changes sign at a
+// branch point, but not at a fold. Up to a factor without a change of sign it is det(T^T K T) / (dp /
+// dsigma), with the coordinate sigma along the path. Both terms follow from the series at a point.
 #pragma once
 
 #include "continuation/point/point_solver.hpp"
 
 namespace eigentrail {
 
-/// A solved point of the path on one side of a branch point, with all coefficients that a series may have;
-/// nothing about modes.
+/// A point of the path on one side of a branch point, without modes.
 struct SidePoint {
   double coordinate = 0.0;
-  Path path;
+  Path path;                           ///< series of the highest order, max_order
   double heading = 1.0;                ///< dp/dsigma
-  double sign = 0.0, logarithm = 0.0;  ///< of det T^T K T
+  double sign = 0.0, logarithm = 0.0;  ///< det T^T K T: sign, and log of the magnitude
 };
 
-/// The side point that a reduced point is; nothing when it was not solved, or has other freedoms than
-/// `n_freedoms`.
+/// The side point from a reduced point. Empty if that was not computed, does not have `n_freedoms` freedoms,
+/// or has no finite series.
 std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& point,
                                     Eigen::Index n_freedoms);
 
-/// Magnitudes by which errors of a bridge are measured at a point. Multipliers count by their forces.
+/// Magnitudes by which errors of a bridge at a point are divided: the scales of x and p, and |K| |x| / |A|
+/// for the multipliers lambda.
 Bridge::Sizes bridge_sizes(const PathFrame& frame, const PathNode& node);
 
-/// Whether the model's equilibrium moves with the parameter, so that there can be branch points and folds.
+/// Whether the equilibrium depends on the parameter and is solved for. Only then can there be branch points
+/// and folds.
 bool equilibrium_moves(const PathProblem& problem);
 
-/// Looks for a branch point on the step of length h from `node`, or just behind it, and builds a bridge over
-/// it in the frame. `next` is the end of the step, null where it was not found: then the series of `node`
-/// tell alone. `tries`: bridges looked for from this node so far. Returns whether there is a new bridge.
+/// Searches for a branch point on the step of signed length h from `node`, or a little beyond its end, and
+/// builds a bridge over it in the frame. `next`: end of the step; null if it was not found, and then the test
+/// function is extrapolated from `node`. `tries`: number of attempts from this node, increased by an attempt;
+/// after three there are no more. Returns whether there is a new bridge.
 bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const PathNode& node, double h,
                          const PathNode* next, int& tries);
 
-/// A trace that begins on a branch point begins on the path that passes it in p: the reduced point there,
-/// and a bridge in the frame. Nothing where the point is no branch point.
+/// For a trace that begins on a branch point: builds a bridge in the frame along the path that can be
+/// followed in p, and returns the reduced point on it. Empty if the point is not a branch point.
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point);
 
 }  // namespace eigentrail

@@ -6,7 +6,7 @@
 namespace eigentrail {
 namespace {
 
-/// Rows x, lambda and p - p0.
+/// Series of x, lambda and p - p0 as rows of one matrix.
 ComplexMatrix stacked(const Path& path, int traced, double p0) {
   ComplexMatrix rows(path.x.rows() + path.lambda.rows() + 1, path.x.cols());
   rows.setZero();

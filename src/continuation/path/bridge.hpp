@@ -1,9 +1,10 @@
-// The equilibrium path over a branch point.
+// Bridge: a polynomial representation of the equilibrium path over a branch point.
 //
-// Where another path crosses, [K f] has a kernel of two dimensions: no plane across the path makes the steady
-// equations regular, neither on the point nor very near it, and Newton's method may arrive on the other path.
-// The path itself is smooth there. It is computed at one point on either side, with as many coefficients as
-// there are, and the polynomial that shares them is the path between them.
+// Where another path crosses, [K f], with the force f of the traced parameter, has a kernel of two
+// dimensions. The steady equations are then singular for every plane across the path, and nearly so close to
+// the point, and Newton's method may converge to the other path. The path itself is smooth there. It is
+// computed at one point on either side with series of the highest order. Between them it is the polynomial
+// that agrees with both series (dense_output.hpp).
 #pragma once
 
 #include "eigentrail/continuation/dense_output.hpp"
@@ -11,32 +12,36 @@
 
 namespace eigentrail {
 
-constexpr double good_bridge = 2e-13;  ///< relative error at which a bridge is as good as solved points
-constexpr double fair_bridge = 1e-10;  ///< the worst that is used where no better one is found
+/// Relative error of a bridge that is as accurate as solved points.
+constexpr double good_bridge = 2e-13;
+/// Largest relative error of a bridge that is used where no better one is found.
+constexpr double fair_bridge = 1e-10;
 
 class Bridge {
  public:
-  /// `left` and `right`: the path at two values of its coordinate, which is the traced parameter itself or
-  /// the distance across a plane (`on_plane`).
+  /// `left` and `right`: series of the path at the coordinates `begin` and `end`. The coordinate is the
+  /// traced parameter itself or the distance across a plane (`on_plane`). `traced`: index of the traced
+  /// parameter.
   Bridge(double begin, double end, const Path& left, const Path& right, int traced, bool on_plane);
   Bridge() = default;
 
-  /// Its state, for files that a trace goes on from.
+  /// Visits all members, for saving and restoring the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
     visit(self.begin_, self.end_, self.parameters_, self.n_, self.traced_, self.on_plane_, self.interpolant_);
   }
 
+  /// Whether a coordinate lies between both ends.
   bool covers(double coordinate) const { return (coordinate - begin_) * (coordinate - end_) <= 0.0; }
 
-  /// The path's series of the given order at a coordinate.
+  /// Series of the path of the given order at a coordinate.
   Path path(double coordinate, int order) const;
 
-  /// Magnitudes that errors are measured by.
+  /// Magnitudes by which errors are divided.
   struct Sizes {
     double x = 1.0, lambda = 1.0, p = 1.0;
   };
-  /// Estimated largest error of x, lambda and p.
+  /// Largest estimated error of x, lambda and p, each divided by its magnitude.
   double error(const Sizes& sizes) const;
 
   double begin() const { return begin_; }
@@ -48,7 +53,7 @@ class Bridge {
   Eigen::Index n_ = 0;
   int traced_ = 0;
   bool on_plane_ = false;
-  HermiteInterpolant interpolant_;  ///< x, lambda, p less `parameters_`
+  HermiteInterpolant interpolant_;  ///< of x, lambda, and p less its value in `parameters_`
 };
 
 }  // namespace eigentrail

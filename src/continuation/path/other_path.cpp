@@ -6,20 +6,24 @@
 namespace eigentrail {
 namespace {
 
-/// Half the length of the first bridge on the other path, in units of the path's scales; it shrinks down to
-/// the shortest one until the bridge is good.
+/// Half the length of the first bridge on the other path, in the scaled coordinate. Shorter bridges follow,
+/// by the factor `shrinking`, until one is accurate or the shortest length is reached.
 constexpr double first_reach = 0.05;
 constexpr double shortest_reach = 1e-4;
 constexpr double shrinking = 0.6;
-/// The other path passes the branch point up to this share of the path's scales, or it is not the one.
+/// Relative to the scales of x and p: a path that passes the branch point at a larger distance is not the one
+/// that crosses there.
 constexpr double same_point = 1e-8;
-/// Both directions head alike for the end of the range where p changes by the same amount but for this share:
-/// half a bridge away the odd terms of p are still small against the even ones.
+/// The branch point is a pitchfork if the changes of p on both sides differ by at most this share of the sum
+/// of their magnitudes. They are compared half way to the ends of the bridge, where the odd terms of p(sigma)
+/// are still small against the even ones.
 constexpr double alike = 1e-3;
-/// Share of the reach below which no coordinate moves.
+/// As a share of half the length of the bridge, in scaled coordinates: if no coordinate changes by more, the
+/// note does not mention any.
 constexpr double no_motion = 1e-6;
 
-/// A plane across the other path: its normal has no share in the direction of the trace's own.
+/// A plane across the other path. Its normal is the longer of the two kernel directions after its component
+/// along the trace's own path is removed, in scaled coordinates.
 std::optional<PathPlane> plane_across(const PointSolver& solver, const PathNode& node) {
   const PathProblem& problem = solver.problem();
   const PathScales scales = solver.frame().scales();
@@ -39,7 +43,7 @@ std::optional<PathPlane> plane_across(const PointSolver& solver, const PathNode&
   return PathPlane{normal.head(n) / scales.x, normal[n] / scales.p};
 }
 
-/// The other path at a distance from the branch point.
+/// A point of the other path on the plane at a distance from the branch point.
 std::optional<SidePoint> side_point_on(const PointSolver& solver, const PathPlane& plane,
                                        const PathNode& node, double distance) {
   const PathScales scales = solver.frame().scales();
@@ -51,7 +55,7 @@ std::optional<SidePoint> side_point_on(const PointSolver& solver, const PathPlan
   return side_point(solver, point, node.pencil.size());
 }
 
-/// A bridge along the other path that passes the branch point.
+/// A bridge along the other path, over the branch point. Empty if none is accurate enough.
 std::optional<Bridge> bridge_along(const PointSolver& solver, const PathPlane& plane, const PathNode& node) {
   const PathScales scales = solver.frame().scales();
   const int traced = solver.problem().traced;
@@ -74,12 +78,12 @@ std::optional<Bridge> bridge_along(const PointSolver& solver, const PathPlane& p
   return best;
 }
 
-/// How p and x change on the other path on both sides of the branch point.
+/// Changes of p and x on the other path from the branch point to both sides.
 struct Departures {
-  double rise_ahead = 0.0, rise_back = 0.0;  ///< of p
-  Vector move;                               ///< of x, ahead
-  Eigen::Index most = 0;                     ///< the coordinate that moves most
-  bool moves = false;
+  double rise_ahead = 0.0, rise_back = 0.0;  ///< change of p in the two directions
+  Vector move;                               ///< change of x ahead
+  Eigen::Index most = 0;                     ///< index of the coordinate that changes most
+  bool moves = false;                        ///< whether that one changes at all
 
   bool is_pitchfork() const {
     return std::abs(rise_ahead - rise_back) <= alike * (std::abs(rise_ahead) + std::abs(rise_back));
@@ -102,7 +106,7 @@ Departures departures_on(const PointSolver& solver, const PathPlane& plane, cons
   return changes;
 }
 
-/// "omega rises, blade x falls".
+/// A direction in words, such as "omega rises, blade x falls".
 std::string in_words(const PathProblem& problem, const Departures& changes, double direction) {
   const ModelDescription& description = problem.model.description();
   const bool ahead = direction > 0.0;

@@ -6,8 +6,9 @@
 namespace eigentrail {
 namespace {
 
-/// Cosine between plane and path below which the plane is renewed: at 45 degrees a step along the normal is
-/// still 0.7 of one along the path, while a plane that is kept costs nothing.
+/// Cosine of the angle between the normal and the path up to which the plane is replaced, about that of 45
+/// degrees: there a step along the normal still is 0.7 times the step along the path. Replacing it earlier
+/// would only cost the work of rewriting all series.
 constexpr double least_cosine = 0.7;
 
 }  // namespace

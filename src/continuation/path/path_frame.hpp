@@ -1,8 +1,8 @@
-// The coordinate along the path.
+// The coordinate along the equilibrium path.
 //
-// It is the traced parameter p itself, or, once the equilibrium path bends back, the distance across a plane
-// in (x, p) (pseudo-arclength, Keller 1977). Over a branch point, where the steady equations are singular,
-// a bridge gives the path (bridge.hpp).
+// It is the traced parameter p itself or, where the path turns back, the distance from a point along the
+// normal of a plane in (x, p) (pseudo-arclength, Keller 1977), called sigma. Over a branch point, where the
+// steady equations are singular, the path comes from a bridge (bridge.hpp).
 #pragma once
 
 #include <cmath>
@@ -21,6 +21,7 @@ struct PathRange {
   double length() const { return std::abs(to - from); }
 };
 
+/// The coordinate in use, with what belongs to it.
 struct PathFrame {
   PathRange range;
   std::optional<PathPlane> plane = {};  ///< empty: the coordinate is p
@@ -31,57 +32,60 @@ struct PathFrame {
     double coordinate = 0.0, p = 0.0;
   } branch_point = {};  ///< on the bridge
 
-  /// Value of the coordinate at a place of the path.
+  /// Value of the coordinate at a point of the path.
   double coordinate(const Vector& x, double p) const { return plane ? (*plane)(x, p) : p; }
   double coordinate(const PathNode& node) const { return coordinate(node.path.x.col(0), node.p); }
 
-  /// Length of the range in the coordinate, roughly; planes are scaled so that it is about one.
+  /// Approximate length of the range in the coordinate. Planes are scaled so that it is about one.
   double coordinate_range() const { return plane ? 1.0 : range.length(); }
 
   /// dp / d(coordinate) at a point.
   double speed(const PathNode& node) const { return coefficient(node.path.parameters, range.traced, 1); }
 
-  /// Lengths that x and p are measured by. One length serves the whole path: the largest position so far,
-  /// since the present one may pass zero.
+  /// Scales of x and p: the largest |x| so far, or one if that is zero, and the length of the range. The
+  /// present |x| would not do, since it may pass zero.
   PathScales scales() const { return {largest_position > 0.0 ? largest_position : 1.0, range.length()}; }
 
-  /// Whether a coordinate is that of the branch point on the bridge, up to rounding.
+  /// Whether a coordinate, or that of a point, is that of the branch point on the bridge, up to rounding.
   bool on_branch_point(double coordinate) const;
   bool on_branch_point(const PathNode& node) const { return on_branch_point(coordinate(node)); }
 
   /// Whether a point lies on the bridge.
   bool on_bridge(const PathNode& node) const { return bridge && bridge->covers(coordinate(node)); }
 
-  /// The series of the path at a coordinate on the bridge; exactly that of the branch point there.
+  /// Series of the path at a coordinate on the bridge. At the branch point, coordinate and p are set to its
+  /// exact values.
   Path path_on_bridge(double coordinate, int order) const;
 };
 
-/// Coordinates this close, relative to the range, are one: what rounding leaves of a coordinate.
+/// Coordinates closer than this, relative to the range, are equal up to rounding.
 constexpr double same_coordinate = 1e-12;
 
-/// Length of the path ahead of a point up to the branch point on the bridge, or to the end of the range where
-/// the coordinate is p; the largest double where neither is known.
+/// Distance from a point to the branch point ahead on the bridge or, if the coordinate is p, to the end of
+/// the range, whichever is less. The largest double if neither applies.
 double remaining(const PathFrame& frame, const PathNode& node);
 
-/// Whether the trace ends at the point: at the end of the range, or back at its beginning.
+/// Whether the trace ends at the point: at the end of the range or, after turning back, at its beginning.
 bool reached_end(const PathFrame& frame, const PathNode& node);
 
-/// Distance to the fold, where dp/dsigma = 0, as the first two coefficients of p tell it.
+/// Estimated signed distance to the fold, where dp/dsigma = 0, from the first two derivatives of p.
 double fold_distance(const PathFrame& frame, const PathNode& node);
 
-/// dp/dsigma beside a point, on the side of `towards`. On a fold its value at the point itself is rounding.
+/// dp/dsigma at a point. On a fold, where that is rounding, its approximate value at the signed distance
+/// `towards` from the point.
 double heading(const PathFrame& frame, const PathNode& node, double towards);
 
-/// A point that is nearer than this to a fold, in the scaled coordinate, lies on it: the place of a fold is
-/// known to the root of rounding.
+/// A point closer than this to a fold, in the coordinate sigma, lies on it. The place of a fold is known to
+/// little better than the square root of rounding.
 constexpr double on_fold = 1e-9;
 
-/// Changes to the coordinate across a plane where the equilibrium's series falls much faster in it than in p:
-/// there the path is bending back. Rewrites the series of the point. Returns the length of the next step
-/// in the new coordinate for one of length h in p; nothing where p stays the coordinate.
+/// Changes the coordinate from p to the distance across a plane if the series of the equilibrium converges
+/// much faster in it, as it does where the path turns back. Rewrites the series of the point. Returns the
+/// length in the new coordinate of a step of length h in p; empty if the coordinate is not changed.
 std::optional<double> turn_to_plane(const PathProblem& problem, PathFrame& frame, PathNode& node, double h);
 
-/// Replaces a plane that the path meets at a slant by one across the path. Returns whether it did.
+/// If the path is no longer close to the normal of the plane, replaces the plane by one whose normal is the
+/// tangent of the path. Returns whether it did.
 bool renew_plane(PathFrame& frame, PathNode& node);
 
 }  // namespace eigentrail

@@ -8,13 +8,19 @@
 namespace eigentrail {
 namespace {
 
+/// Largest ratio of the last terms of the two series at which the coordinate is changed. Ahead of a
+/// fold the series in p converges slowly and the ratio is small; elsewhere p is the simpler coordinate.
+constexpr double bending_back = 3e-3;
+
+/// Substitutes the coordinate in all series of the path. `table`: powers of the old coordinate in the new
+/// one.
 void compose(Path& path, const Matrix& table) {
   compose_columns(path.parameters, table);
   compose_columns(path.x, table);
   compose_columns(path.lambda, table);
 }
 
-/// The plane's coordinate, zero at the point, as a series in the path's own.
+/// The plane's coordinate, zero at the point, as a series in the present coordinate.
 Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, Eigen::Index count) {
   Vector sigma = Vector::Zero(count);
   for (Eigen::Index k = 1; k < count; ++k) {
@@ -67,7 +73,6 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
     return std::max(x, p) * std::pow(step, static_cast<double>(last));
   };
   const double before = tail(path, std::abs(h));
-  constexpr double bending_back = 3e-3;
   return tail(turned, sigma) < bending_back * before;
 }
 

@@ -9,7 +9,8 @@
 namespace eigentrail {
 namespace {
 
-/// Rows: the vector, in the length that w^H V = 1 gives it, and the eigenvalue; columns: coefficients.
+/// Series of a mode as one matrix: the vector scaled such that w^H V = 1, and below it the eigenvalue; one
+/// column per coefficient.
 ComplexMatrix stacked(const ComplexVector& w, const PairSeries& series) {
   std::vector<ComplexMatrix> V = series.Z;
   fix_length(w, V);
@@ -27,7 +28,7 @@ ComplexMatrix stacked(const ComplexVector& w, const PairSeries& series) {
 std::optional<ContinuedMode> continue_mode(const PathNode& previous, const PathNode& node, std::size_t index,
                                            double last, double h) {
   const Track& track = node.tracks[index];
-  // What stands as it was continued tells nothing new.
+  // A mode that was itself accepted as extrapolated has no new information to extrapolate from.
   if (track.size() > 1 || track.lineage == 0 || track.passed) return std::nullopt;
   const auto before = std::find_if(previous.tracks.begin(), previous.tracks.end(),
                                    [&](const Track& other) { return other.lineage == track.lineage; });

@@ -1,8 +1,8 @@
-// Single modes as the dense output of the last step goes on.
+// Extrapolation of single modes from the dense output of the last step.
 //
-// Beyond a step the two-point expansion with all coefficients of both ends is far more accurate than the
-// series of one of them as long as the mode is smooth: easy modes then pass a point as they are, and others
-// start their correction nearer to its end.
+// Beyond a step, the two-point expansion with all coefficients of both ends is far more accurate than the
+// series of one end, as long as the mode is smooth. Smooth modes are then accepted at the next point without
+// correction; for others the correction starts from a better prediction.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,10 @@
 
 namespace eigentrail {
 
-/// Track `index` of `node` continued over h, from the step of length `last` that led from `previous` to the
-/// node, both in the path's coordinate. Empty for blocks, and where the track was not followed as it is.
+/// Track `index` of `node` extrapolated to the distance h behind the node, from the step of signed length
+/// `last` between `previous` and the node, both lengths in the path's coordinate. Empty for blocks, for
+/// tracks that were not followed unchanged on that step, and for those accepted without correction at either
+/// end.
 std::optional<ContinuedMode> continue_mode(const PathNode& previous, const PathNode& node, std::size_t index,
                                            double last, double h);
 

@@ -7,7 +7,10 @@
 namespace eigentrail {
 namespace {
 
-constexpr double idle = 1e-12;  ///< share of the largest entry below which a matrix leaves a freedom out
+/// Relative size of a pivot of [M; C; K], each scaled to a largest entry of one, below which it counts as
+/// zero: rounding of the entries with a margin. With a larger value very light or soft freedoms are reported
+/// as idle, with a smaller one rounding hides an idle freedom.
+constexpr double idle = 1e-12;
 
 }  // namespace
 
@@ -23,7 +26,8 @@ std::string idle_coordinate(const Model& model, const PathPoint& point) {
   qr.setThreshold(idle);
   const Eigen::Index rank = qr.rank();
   if (rank == n) return {};
-  // R11 v1 = -R12 e1: a vector that all three matrices take to zero.
+  // With the pivots of R11 nonzero and R22 = 0, R11 v1 = -R12 e1 gives a vector v = (v1, e1) with M v = C v =
+  // K v = 0.
   Vector permuted = Vector::Zero(n);
   permuted[rank] = 1.0;
   const auto R = qr.matrixR();

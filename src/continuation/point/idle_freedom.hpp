@@ -1,4 +1,4 @@
-// Freedoms that nothing acts on: without mass, damping and stiffness.
+// Freedoms without mass, damping and stiffness. They make the pencil singular.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace eigentrail {
 
-/// Names the coordinate that moves most in a freedom that M, C and K of the point's pencil all leave out;
-/// empty when there is none.
+/// If M, C and K of the point's pencil have a common null vector, the name of the coordinate that moves most
+/// in it; else empty.
 std::string idle_coordinate(const Model& model, const PathPoint& point);
 
 }  // namespace eigentrail

@@ -13,7 +13,7 @@ void add(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part
 }  // namespace
 
 RunCounts& RunCounts::operator+=(const RunCounts& other) {
-  // Taken apart, so that a member that is added and forgotten here does not compile.
+  // With a structured binding the code does not compile if a member is added and not listed here.
   const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases,
                equilibrium, reduction, correction, differentiation, matching, certificate, event, output] =
       other;

@@ -10,21 +10,24 @@
 namespace eigentrail {
 namespace {
 
+/// Gives the evaluation counters their size at the first use.
 void size_counters(const PathProblem& problem, RunCounts& counts) {
   if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
 }
 
+/// The equilibrium at p, or on a plane, where p is an unknown and is overwritten.
 Equilibrium equilibrium_at(const PathProblem& problem, double& p, const EquilibriumGuess& guess,
                            const std::optional<PathPlane>& plane, RunCounts& counts) {
   const StageTimer timer(counts.equilibrium_seconds);
   const Vector parameters = parameters_at(problem, p);
-  // A fixed equilibrium is solved once, at the start, and kept.
+  // An equilibrium that does not depend on the parameter is solved for once, at the start.
   if (problem.structure.known_equilibrium || (problem.structure.fixed_equilibrium && guess.solved)) {
     const Eigen::Index m = problem.model.n_constraints();
     const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
     return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
-  // On the path a failure tells of a fold or a branch point; what hangs at rest there may be another path.
+  // Relaxation to a state of rest is allowed only at the start. On the path a failure indicates a fold or a
+  // branch point, and relaxation might lead to an equilibrium on another path.
   SteadyOptions steady = problem.steady;
   steady.relax = steady.relax && !guess.solved;
   Equilibrium result =
@@ -36,7 +39,7 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
   return result;
 }
 
-/// All parameters when one of them moves away from its value at the point.
+/// Series of all parameters if one of them is its value at the point plus h.
 VectorSeries straight_series(const PathProblem& problem, const PathPoint& point, int parameter) {
   VectorSeries parameters = VectorSeries::Zero(problem.parameters.size(), 2);
   parameters.col(0) = parameters_at(problem, point.p);
@@ -44,7 +47,7 @@ VectorSeries straight_series(const PathProblem& problem, const PathPoint& point,
   return parameters;
 }
 
-/// Whether the equilibrium stays where it is along a series of parameters.
+/// Whether the equilibrium does not change along a series of parameters.
 bool keeps_equilibrium(const Model& model, const VectorSeries& parameters) {
   for (Eigen::Index i = 0; i < parameters.rows(); ++i) {
     const bool moves = !parameters.row(i).tail(parameters.cols() - 1).isZero(0.0);
@@ -53,7 +56,7 @@ bool keeps_equilibrium(const Model& model, const VectorSeries& parameters) {
   return true;
 }
 
-/// Series of the equilibrium along `parameters`.
+/// Series of the equilibrium along a series of all parameters.
 EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
                              const VectorSeries& parameters, int order, Path& path, RunCounts& counts) {
   if (keeps_equilibrium(problem.model, parameters)) {
@@ -64,7 +67,7 @@ EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
                                    counts.evaluations);
 }
 
-/// Basis and pencil at the point's equilibrium, if there is one.
+/// Tangent basis and reduced pencil at the point's equilibrium. Sets the status if there is no equilibrium.
 void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
                   RunCounts& counts) {
   if (point.equilibrium.status != SteadyStatus::converged) {
@@ -157,7 +160,7 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
 
 namespace {
 
-/// What follows from the path of a node that has one.
+/// Linearization, basis, pencil and tracks of a node as series, from the series of its equilibrium.
 std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
                                             RunCounts& counts) {
   const int order = problem.order + 1;

@@ -9,26 +9,27 @@
 namespace eigentrail {
 
 bool is_worth_sharing(std::size_t modes, Eigen::Index n) {
-  constexpr double least_work = 3e5;  // modes n^3; a thread costs some 20 us
+  // modes n^3 above which several threads are used: starting one costs about 20 us. Affects only the time.
+  constexpr double least_work = 3e5;
   const auto size = static_cast<double>(n);
   return static_cast<double>(modes) * size * size * size > least_work;
 }
 
 namespace {
 
-/// Calls work(i, counts) for every mode, in `threads` at once; the counts are those of all.
+/// Calls work(i, counts) for every mode, on several threads if that pays, and adds up the counts.
 template <class Work>
 void for_every_mode(const PathProblem& problem, std::size_t modes, Eigen::Index n, ModeCounts& counts,
                     Work&& work) {
   std::vector<ModeCounts> own(modes);
-  // From the last one: blocks stand behind single modes and take longer, no thread shall begin with one when
-  // the others have ended.
+  // In reverse order: blocks are behind single modes and take longer. If they came last, one thread would
+  // work on a block while the others have ended.
   in_parallel(modes, is_worth_sharing(modes, n) ? problem.threads : 1,
               [&](std::size_t i) { work(modes - 1 - i, own[modes - 1 - i]); });
   for (const ModeCounts& some : own) counts += some;
 }
 
-/// The pairs at a reduced point one by one from their predictions.
+/// Corrects the pairs at a reduced point one by one, starting from their predictions.
 class ModeCorrections {
  public:
   ModeCorrections(const PathProblem& problem, const Prediction& prediction, PathPoint& point)
@@ -43,6 +44,8 @@ class ModeCorrections {
     point.ready = prediction.ready;
   }
 
+  /// Sets pair i: from an earlier computation of the point, or as extrapolated if that is accurate enough, or
+  /// corrected from the better of both predictions.
   void correct(std::size_t i, ModeCounts& counts) {
     if (i < prediction_.ready.size() && prediction_.ready[i] != nullptr) {
       point_.pairs[i] = prediction_.ready[i]->pair;
@@ -126,7 +129,7 @@ void correct_modes(const PathProblem& problem, const Prediction& prediction, Pat
 
 namespace {
 
-/// T Z as real products with few columns; see `multiply`.
+/// Series of T Z, with each product of a real and a complex matrix as a real product; see `multiply`.
 std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
                                                       const std::vector<ComplexMatrix>& Z) {
   std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(T[0].rows(), Z[0].cols()));
@@ -136,18 +139,18 @@ std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
   return V;
 }
 
-/// Series of V = T Z.
+/// Series of V = T Z from the series of Z.
 std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z) {
   const TangentBasis& basis = node.basis;
   if (basis.is_identity) return Z;
-  // Of a large model a complex copy of the basis for every mode would take longer than the product.
+  // For a large model, a complex copy of the basis for every mode would take longer than the product.
   if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
   std::vector<ComplexMatrix> T;
   for (const Matrix& coefficient : basis.T) T.emplace_back(coefficient.cast<Complex>());
   return multiply_series(T, Z, Z.size());
 }
 
-/// A track of a corrected pair and its series in physical coordinates.
+/// The track of a corrected pair, from its series in physical coordinates. No mode numbers yet.
 Track make_track(InvariantPair pair, PairSeries series) {
   Track track;
   track.pair = std::move(pair);
@@ -166,7 +169,7 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, Inva
   return make_track(std::move(pair), std::move(series));
 }
 
-/// The track of pair i of a point, from what is known of it.
+/// The track of pair i of a point: from an earlier computation, as extrapolated, or differentiated now.
 Track track_at(const PathProblem& problem, const PathNode& node, const PathPoint& point, std::size_t i,
                ModeCounts& counts) {
   if (i < point.ready.size() && point.ready[i] != nullptr) {

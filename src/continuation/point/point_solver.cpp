@@ -5,10 +5,14 @@
 namespace eigentrail {
 namespace {
 
-/// A predicted p this close to the end of the range, relatively, is the end: a step to the end adds up to it
-/// but for rounding.
+/// A predicted p counts as the end of the range within at_end times the length of the range plus
+/// at_end * share_of_end * |end|: a step to the end reaches it except for rounding. The second part is about
+/// five units in the last place of the end. With larger values the trace may end early by that much, with
+/// smaller ones it may take a last step of the length of rounding.
 constexpr double at_end = 1e-14;
+constexpr double share_of_end = 0.1;
 
+/// The pair that the series of a track predict at distance h, Z in physical coordinates.
 InvariantPair predicted_pair(const Track& track, double h) {
   InvariantPair pair;
   pair.chart = track.pair.chart;
@@ -35,13 +39,13 @@ Prediction PointSolver::predict(const TracksAt& base, double h) const {
   const PathRange& range = frame_.range;
   Prediction prediction;
   prediction.p = evaluate_series(path.parameters, h)[problem_.traced];
-  const double rounding = at_end * (range.length() + 0.1 * std::abs(range.to));
+  const double rounding = at_end * (range.length() + share_of_end * std::abs(range.to));
   if (!frame_.plane && std::abs(prediction.p - range.to) <= rounding) prediction.p = range.to;
   prediction.equilibrium = {evaluate_series(path.x, h), evaluate_series(path.lambda, h), true};
   prediction.plane = frame_.plane;
   const double coordinate = frame_.coordinate(prediction.equilibrium.x, prediction.p);
   if (frame_.bridge && frame_.bridge->covers(coordinate)) {
-    // On the bridge the path is known; nothing is solved.
+    // On a bridge the equilibrium is given by an interpolant and not solved for.
     prediction.known = frame_.path_on_bridge(coordinate, problem_.order + 1);
     prediction.p = prediction.known->parameters(problem_.traced, 0);
   }

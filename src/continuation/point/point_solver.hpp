@@ -1,4 +1,4 @@
-// Points of the path, predicted from the series of another one and solved.
+// Prediction of points of the path from the series of another point, and their computation.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace eigentrail {
 
-/// Some tracks of a point, or other tracks of its pencil. Refers to what it was made from.
+/// A point and some tracks at it: of the node, or others of its pencil. Holds references.
 struct TracksAt {
   const PathNode& node;
   std::vector<const Track*> tracks;
@@ -16,15 +16,16 @@ struct TracksAt {
 TracksAt all_tracks(const PathNode& node);
 TracksAt one_track(const PathNode& node, std::size_t track);
 
-/// A point with its factorizations (for derivatives along other parameters) and its series.
+/// A point with its factorizations, for derivatives with respect to other parameters, and its series.
 struct SolvedPoint {
   PathPoint point;
   PathNode node;
 };
 
+/// Computes points of the path.
 class PointSolver {
  public:
-  /// Refers to all three. Work is added to `counts`.
+  /// Keeps references to all three arguments. Work is added to `counts`.
   PointSolver(const PathProblem& problem, const PathFrame& frame, RunCounts& counts)
       : problem_(problem), frame_(frame), counts_(counts) {}
 
@@ -32,17 +33,18 @@ class PointSolver {
   const PathFrame& frame() const { return frame_; }
   RunCounts& counts() const { return counts_; }
 
-  /// What the series tell of the place at distance h along the path, in the frame's coordinate.
+  /// The prediction from the series at `base` for the signed distance h along the path, in the frame's
+  /// coordinate.
   Prediction predict(const TracksAt& base, double h) const;
 
-  /// The point at a prediction, with `nearby_basis` the tangent basis of a point close by; nothing where the
-  /// equilibrium or a mode is not found.
+  /// The point computed from a prediction. `nearby_basis` is the tangent basis of a point close by, to which
+  /// the new one is aligned. Empty if the equilibrium or a mode is not found.
   std::optional<SolvedPoint> solve(const Prediction& prediction, const Matrix& nearby_basis) const;
 
-  /// The point at distance h, with the tracks of `base`; nothing where it is not found.
+  /// The point at distance h, with the tracks of `base`; empty if it is not found.
   std::optional<SolvedPoint> follow(const TracksAt& base, double h) const;
 
-  /// Equilibrium and pencil at distance h; no modes.
+  /// Equilibrium and reduced pencil at distance h, without modes. The status of the result tells failures.
   PathPoint reduce(const PathNode& base, double h) const;
 
  private:
@@ -51,7 +53,8 @@ class PointSolver {
   RunCounts& counts_;
 };
 
-/// Between construction and destruction factorizations of modes count as work for events.
+/// Between its construction and destruction, factorizations of modes are counted as work for events, and the
+/// time as that of events.
 class EventWork {
  public:
   explicit EventWork(RunCounts& counts)

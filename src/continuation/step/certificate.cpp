@@ -13,19 +13,30 @@
 namespace eigentrail {
 namespace {
 
-constexpr int max_depth = 6;  ///< a step is halved up to this often
-/// Where the tube is only too long its bound falls with its length; where modes meet it does not.
+/// A step is halved up to this often. More halvings certify longer steps at a higher cost; a shorter step, or
+/// a block, is usually cheaper.
+constexpr int max_depth = 6;
+/// Halving is given up if Z1 >= 1 and Z1 of a half exceeds this share of Z1 of the whole piece. Z1 decreases
+/// about with the length of a piece that is merely too long, and does not where eigenvalues coincide. A
+/// larger value tries more hopeless halvings, a smaller one gives up on pieces that could be certified.
 constexpr double falling = 0.75;
-constexpr int power_iterations = 4;       ///< of a norm estimate, which approaches from below:
-constexpr int further_iterations = 2;     ///< from the direction that another sample found
-constexpr double norm_safety = 1.2;       ///< factor on it
-constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
-constexpr std::size_t most_samples = 64;  ///< that are kept: large pencils must not fill the memory
+/// Power iterations of a norm estimate. Estimates are too small and grow with the iterations; norm_safety
+/// makes up for the rest.
+constexpr int power_iterations = 4;
+constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
+/// Factor on a norm estimate. With a larger value fewer steps are certified, with a smaller one the bounds
+/// may be too small and the evidence weaker.
+constexpr double norm_safety = 1.2;
+/// Factor on Z2, which is evaluated at the middle of a piece only and may be larger beside it.
+constexpr double curvature_safety = 1.5;
+/// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
+constexpr std::size_t most_samples = 64;
 
-/// Unknowns up to which one matrix takes less time than the systems that it falls apart into.
+/// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
+/// size n + k. Affects only the time.
 constexpr Eigen::Index largest_matrix = 80;
 
-/// B = J^-1 of a pair, in the unknowns (vec Z, vec Lambda / scale), from J as one matrix.
+/// B = J^-1 of a pair, in the unknowns (vec Z, vec Lambda / scale), by an LU of J as one matrix.
 class WholeInverse {
  public:
   WholeInverse(const PairAtPlace& at, const ComplexMatrix& W, double scale)
@@ -50,7 +61,7 @@ class WholeInverse {
   ComplexLu lu_;
 };
 
-/// The same from one system of size n + k per column of the pair's Schur form.
+/// The same by one LU of size n + k per column of the pair's Schur form.
 class TriangularInverse {
  public:
   TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
@@ -58,7 +69,7 @@ class TriangularInverse {
 
   void apply(ComplexVector& v) const {
     factors_.solve_in_place(v);
-    v.tail(at_.Lambda.size()) *= 1.0 / scale_;  // a division of complex numbers underflows
+    v.tail(at_.Lambda.size()) *= 1.0 / scale_;  // the division of complex numbers might underflow
   }
   void apply_adjoint(ComplexVector& v) const {
     v.tail(at_.Lambda.size()) *= 1.0 / scale_;
@@ -75,7 +86,7 @@ class TriangularInverse {
   PairFactorization factors_;
 };
 
-/// One block on one step.
+/// The certificate of one track on one step.
 class Tube {
  public:
   Tube(const StepPencil& pencil, const Track& left, const Track& right, double gap, RunCounts& counts)
@@ -96,7 +107,7 @@ class Tube {
   bool closes() { return closes(0.0, 1.0, 0, INFINITY); }
 
  private:
-  /// The pair and the pencil at one place.
+  /// The interpolated pair and pencil at one value of t.
   struct State {
     State(std::shared_ptr<const StepPencil::Sample> at, Chart chart, Eigen::Index n, Eigen::Index k)
         : sample(std::move(at)),
@@ -123,6 +134,7 @@ class Tube {
     return state;
   }
 
+  /// F(U): the residual of the pair's equation (n k), then that of the normalization (k^2).
   ComplexVector residual(const State& s) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
@@ -134,7 +146,8 @@ class Tube {
     return F;
   }
 
-  /// `last` is the bound Z1 of the piece that was halved.
+  /// Whether the tube closes between `begin` and `end`, after halvings where needed. `last` is Z1 of the
+  /// piece that was halved into this one and another.
   bool closes(double begin, double end, int depth, double last) {
     const double middle = 0.5 * (begin + end);
     double Z1 = 0.0;
@@ -143,15 +156,17 @@ class Tube {
     return closes(begin, middle, depth + 1, Z1) && closes(middle, end, depth + 1, Z1);
   }
 
+  /// A sample point of a piece.
   struct PlaceOnPiece {
     double t;
-    int iterations;  ///< of the norm estimate there
+    int iterations;  ///< power iterations of the norm estimate there
   };
 
+  /// The same without halving. Sets Z1.
   bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
     const double size = std::max(centre.Lambda.norm(), 1e-300);
-    const double scale = std::clamp(0.5 * gap_, 1e-6 * size, 2.0 * size);
+    const double scale = std::clamp(0.5 * gap_, least_scale * size, largest_scale * size);
     const auto samples = samples_of(begin, middle, end);
     if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       ++counts_.certificate_factorizations;
@@ -161,6 +176,8 @@ class Tube {
     return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), samples, Z1);
   }
 
+  /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
+  /// Y + Z1 r + Z2 r^2/2 <= r.
   template <class Inverse>
   bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
                     double& Z1) const {
@@ -182,7 +199,8 @@ class Tube {
     return room * room > 2.0 * Z2 * Y;
   }
 
-  /// The ends differ most from the middle; the direction that grows most is about the same everywhere.
+  /// The ends come first, because they differ most from the middle. The direction that the operator magnifies
+  /// most is about the same at all samples, so the later ones need fewer power iterations.
   static std::array<PlaceOnPiece, 4> samples_of(double begin, double middle, double end) {
     return {{{begin, power_iterations},
              {end, further_iterations},
@@ -190,14 +208,15 @@ class Tube {
              {0.5 * (middle + end), further_iterations}}};
   }
 
+  /// |B F|.
   template <class Inverse>
   static double size_of_solved(const Inverse& B, ComplexVector F) {
     B.apply(F);
     return F.norm();
   }
 
-  /// Bound of |B F''|: F'' is bilinear in the changes of Z and of Lambda, with coefficients of the size
-  /// below.
+  /// Bound of |B F''|. F'' is bilinear in the changes of Z and Lambda; `equations` and `normalization` bound
+  /// its coefficients in both parts of F.
   template <class Inverse>
   double curvature(const State& s, const Inverse& B) const {
     const double mu = s.Lambda.norm();
@@ -221,14 +240,15 @@ class Tube {
     ComplexVector adjoint_times(const ComplexVector& v) const { return times(v); }
   };
 
-  /// Without symmetry.
+  /// Start of a power iteration: a vector without symmetry, so that it is not orthogonal to the wanted one.
   static ComplexVector start_vector(Eigen::Index size) {
     ComplexVector v(size);
     for (Eigen::Index i = 0; i < size; ++i) v[i] = {1.0, std::sin(1.0 + 2.3 * static_cast<double>(i))};
     return v;
   }
 
-  /// |B A| by power iteration from a direction v, which it improves.
+  /// Estimate of |B A|, times norm_safety, by power iteration from the direction v, which is overwritten with
+  /// the last one.
   template <class Inverse, class Operator>
   static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, ComplexVector& v) {
     double norm = 0.0;
@@ -259,7 +279,7 @@ class Tube {
 
 namespace {
 
-/// G^T B G up to h^order as `project` has it, by BLAS.
+/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS.
 MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order) {
   const auto count = static_cast<std::size_t>(order) + 1;
   const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
@@ -279,7 +299,8 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
     count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
   }
   if (left.basis.is_identity) return;
-  // T_left(h) = T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space in the left chart.
+  // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
+  // coordinates of the left point.
   MatrixSeries overlap;
   for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
   if (overlap.size() > 1)

@@ -6,7 +6,9 @@
 namespace eigentrail {
 namespace {
 
-/// Terms that fall more slowly than this are taken to fall like this.
+/// Largest ratio of successive terms that the error estimate uses; larger ratios are replaced by it. The sum
+/// of the terms after the last one is at most 4 times the last one then. A larger value makes estimates
+/// larger where the terms hardly decrease.
 constexpr double slowest_decay = 0.8;
 
 }  // namespace
@@ -16,14 +18,14 @@ HermiteInterpolant::HermiteInterpolant(double length, const ComplexMatrix& left,
       right_value_(left.rows(), left.cols()),
       slope_(left.rows(), left.cols()) {
   const Eigen::Index nodes = left.cols();  // at each end
-  // Coefficients in the unit of t: column k times length^k.
+  // Coefficients with respect to t: coefficient k times length^k.
   ComplexMatrix table(left.rows(), nodes + 1);  // F(i, j) in column j, row by row in i
   double power = 1.0;
   for (Eigen::Index j = 1; j <= nodes; ++j, power *= length) table.col(j) = right.col(j - 1) * power;
   right_value_.col(0) = table.col(1);
   power = 1.0;
   for (Eigen::Index i = 1; i <= nodes; ++i, power *= length) {
-    // F(i, j) = F(i-1, j) - F(i, j-1), the ends lying 1 apart in t.
+    // F(i, j) = F(i-1, j) - F(i, j-1), because the ends are 1 apart in t.
     table.col(0) = left.col(i - 1) * power;
     for (Eigen::Index j = 1; j <= nodes; ++j) table.col(j) -= table.col(j - 1);
     left_value_.col(i - 1) = table.col(i - 1);
@@ -37,7 +39,7 @@ ComplexVector HermiteInterpolant::evaluate(Scalar t) const {
   const bool left = std::real(t) <= 0.5;
   const ComplexMatrix& values = near_values(left);
   const Scalar u = left ? t : 1.0 - t;
-  const Scalar along = left ? u : -u;  // the slopes change their sign
+  const Scalar along = left ? u : -u;  // seen from the right end the slopes have the opposite sign
   const Scalar bubble = u * (u - 1.0);
   ComplexVector value = ComplexVector::Zero(size());
   for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k)
@@ -73,7 +75,8 @@ ComplexMatrix HermiteInterpolant::series(double t0, int order) const {
   const ComplexMatrix& values = near_values(left);
   const double u = left ? t0 : 1.0 - t0;
   const double du = left ? 1.0 : -1.0;
-  // (u + du x) (u + du x - 1) and u + du x as polynomials in x multiply the Horner scheme of `operator()`.
+  // The Horner scheme of `operator()` with polynomials in x = t - t0: `bubble` holds the coefficients of
+  // (u + du x) (u + du x - 1), the factor between successive terms.
   const double bubble[] = {u * (u - 1.0), du * (2.0 * u - 1.0), 1.0};
   ComplexMatrix value = ComplexMatrix::Zero(size(), order + 1);
   for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k) {

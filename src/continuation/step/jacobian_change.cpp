@@ -5,14 +5,16 @@
 namespace eigentrail {
 namespace {
 
+/// M Z Lambda + C Z.
 ComplexMatrix slope_of(const PairAtPlace& place, const ComplexMatrix& MZ) {
   return MZ.lazyProduct(place.Lambda) + multiply(place.pencil.C, place.Z);
 }
 
 }  // namespace
 
-/// Block (i, j) of size n x n belongs to columns i of the residual and j of Z: it is Lambda^2(j, i) M +
-/// Lambda(j, i) C, and K where i is j; the others likewise.
+/// The n x n block (i, j) maps column j of Z to column i of the residual. It is (Lambda^2)(j, i) M +
+/// Lambda(j, i) C, plus K for i = j. The blocks of Lambda and of the normalization are arranged in the same
+/// way.
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale) {
   const auto& [pencil, Z, Lambda] = at;
   const Eigen::Index n = Z.rows();
@@ -99,7 +101,7 @@ ComplexVector JacobianChange::times(const ComplexVector& v) const {
   ComplexMatrix R =
       MZ_to_.lazyProduct(Y * to_.Lambda) - MZ_from_.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
   ComplexMatrix N = ComplexMatrix::Zero(k, k);
-  if (k == 1) {  // W1 = 0
+  if (k == 1) {  // a block of one has W1 = 0, so N = 0
     R += product(P_, ComplexVector(X));
   } else {
     const ComplexMatrix BX = multiply(B_, X);

@@ -1,4 +1,4 @@
-// The linearized equations of an invariant pair at one place of a step less those at another.
+// The Jacobian of the equations of an invariant pair, and its change from one place of a step to another.
 #pragma once
 
 #include <vector>
@@ -7,22 +7,31 @@
 
 namespace eigentrail {
 
-/// A pair, not necessarily an exact one, and the pencil at its place.
+/// Limits of `scale` in the unknowns (vec Z, vec Lambda / scale), relative to the size of Lambda. The scale
+/// is about half the distance to the nearest other eigenvalue: changes of Lambda by one and of Z by one are
+/// then about equally large relative to what separates the pair from others. The limits keep the equations
+/// well-conditioned where that distance is nearly zero or very large. They affect the strength of the bounds
+/// of the certificate, not their validity.
+constexpr double least_scale = 1e-6;
+constexpr double largest_scale = 2.0;
+
+/// A pair (Z, Lambda), in general not an exact solution, and the pencil at its place.
 struct PairAtPlace {
   const PencilAtPoint& pencil;
   const ComplexMatrix& Z;       ///< n x k
   const ComplexMatrix& Lambda;  ///< k x k
 };
 
-/// J, the linear map of (vec Z, vec Lambda / scale), n k + k^2 entries, as a matrix; W = [W0; W1] is 2n x k.
+/// The Jacobian J of the pair's equations and of its normalization, as a matrix of size n k + k^2 that maps
+/// (vec Z, vec Lambda / scale). W = [W0; W1] is 2n x k.
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale);
 
-/// J(to) - J(from), a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Refers to all it is
-/// given. That of a single mode is held as a matrix, that of a block as a sum of products: as a matrix it
-/// would have k^2 times the pencil's entries.
+/// J(to) - J(from) as a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Keeps references to its
+/// arguments. For a single mode the change is stored as a matrix, for a block as a sum of products, because
+/// the matrix would have k^2 times the entries of the pencil.
 class JacobianChange {
  public:
-  /// W1 (n x k) are the lower rows of the normalization.
+  /// W1 (n x k) is the lower half of the normalization W.
   JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1, double scale);
 
   ComplexVector times(const ComplexVector& v) const;
@@ -37,9 +46,9 @@ class JacobianChange {
   double scale_;
   ComplexMatrix MZ_from_, MZ_to_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
-  ComplexMatrix P_;                   ///< of a single mode: the pencil's change
-  /// Of a block, X -> the sum of B_i X L_i: all B_i one below the other, for one product takes less time than
-  /// several small ones; and the L_i.
+  ComplexMatrix P_;                   ///< for a single mode: the change of s^2 M + s C + K
+  /// For a block, the change is X -> sum of B_i X L_i. The B_i are stacked in one matrix, because one product
+  /// takes less time than several small ones.
   Matrix B_;
   std::vector<ComplexMatrix> L_;
 };

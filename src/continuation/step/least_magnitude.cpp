@@ -11,10 +11,14 @@
 namespace eigentrail {
 namespace {
 
+/// Intervals between the first samples. The functions are polynomials of degree 11 at most and usually much
+/// smoother. More samples find narrower minima and cost time at every step.
 constexpr std::size_t intervals = 8;
-constexpr double accuracy = 1e-5;  ///< of the step
+/// Accuracy of the place, as a share of the step. Beside a simple zero an eigenvalue is then at most 1e-5 of
+/// its change over the step, small enough to show a large relative error.
+constexpr double accuracy = 1e-5;
 
-/// Magnitude of the product of the eigenvalues: it vanishes where one of them does.
+/// Magnitude of the product of the eigenvalues of a block at t: it vanishes where one of them does.
 class Magnitude {
  public:
   explicit Magnitude(const ComplexMatrix& functions) : functions_(functions), value_(functions.rows()) {}
@@ -37,7 +41,7 @@ struct Place {
   double t = 0.0, magnitude = std::numeric_limits<double>::infinity();
 };
 
-/// Downhill from a place, with steps that halve.
+/// Local search for a minimum from a place: tries both sides, and halves the distance.
 Place refine(Magnitude& magnitude, Place best) {
   for (double reach = 0.5 / intervals; reach > accuracy; reach *= 0.5) {
     for (const double t : {std::max(best.t - reach, 0.0), std::min(best.t + reach, 1.0)}) {

@@ -4,18 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/step/jacobian_change.hpp"
 #include "continuation/step/shared_basis.hpp"
 #include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr int max_depth = 3;              ///< a step is halved up to this often
-constexpr double falling = 0.75;          ///< Z1 of a half / Z1 of the whole where halving helps
-constexpr double curvature_safety = 1.5;  ///< the curvature is taken at the middle of a piece
-constexpr std::size_t few = 3;            ///< modes: so many are left to their own tubes
+/// A step is halved up to this often. Modes that fail then are tested one by one, which halves up to 6 times.
+constexpr int max_depth = 3;
+/// As in certificate.cpp: halving is given up for a mode whose Z1 >= 1 does not decrease to this share.
+constexpr double falling = 0.75;
+/// As in certificate.cpp: factor on Z2, which is evaluated at the middle of a piece only.
+constexpr double curvature_safety = 1.5;
+/// If only this many modes are left uncertified, they are tested one by one: that costs less than another
+/// basis for all. Affects only the time.
+constexpr std::size_t few = 3;
 
-/// Columns of all tracks side by side.
+/// Writes a matrix of one track into the columns of that track.
 void append(const ComplexMatrix& block, const PairSet::Place& place, ComplexMatrix& blocks) {
   blocks.block(0, place.first, block.rows(), block.cols()) = block;
 }
@@ -30,6 +36,7 @@ bool is_basis(const PathNode& node) {
   return columns == 2 * node.pencil.size();
 }
 
+/// The certificates of all tracks on one step.
 class ModalTube {
  public:
   ModalTube(const StepPencil& pencil, const PathNode& right, RunCounts& counts)
@@ -59,6 +66,7 @@ class ModalTube {
     }
   }
 
+  /// Per track, whether its tube closes; blocks of more than one are not tested.
   std::vector<bool> closes() {
     std::vector<bool> wanted(places_.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = places_[i].size == 1;
@@ -68,6 +76,7 @@ class ModalTube {
   }
 
  private:
+  /// The interpolated pairs at a sample.
   PairSet at(const StepPencil::Sample& sample) const {
     PairSet set{places_,
                 ComplexMatrix::Zero(Z_[0].rows(), Z_[0].cols()),
@@ -81,7 +90,8 @@ class ModalTube {
     return set;
   }
 
-  /// Takes out of `closed` those of `wanted` whose tube does not close on a piece.
+  /// Tests the tracks in `wanted` between `begin` and `end`, with halvings, and sets `closed` to false for
+  /// those whose tube does not close. `last` holds Z1 of the piece that was halved into this one and another.
   void close(double begin, double end, int depth, const std::vector<bool>& wanted,
              const std::vector<double>& last, std::vector<bool>& closed) {
     const double middle = 0.5 * (begin + end);
@@ -103,6 +113,7 @@ class ModalTube {
     close(middle, end, depth + 1, open, Z1, closed);
   }
 
+  /// Per track, whether its tube closes on one piece, without halving. Sets Z1.
   std::vector<bool> piece(double begin, double middle, double end, std::vector<double>& Z1) {
     std::vector<bool> result(places_.size(), false);
     const Sampled centre = sampled_at(middle, nullptr);
@@ -128,8 +139,8 @@ class ModalTube {
     return result;
   }
 
-  /// |s_b - s_a| of every column b from every row a; infinite where a is b. Of a block, 1 / |(Lambda_a -
-  /// s_b)^-1|.
+  /// Distances |s_b - s_a| of the single mode in column b from the mode in row a; infinite for a = b. If a
+  /// belongs to a block, 1 / |(Lambda_a - s_b I)^-1|.
   Matrix distances(const ModalBasis& basis, const PairSet& set) const {
     Matrix d = Matrix::Constant(basis.size(), set.Z.cols(), INFINITY);
     for (const PairSet::Place& b : places_) {
@@ -155,26 +166,27 @@ class ModalTube {
     return d;
   }
 
-  /// Balances eigenvalue and vector in the norm of a mode's unknowns.
+  /// `scale` of the unknowns (vec Z, s / scale) of a mode, about half the distance to the nearest other one.
   static double scale(const Matrix& weights, const PairSet& set, Eigen::Index b) {
     const double size = std::max(std::abs(set.Lambda(0, b)), 1e-300);
-    return std::clamp(0.5 / weights.col(b).maxCoeff(), 1e-6 * size, 2.0 * size);
+    return std::clamp(0.5 / weights.col(b).maxCoeff(), least_scale * size, largest_scale * size);
   }
 
-  /// A place of a piece, with the pairs interpolated there.
+  /// The interpolated pencil and pairs at a sample point.
   struct Sampled {
     std::shared_ptr<const StepPencil::Sample> sample;
     PairSet set;
-    Matrix from_mass;  ///< M of the middle times M^-1 here; empty where M is the same
+    Matrix from_mass;  ///< M at the middle times M^-1 at this point; empty if M is constant
   };
 
+  /// The sample at t. `middle` is the one at the middle of the piece; null for that one itself.
   Sampled sampled_at(double t, const StepPencil::Sample* middle) const {
     const auto sample = pencil_.at(t);
     if (middle == nullptr || pencil_.has_constant_mass()) return {sample, at(*sample), Matrix()};
     return {sample, at(*sample), middle->at.M * sample->at.M.partialPivLu().inverse()};
   }
 
-  /// Residuals of pairs at a place, in modal coordinates of the companion form.
+  /// Residuals of pairs with the pencil at a sample point, in modal coordinates of the companion form.
   static ComplexMatrix modal_residual(const ModalBasis& basis, const Sampled& place, const PairSet& set) {
     const PencilAtPoint& pencil = place.sample->at;
     const ComplexMatrix R = residual(pencil.M, pencil.C, pencil.K, set);
@@ -194,19 +206,20 @@ class ModalTube {
     return Y;
   }
 
-  /// Z1 of every mode: the Jacobian at a sample differs from that at the middle by E there, by the shift of
-  /// the eigenvalue, and by the turn of the vector.
+  /// Z1 of every mode. The Jacobian at a sample differs from that at the middle by E(t), by the change of the
+  /// eigenvalue, and by the change of the vector.
   Vector change(const ModalBasis& basis, const Sampled& there, const PairSet& set,
                 const Matrix& weights) const {
     const PairSet& moved = there.set;
-    const ComplexMatrix E = modal_residual(basis, there, set);  // -E(t), own columns
+    // -E(t), without the columns of the conjugates.
+    const ComplexMatrix E = modal_residual(basis, there, set);
     const Eigen::Index columns = E.cols();
     const Vector own = E.rowwise().squaredNorm();
-    Vector paired = Vector::Zero(E.rows());  // over the columns that have conjugates
+    Vector paired = Vector::Zero(E.rows());  // the same over the columns that have conjugates
     for (Eigen::Index c = 0; c < columns; ++c) {
       if (basis.conjugate_row(c) >= 0) paired += E.col(c).cwiseAbs2();
     }
-    // The row of a conjugate has the conjugate columns' entries of the row itself.
+    // In a row, the columns of the conjugates hold the conjugates of the entries in the conjugate row.
     Vector rows = own + paired;
     ComplexVector diagonal(E.rows());
     for (Eigen::Index c = 0; c < columns; ++c) {
@@ -236,7 +249,7 @@ class ModalTube {
   const StepPencil& pencil_;
   RunCounts& counts_;
   std::vector<PairSet::Place> places_;
-  std::vector<ComplexMatrix> Z_, Lambda_;  ///< coefficients at both ends, left, then right
+  std::vector<ComplexMatrix> Z_, Lambda_;  ///< series of all tracks: at the left end, then at the right end
 };
 
 }  // namespace

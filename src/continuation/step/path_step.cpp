@@ -15,17 +15,31 @@
 namespace eigentrail {
 namespace {
 
-/// The difference of two roots may change by this share of itself, or it is looked at more closely.
+/// Roots are followed over a piece of a step if no difference of two of them changes by more than this share
+/// of its smallest value there; else the piece is halved. Below one, a difference cannot turn round within a
+/// piece. A larger value may exchange roots unnoticed, a smaller one needs more pieces.
 constexpr double largest_change = 0.5;
-constexpr double smallest_piece = 1e-14;  ///< of a step
-/// Eigenvalues that coincide throughout cannot be told apart; after this many pieces nobody tries any longer.
+/// Shortest piece, as a share of the step: rounding of t. Differences that still change by more at this
+/// length count as indistinguishable.
+constexpr double smallest_piece = 1e-14;
+/// Roots that coincide everywhere cannot be distinguished by shorter pieces. After this many pieces the
+/// shortest one is longer, so that following them ends. Narrow veerings need some fifty pieces.
 constexpr int patience = 300;
-constexpr double piece_without_patience = 1e-2;
+constexpr double piece_without_patience = 1e-2;  ///< shortest piece then, as a share of the step
+/// Largest |Im t| of a root of dp/dt that counts as real. Two turning points that nearly coincide are
+/// computed as a conjugate pair with imaginary parts up to the square root of rounding, 1e-8. A root too many
+/// does no harm: p is monotonic on both sides of it.
+constexpr double real_turning_point = 1e-7;
+/// Positions with the same p on one step closer than this many square roots of epsilon are one: rounding
+/// splits the single position at a fold into two.
+constexpr double same_position = 4.0;
 
+/// The member of a conjugate pair with Im s >= 0.
 Complex upper_member(Complex s) {
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
 
+/// Roots of a block in the order of its modes, whose eigenvalues `at_end` are known at the same place.
 ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& block,
                                const ComplexVector& at_end) {
   const Eigen::Index k = roots.size();
@@ -43,8 +57,8 @@ ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& blo
   return ordered;
 }
 
-/// Roots of `to` in the order of `from`, a short piece before: their differences keep their directions,
-/// however far all of them move together.
+/// Roots of `to` in the order of `from`, the roots a short piece before. A motion of the mean is subtracted
+/// first. Then two roots are exchanged if their difference is small and has turned by more than 90 degrees.
 ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
   const Complex drift = to.mean() - from.mean();
   ComplexVector roots = in_order_of(from.array() + drift, to);
@@ -59,17 +73,20 @@ ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
   return roots;
 }
 
-/// Differences of roots on their way from one end of a piece over its middle to the other.
+/// Checks whether roots can be distinguished on a piece of a step. `sets` are the roots at its begin, its
+/// middle and its end.
 class Differences {
  public:
-  /// Roots closer than `resolution` all along are one.
+  /// `roots` are those at the begin of the first piece. Roots that stay closer than `resolution` are one
+  /// root.
   Differences(const ComplexVector& roots, double resolution)
       : scale_(coinciding * roots.cwiseAbs().maxCoeff()),
         resolution_(std::max(scale_, resolution)),
         start_(roots),
         unclear_(static_cast<std::size_t>(roots.size() * roots.size()), false) {}
 
-  /// Whether none changes by more than a part of itself. Those that vanish all along do not count.
+  /// Whether no difference of two roots changes by more than `largest_change`. Differences below the
+  /// resolution at all three places are ignored.
   bool are_resolved(const std::array<const ComplexVector*, 3>& sets) const {
     return all_pairs([&](Eigen::Index i, Eigen::Index j) {
       const auto vanishes = [&](const ComplexVector* roots) {
@@ -79,7 +96,7 @@ class Differences {
     });
   }
 
-  /// The piece is taken as it is.
+  /// Records the pairs of roots that could not be distinguished on a piece that is not halved further.
   void accept(const std::array<const ComplexVector*, 3>& sets) {
     all_pairs([&](Eigen::Index i, Eigen::Index j) {
       if (change(sets, i, j) > 1.0) unclear_[at(i, j)] = true;
@@ -87,7 +104,7 @@ class Differences {
     });
   }
 
-  /// Whether no two that are distinct at both ends were unclear on the way.
+  /// Whether all pairs of roots that are distinct at the begin and at `end` could be distinguished between.
   bool were_told_apart(const ComplexVector& end) const {
     return all_pairs([&](Eigen::Index i, Eigen::Index j) {
       return !(unclear_[at(i, j)] && std::abs(start_[i] - start_[j]) > scale_ &&
@@ -96,6 +113,9 @@ class Differences {
   }
 
  private:
+  /// Distance relative to the largest root up to which two roots coincide: rounding with a margin. With a
+  /// larger value close roots count as one and are not certified apart, with a smaller one rounding separates
+  /// them.
   static constexpr double coinciding = 1e-12;
 
   std::size_t at(Eigen::Index i, Eigen::Index j) const {
@@ -110,7 +130,7 @@ class Differences {
     }
     return true;
   }
-  /// Largest change of a difference in units of what is allowed.
+  /// Largest change of a difference from one place to the next, in units of the allowed change.
   static double change(const std::array<const ComplexVector*, 3>& sets, Eigen::Index i, Eigen::Index j) {
     const auto difference = [&](std::size_t k) { return (*sets[k])[i] - (*sets[k])[j]; };
     const Complex first = difference(0);
@@ -127,8 +147,8 @@ class Differences {
   std::vector<bool> unclear_;
 };
 
-/// p(t) - p on a step, as seen from the nearer end: accurate relatively to the distance from the value there,
-/// so that positions beside a fold that a step begins or ends with are as accurate as that allows.
+/// The function p(t) - p on a step for a given p. It is evaluated as the change of p from the nearer end, so
+/// that it is accurate relative to that change. This matters beside a fold at the begin or end of a step.
 class Miss {
  public:
   Miss(const PathStep& step, double p)
@@ -143,12 +163,14 @@ class Miss {
   }
   double slope(double t) const { return (t <= 0.5 ? about_left_ : about_right_).slope(t)[0].real(); }
 
-  /// Ascending, between 0 and 1, and 1 itself: p is monotonic from 0 to the first, and from one to the next.
+  /// The places in (0, 1) with dp/dt = 0, ascending, followed by 1. p is monotonic between 0 and the first,
+  /// and between neighbouring ones.
   std::vector<double> turning_points() const {
     std::vector<double> points;
     const auto slope_at = [this](double t) { return Complex(slope(t)); };
     for (const Complex t : chebyshev_roots(chebyshev_coefficients(slope_at, degree_ - 1))) {
-      if (std::abs(t.imag()) <= 1e-7 && t.real() > 0.0 && t.real() < 1.0) points.push_back(t.real());
+      if (std::abs(t.imag()) <= real_turning_point && t.real() > 0.0 && t.real() < 1.0)
+        points.push_back(t.real());
     }
     points.push_back(1.0);
     std::sort(points.begin(), points.end());
@@ -167,12 +189,14 @@ class Miss {
   int degree_;
 };
 
-/// The root of a monotonic function: Newton's method, kept between the ends by halving.
+/// The root of a monotonic function between `from` and `to`, if there is one: Newton's method, replaced by
+/// bisection where it leaves the interval or its steps do not halve.
 std::optional<double> root_between(const Miss& miss, double from, double to) {
   const double at_from = miss(from);
   if (at_from == 0.0) return from;
   if (miss(to) == 0.0) return to;
   if (at_from * miss(to) > 0.0) return std::nullopt;
+  // Bisection alone reaches the resolution of a double within 60 steps or so; twice that is a safe limit.
   constexpr int most_steps = 120;
   double t = 0.5 * (from + to);
   double last_move = to - from;
@@ -190,7 +214,7 @@ std::optional<double> root_between(const Miss& miss, double from, double to) {
   return t;
 }
 
-/// follow_roots; `work` counts roots.
+/// follow_roots; adds the number of computed roots to `work`.
 ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
                        double to, bool& told_apart, std::size_t& work) {
   told_apart = true;
@@ -199,7 +223,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     told_apart = false;
     return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  // Blocks of two have none, and are looked at most often.
+  // root_resolution is zero for blocks of two, which are the most frequent ones.
   Differences differences(roots, functions.size() > 2 ? root_resolution(functions(from), roots) : 0.0);
   ComplexVector current = roots;
   double t = from;
@@ -207,8 +231,8 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
   for (int pieces = 0; t != to; ++pieces) {
     const double shortest = pieces < patience ? smallest_piece : piece_without_patience;
     if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
-    // Seen from its two ends alone a piece in which roots change places looks like one in which nothing
-    // happens; its middle tells.
+    // If two roots change places within a piece, its ends alone look as if nothing had happened. The middle
+    // shows it.
     const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
     const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
     work += 2 * static_cast<std::size_t>(roots.size());
@@ -263,7 +287,8 @@ ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_
     if (block.size() == 1) {
       roots = HermiteInterpolant(step.length, block.left, block.right)(t);
     } else {
-      // Followed from the end where the eigenvalues lie further apart: at a special point they do not tell.
+      // Followed from the end where the eigenvalues are farther apart: where they coincide, they do not
+      // determine the order.
       const ComplexVector left = block_roots(block.left.col(0));
       const ComplexVector right = block_roots(block.right.col(0));
       work += 2 * static_cast<std::size_t>(block.size());
@@ -294,8 +319,8 @@ std::vector<double> step_positions(const PathStep& step, double p) {
     return t >= 0.0 && t <= 1.0 ? std::vector<double>{t} : std::vector<double>{};
   }
   const Miss miss(step, p);
-  // Rounding splits the one point at the parameter of a fold into two, sqrt(epsilon) apart; ends stay exact.
-  const double apart = 4.0 * std::sqrt(std::numeric_limits<double>::epsilon());
+  // Of positions that are one, the end t = 1 is kept exactly.
+  const double apart = same_position * std::sqrt(std::numeric_limits<double>::epsilon());
   std::vector<double> positions;
   const auto add = [&](double t) {
     if (positions.empty() || t > positions.back() + apart) {

@@ -26,7 +26,7 @@ void fix_length(const ComplexVector& w, std::vector<ComplexMatrix>& Z) {
   }
 }
 
-/// Z S and S^-1 Lambda S with S = (W0^H Z + W1^H Z Lambda)^-1.
+/// Replaces (Z, Lambda) by (Z S, S^-1 Lambda S) with S = (W0^H Z + W1^H Z Lambda)^-1.
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda) {
   const std::size_t count = Z.size();
   const Eigen::Index n = Z[0].rows();

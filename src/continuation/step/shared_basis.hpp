@@ -1,4 +1,4 @@
-// A block at both ends of a step in one basis, so that its series can be interpolated between them.
+// Series of a block at both ends of a step in a common basis, so that they can be interpolated.
 #pragma once
 
 #include "eigentrail/continuation/dense_output.hpp"
@@ -7,20 +7,20 @@
 
 namespace eigentrail {
 
-/// Coordinates of a physical series in the tangent basis of a point.
+/// T^T V: coordinates of the series V, in physical coordinates, in the tangent basis T of a point.
 std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical);
 
-/// Fixes the basis of a block's series by W0^H Z + W1^H Z Lambda = I.
+/// Transforms the series of a block to the basis with W0^H Z + W1^H Z Lambda = I. W = [W0; W1] is 2n x k.
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda);
 
 /// The same for the series of a single vector: z / (w^H z).
 void fix_length(const ComplexVector& w, std::vector<ComplexMatrix>& Z);
 
-/// The functions of a track on the step between two points, with all coefficients of its series; without
-/// modes.
+/// The functions of a track on the step between two points, with all coefficients of its series; the list of
+/// modes is empty.
 DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_t track);
 
-/// The same as functions of t on the step of that length.
+/// The same as an interpolant on the step of that signed length.
 HermiteInterpolant functions_on_step(const PathNode& left, const PathNode& right, std::size_t track,
                                      double length);
 

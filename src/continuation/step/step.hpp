@@ -1,4 +1,4 @@
-// One step of the trace, as a value: two points, and what is known of the way between them.
+// One step of the trace (two neighbouring points), and the judgement whether it is accepted.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace eigentrail {
 
-/// A step from `left` to `right`, whose tracks are those of `left`, in the same order.
+/// A step from `left` to `right`. Both points have the same tracks in the same order.
 struct Step {
-  const PathNode* left = nullptr;  ///< the last point of the trace, which outlives the step
+  const PathNode* left = nullptr;  ///< the last point of the trace; must outlive the step
   PathNode right;
   double h = 0.0;                         ///< signed length, in the coordinate along the path
   std::vector<std::size_t> meeting = {};  ///< tracks whose eigenvalues meet on the right end
@@ -18,23 +18,23 @@ struct Step {
   double whole = 0.0;
 };
 
-/// Whether a step is taken, and if not, what stands against it.
+/// Whether a step is accepted, and if not, why.
 struct Verdict {
   enum class Kind {
     accepted,
     no_equilibrium,  ///< none was found, or one on another path
     mode_lost,       ///< the corrector did not converge, or a series is not finite
-    inaccurate,      ///< the error of the dense output is above the tolerance
-    mismatch,        ///< a mode has changed its shape too much (without certificate)
-    merged,          ///< two tracks arrived at one eigenpair
-    uncertified      ///< the certificate of identity does not close
+    inaccurate,      ///< the error of the dense output is above the accepted one
+    mismatch,        ///< the shape of a mode changed too much (only without certificate)
+    merged,          ///< two tracks converged to the same eigenpair
+    uncertified      ///< the certificate of a track failed
   };
 
   Kind kind = Kind::accepted;
-  int track = -1;      ///< the one to blame; -1: none in particular
-  double error = 0.0;  ///< estimated error / accepted error; infinite where it is not known
+  int track = -1;      ///< index of the track that is the reason; -1: none in particular
+  double error = 0.0;  ///< estimated error / accepted error; infinite if not known
   std::string reason = {};
-  std::vector<bool> certified = {};  ///< per track; empty: none is
+  std::vector<bool> certified = {};  ///< per track; empty: none
 
   bool accepted() const { return kind == Kind::accepted; }
 };

@@ -12,7 +12,8 @@
 namespace eigentrail {
 namespace {
 
-/// Distance of a track from the nearest other known eigenvalue of its chart.
+/// Distance of the eigenvalues of a track from the nearest other known eigenvalue in its chart, the
+/// conjugates of the track included.
 double gap_of(const PathNode& node, std::size_t index) {
   const Track& track = node.tracks[index];
   double gap = INFINITY;
@@ -36,8 +37,8 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
   const StepPencil pencil(left, step.right, step.h);
   std::vector<bool> certified(count, false);
   if (problem.route != ModeRoute::one_by_one) certified = certify_all(pencil, step.right, counts);
-  // With several threads, tracks behind the first open one may have been looked at in vain: neither their
-  // certificates nor their work count, so that results do not depend on the number of threads.
+  // With several threads, tracks behind the first one that fails may have been tested already. Their results
+  // and their work are dropped, so that nothing depends on the number of threads.
   std::vector<RunCounts> own(count);
   std::vector<char> closed(certified.begin(), certified.end());
   std::atomic<std::size_t> first_open{count};
@@ -48,7 +49,7 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
     for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {
     }
   };
-  // Blocks stand behind single modes and take longer: shared, they come first.
+  // Blocks are behind single modes and take longer. With several threads they are tested first.
   const int threads = is_worth_sharing(count, left.pencil.size()) ? problem.threads : 1;
   in_parallel(count, threads, [&](std::size_t i) { look(threads > 1 ? count - 1 - i : i); });
   for (std::size_t i = 0; i < count; ++i) {

@@ -6,10 +6,22 @@
 namespace eigentrail {
 namespace {
 
-constexpr double aim = 0.3;  ///< error / accepted error that a step aims at
+/// Error / accepted error that steps aim at. With a larger value more steps are rejected, with a smaller one
+/// steps are shorter than necessary.
+constexpr double aim = 0.3;
+/// Limits of the ratio of successive step lengths, against estimates that are far off. With wider limits one
+/// poor estimate costs a rejected or a very short step; with narrower ones the length adapts more slowly.
 constexpr double largest_growth = 2.5;
 constexpr double smallest_growth = 0.2;
-constexpr double least_error = 1e-10;  ///< smaller errors are treated as this
+/// A rejected step is shortened at least to this share. A value near one repeats almost the same step.
+constexpr double largest_share_of_rejected = 0.9;
+/// Share to which a step is shortened whose error is not known, because it failed altogether.
+constexpr double share_of_failed = 0.4;
+/// Errors below this are treated as this: they are rounding, and their ratios mean nothing.
+constexpr double least_error = 1e-10;
+/// A step may be longer by this factor to reach the end of the range: a very short last step is avoided.
+/// The error grows by 1.02^(2q+2), at most 22 %, which the distance between `aim` and one allows for.
+constexpr double stretch_to_end = 1.02;
 
 }  // namespace
 
@@ -21,7 +33,8 @@ StepControl::StepControl(int order, double first_step, double max_step, double m
 
 double StepControl::propose(double remaining) const {
   const double step = std::min(step_, max_step_);
-  if (remaining <= std::min(1.02 * step, max_step_)) return remaining;
+  if (remaining <= std::min(stretch_to_end * step, max_step_)) return remaining;
+  // Two equal steps instead of a full one and a short one.
   return remaining < 2.0 * step ? 0.5 * remaining : step;
 }
 
@@ -37,7 +50,7 @@ void StepControl::accept(double h, double error) {
   error = std::max(error, least_error);
   double factor = growth(error);
   if (last_step_ > 0.0) {
-    // Steps of the same length ratio again would meet an error that grew by the same factor again.
+    // The error grew faster than with the step length. The same growth is assumed for the next step.
     factor /= std::max(trend(h, error), 1.0);
   }
   if (rejected_) factor = std::min(factor, 1.0);
@@ -48,7 +61,8 @@ void StepControl::accept(double h, double error) {
 }
 
 void StepControl::reject(double h, double error) {
-  step_ = h * (std::isfinite(error) ? std::clamp(growth(error), smallest_growth, 0.9) : 0.4);
+  step_ = h * (std::isfinite(error) ? std::clamp(growth(error), smallest_growth, largest_share_of_rejected)
+                                    : share_of_failed);
   rejected_ = true;
 }
 

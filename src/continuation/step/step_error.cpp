@@ -10,24 +10,12 @@
 namespace eigentrail {
 namespace {
 
-/// Accepted error of p along the path, in units of tolerance times range. Near a fold eigenvalues vary like
-/// the root of the distance in p, so p must be known better than they are.
+/// Accepted error of p on a step, in units of tolerance times range, if the coordinate is the distance across
+/// a plane. Near a fold eigenvalues vary like the square root of the distance in p, so p must be more
+/// accurate than they are. A larger value loses accuracy near folds, a smaller one needs more steps there.
 constexpr double parameter_accuracy = 1e-5;
 
-/// Truncation errors of a part of an accurate step, relative to those of the whole. Where the part's are
-/// smaller by this factor it is accurate, even if the whole was estimated a million times too well. A larger
-/// estimate shows the rounding of two points that are close to each other, or a gap between eigenvalues that
-/// closes at the end of the part, and a shorter step would not lower it.
-constexpr double negligible_share = 1e-6;
-
-bool is_short_part(const PathProblem& problem, const Step& step) {
-  if (step.whole == 0.0) return false;
-  return std::pow(std::abs(step.h / step.whole), 2.0 * problem.order + 2.0) <= negligible_share;
-}
-
-/// In t: as far from an end of the step on which eigenvalues meet the error is looked at.
-constexpr double beside_meeting = 0.1;
-
+/// Estimated error of p on a step / accepted error.
 double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const auto row = [&](const PathNode& node) {
     return ComplexMatrix(node.path.parameters.row(frame.range.traced).cast<Complex>());
@@ -51,7 +39,7 @@ double track_error(const PathProblem& problem, double tolerance, const Step& ste
   double worst = 0.0;
   for (const double t : {begin, 0.5, end, smallest}) {
     const ComplexVector functions = dense(t);
-    // The smallest member has its error relative to itself.
+    // The error of the block is taken relative to its smallest eigenvalue.
     const double size = block_roots(functions).cwiseAbs().minCoeff();
     const double scale = std::max(size, problem.reference(track.pair.chart));
     const double error =

@@ -1,4 +1,4 @@
-// Estimated error of the dense output on a step, as a fraction of what is accepted.
+// Estimated error of the dense output on a step, divided by the accepted error.
 #pragma once
 
 #include "continuation/path/path_frame.hpp"
@@ -6,19 +6,23 @@
 
 namespace eigentrail {
 
-/// A step is accepted up to this share of the tolerance: the estimate is the first term that the dense output
-/// leaves out, or the last it has; the terms after it, which fall at least by half, add about as much again.
+/// Accepted error of a step, as a share of the tolerance. The estimate rests on the first term that the dense
+/// output leaves out and on the decrease of the last two terms; the rest of the tolerance is a margin for
+/// terms that decrease less. With a larger value errors may exceed the tolerance, with a smaller one steps
+/// are shorter than necessary.
 constexpr double accepted_share = 0.5;
 
-/// Within a block two eigenvalues count as no closer than this share of their size: where they meet, no error
-/// bound of single eigenvalues holds, and the functions of the block are what is accurate.
+/// In the error estimate, two eigenvalues of a block count as at least this share of their size apart. Where
+/// they coincide, the error of each is not bounded by the error of the block's functions, although these are
+/// accurate. A larger value accepts larger errors of close eigenvalues, a smaller one takes very short steps
+/// there.
 constexpr double least_relative_gap = 0.1;
 
-/// Of one track. Infinite where it is not finite.
+/// Error of one track; infinite if it cannot be computed.
 double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
 
-/// The worst of all tracks, and of the parameter where the coordinate is not the parameter itself: an
-/// accepted verdict up to an error of one. A short part of an accurate step is accurate.
+/// The largest error of all tracks, and of p where the coordinate is the distance across a plane. The verdict
+/// is `accepted` up to an error of one, else `inaccurate`.
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step);
 
 }  // namespace eigentrail

@@ -11,13 +11,17 @@
 namespace eigentrail {
 namespace {
 
-/// Newton's method may arrive on another path. Between two points of one path the terms of the interpolant of
-/// x fall; over a jump to another one they stay about as large as the jump. An estimated error of this share
-/// of the way between the points tells a jump.
+/// Newton's method for the equilibrium may converge to a point of another path. Between two points of one
+/// path the terms of the interpolant of x decrease; between points of different paths they stay about as
+/// large as the distance. If the estimated error of x exceeds this share of the distance between the points,
+/// the step is rejected. A larger value may miss a change of the path, a smaller one rejects steps on
+/// strongly curved paths.
 constexpr double jump_share = 0.1;
-/// Share of the largest position below which x does not move.
+/// Added to the accepted error of x, as a share of the largest position so far, so that rounding of an x that
+/// hardly moves is not taken for a jump.
 constexpr double no_motion = 1e-6;
 
+/// Whether the right point lies on the same path as the left one.
 Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Step& step) {
   if (problem.structure.fixed_equilibrium || problem.structure.known_equilibrium) return {};
   const VectorSeries& from = step.left->path.x;
@@ -31,7 +35,7 @@ Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Ste
   return {Verdict::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
 }
 
-/// Whether a single mode has arrived at an eigenpair of another track.
+/// Whether the single mode `a` has converged to an eigenpair of the track `b`.
 bool have_merged(const PathProblem& problem, const Track& a, const Track& b, const SystemMatrix& mass) {
   const IdentityThresholds& thresholds = problem.thresholds.identity;
   if (b.pair.chart != a.pair.chart) return false;
@@ -45,8 +49,8 @@ bool have_merged(const PathProblem& problem, const Track& a, const Track& b, con
   return false;
 }
 
-/// Modes may not arrive at the same eigenpair, and without a certificate their shapes must resemble those at
-/// the beginning of the step.
+/// Whether all tracks are at different eigenpairs and, without a certificate, the shapes of single modes
+/// resemble those at the begin of the step.
 Verdict check_identity(const PathProblem& problem, bool certify, const Step& step) {
   const SystemMatrix& mass = step.right.linearization.M[0];
   for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
@@ -92,7 +96,7 @@ Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOpt
       verdict.reason = "the certificate does not close";
     }
   }
-  // Why a step is refused for other reasons says nothing about its length.
+  // If the step is rejected for another reason, its error does not determine the next length.
   const bool is_known = verdict.accepted() || verdict.kind == Verdict::Kind::uncertified;
   verdict.error = is_known ? error : INFINITY;
   return verdict;

@@ -1,5 +1,5 @@
-// Whether a step is taken: its equilibrium lies on the path, its dense output is accurate, and its modes are
-// those that it began with.
+// Judgement whether a step is accepted: its equilibrium lies on the path, its dense output is accurate, and
+// its modes are the same at both ends.
 #pragma once
 
 #include "continuation/path/path_frame.hpp"
@@ -8,14 +8,16 @@
 
 namespace eigentrail {
 
-/// Steps shorter than this share of the range are taken without a certificate, and marked so: a certificate
-/// that does not close on so short a step will not close on any, as where two modes coincide.
+/// Steps up to this share of the range are accepted even if the certificate of a track fails, and the track
+/// is marked as uncertified there. If it fails on so short a step, it would fail on any, as where two modes
+/// coincide. With a larger value more steps stay uncertified, with a smaller one more attempts are needed
+/// before such a place is passed.
 constexpr double uncertified_share = 1e-6;
 
-/// Whether a step is so short that it is taken although its certificate does not close.
+/// Whether a step of length h is so short that it is accepted although a certificate fails.
 bool may_stay_uncertified(const PathFrame& frame, double h);
 
-/// Judges a step whose points are solved. An accepted verdict carries its error and the certified tracks.
+/// Judges a step whose points have been computed. An accepted verdict has the error and the certified tracks.
 Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOptions& options,
               const Step& step, RunCounts& counts);
 

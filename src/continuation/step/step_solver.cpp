@@ -11,11 +11,13 @@
 namespace eigentrail {
 namespace {
 
-/// A mode passes without correction where |Re s| and |s| are this many times what the error of its
-/// prediction, and the reference, come to: an event, which wants eigenvalues to their own digits, is then out
-/// of reach.
+/// A mode may be accepted without correction only far from events, because the search for events needs
+/// accurate eigenvalues: |Re s| must exceed this many times the error of its prediction, |s| this many times
+/// the reference. A larger value corrects more modes, with a smaller one events are located from less
+/// accurate series.
 constexpr double far_from_axis = 100.0;
-/// The same for meetings with other modes, in units of the distance at which blocks part.
+/// Likewise no meeting with another mode may be nearer than this many times the distance at which blocks are
+/// separated (parting_reach).
 constexpr double far_from_others = 2.0;
 
 }  // namespace
@@ -31,7 +33,7 @@ bool StepSolver::is_far_from_events(const ContinuedMode& mode, std::size_t track
 
 void StepSolver::continue_modes(double h, Prediction& prediction) const {
   const PathProblem& problem = solver_.problem();
-  // Where all modes are corrected at once none of them is spared.
+  // If all modes are corrected at once, skipping some of them saves nothing.
   if (problem.route != ModeRoute::one_by_one || solver_.frame().plane || origin_.last_step == 0.0) return;
   const std::size_t count = origin_.node.tracks.size();
   prediction.continued.resize(count);

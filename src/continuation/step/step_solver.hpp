@@ -1,5 +1,5 @@
-// The point at the end of a step: predicted from the last two points and from what earlier attempts at the
-// same step left, then solved.
+// Computation of the point at the end of a step. The prediction uses the last two points, and the tracks that
+// an earlier attempt at the same step has computed already.
 #pragma once
 
 #include "continuation/point/point_solver.hpp"
@@ -7,37 +7,40 @@
 
 namespace eigentrail {
 
-/// Where the next step begins. All of it is saved with a trace.
+/// The begin of the next step, with data of earlier ones. All members are saved with the state of a trace.
 struct StepOrigin {
   PathNode node;                       ///< the last accepted point
-  PathNode previous = {};              ///< the one before it
-  double last_step = 0.0;              ///< between the two; 0: there is none in the present coordinate
-  std::optional<PathNode> tried = {};  ///< what an attempt with other blocks found ...
-  double tried_step = 0.0;             ///< ... at this distance
-  std::uint64_t lineages = 0;          ///< numbers given to tracks so far
+  PathNode previous = {};              ///< the point before it
+  double last_step = 0.0;              ///< signed length between the two; 0: none in the present coordinate
+  std::optional<PathNode> tried = {};  ///< the point that an attempt with other blocks computed ...
+  double tried_step = 0.0;             ///< ... at this signed distance from `node`
+  std::uint64_t lineages = 0;          ///< largest number given to a track so far
 };
 
-/// A step that was computed, or why there is none.
+/// A computed step, or the reason why there is none.
 struct AttemptedStep {
   std::optional<Step> step;
-  Verdict verdict;  ///< accepted when there is a step; it has not been judged yet
+  Verdict verdict;  ///< accepted if there is a step; the step has not been judged yet
 };
 
+/// Computes steps from an origin.
 class StepSolver {
  public:
-  /// Refers to all of its arguments. `parting_reach` as in regrouping.hpp.
+  /// Keeps references to solver and origin. `parting_reach` as in trace_state.hpp.
   StepSolver(const PointSolver& solver, StepOrigin& origin, double parting_reach)
       : solver_(solver), origin_(origin), parting_reach_(parting_reach) {}
 
-  /// The step of length h from the origin, its eigenvalues ordered by mode.
+  /// The step of signed length h from the origin, with the eigenvalues of its blocks in the order of the
+  /// modes.
   AttemptedStep attempt(double h);
 
   const PointSolver& points() const { return solver_; }
 
  private:
   Prediction predict(double h);
-  /// Modes whose dense output of the last step goes on well enough may pass without correction.
+  /// Adds the extrapolation of the last step's dense output as a second prediction of single modes.
   void continue_modes(double h, Prediction& prediction) const;
+  /// Whether a mode may be accepted without correction.
   bool is_far_from_events(const ContinuedMode& mode, std::size_t track, double h) const;
 
   const PointSolver& solver_;

@@ -7,12 +7,15 @@
 namespace eigentrail {
 namespace {
 
-/// Eigenvalues closer than this, relatively, cannot be told apart in a defective block: the root of rounding.
+/// Largest distance, relative to the largest eigenvalue of the block, at which two eigenvalues count as
+/// equal: the square root of rounding, the accuracy in a defective block. With a larger value a block may be
+/// marked certified although the stored output exchanges close modes, with a smaller one rounding prevents
+/// the mark.
 constexpr double same = 1e-8;
 
-/// Whether the dense output leads from the modes at one end to those at the other, in both directions. The
-/// order of the modes comes from series with one coefficient more; where the tolerance is wider than a
-/// veering, the dense output may go another way.
+/// Whether the modes followed on the stored dense output from one end arrive at the modes of the other end,
+/// in both directions. The trace has ordered the modes with one more coefficient of the series. If the
+/// tolerance is wider than a veering, the stored output may exchange its modes.
 bool keeps_order(const DenseBlock& block, double h, const Track& left, const Track& right) {
   if (left.size() == 1 || right.departure) return true;
   double from = 0.0;

@@ -10,18 +10,22 @@
 namespace eigentrail {
 namespace {
 
-/// Below this share of what its terms add up to, y* P'(s) z counts as zero: a defective eigenvalue. Below
-/// this share of the largest one, the second smallest singular value does: a semisimple one, whose vectors
-/// are any of a plane. The root of rounding, to which a double eigenvalue is known.
+/// Relative size below which a quantity counts as zero, so that an eigenvalue s of P(s) = s^2 M + s C + K is
+/// multiple and has no derivative:
+///  - y* P'(s) z relative to |P'(s)|, with unit eigenvectors z and y: s is defective;
+///  - the second smallest singular value of P(s) relative to the largest one: s is semisimple, and its
+///    eigenvectors are not unique.
+/// It is the square root of rounding, the accuracy of a double eigenvalue. With a larger value close but
+/// different eigenvalues get no derivative, with a smaller one the derivative may be dominated by rounding.
 constexpr double multiple = 1e-8;
 
-/// A mode with both its vectors, and P'(s).
+/// An eigenvalue with its right and left eigenvector.
 struct ModeVectors {
   Complex s;
   ComplexVector right, left;
   Complex denominator;  ///< y* P'(s) z
-  double magnitude;     ///< what it is measured by
-  bool is_simple;       ///< P(s) has one vector in its kernel
+  double magnitude;     ///< |P'(s)| (Frobenius), the scale of the denominator
+  bool is_simple;       ///< the kernel of P(s) has one dimension
 };
 
 ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
@@ -36,6 +40,8 @@ ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   return {s, z, y, y.dot(derivative * z), derivative.norm(), is_simple};
 }
 
+/// ds/de = -y* (s^2 M_e + s C_e + K_e) z / (y* P'(s) z) from the coefficients of order 1 of the pencil's
+/// series in e; NaN at a multiple eigenvalue.
 Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
   const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
     return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));

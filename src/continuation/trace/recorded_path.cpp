@@ -19,7 +19,7 @@ std::vector<PathPosition> RecordedPath::positions(double value) const {
   std::vector<Position> found;
   for (std::size_t step = 0; step < steps.size(); ++step) {
     for (const double t : step_positions(steps[step], value)) {
-      // A node belongs to the step that ends there.
+      // A position on a node is listed once, on the step that ends there.
       const bool repeated =
           t == 0.0 && !found.empty() && found.back().step + 1 == step && found.back().t == 1.0;
       if (!repeated) found.push_back({step, t});

@@ -9,12 +9,15 @@
 namespace eigentrail {
 namespace {
 
-/// rad: constraints this close to each other explain why a path ends.
+/// Smallest angle between constraints, in rad, up to which the message names nearly dependent constraints as
+/// the reason why the steps became too small. It affects only the message.
 constexpr double singular_angle = 1e-3;
-/// An eigenvalue is beside zero up to this many references.
+/// An eigenvalue is close to zero if it is below this many references. There rounding, which does not become
+/// smaller with the eigenvalue, may exceed tolerance * reference. It affects only the message.
 constexpr double beside_zero = 100.0;
 
-/// Links that come to lie in one line take a mechanism to where its freedoms change, and the path ends.
+/// The remark that constraints become dependent, as where links of a mechanism come to lie in one line. The
+/// number of freedoms changes there, and the path cannot be followed further. Empty if they do not.
 std::string remark_on_constraints(const PathNode& node) {
   const double angle = ConstraintFactorization(node.linearization.A[0]).independence();
   if (angle > singular_angle) return {};
@@ -25,8 +28,9 @@ std::string remark_on_constraints(const PathNode& node) {
   return text.str();
 }
 
-/// Where next to nothing counts as zero, as when all modes are slow at the start, the tolerance asks for more
-/// beside zero than rounding leaves.
+/// The remark that the reference is too small for an eigenvalue close to zero: tolerance * reference is then
+/// below the rounding of the eigenvalue. The reference is small if all modes are slow at the start. Empty if
+/// no eigenvalue of the track is close to zero.
 std::string remark_on_zero(const Track& track, double reference) {
   const bool is_beside = track.roots.cwiseAbs().minCoeff() < beside_zero * reference;
   if (track.pair.chart != Chart::finite || !is_beside) return {};
@@ -37,7 +41,7 @@ std::string remark_on_zero(const Track& track, double reference) {
   return text.str();
 }
 
-/// "mode 3, 4: "
+/// The modes of a track as "mode 3, 4: ", counted from 1; empty if it has none.
 std::string names_of(const Track& track) {
   std::string who;
   for (const int mode : track.modes) {

@@ -1,4 +1,4 @@
-// Why a trace cannot go on, in words for the user.
+// Messages to the user on why a trace ended early.
 #pragma once
 
 #include "continuation/step/step.hpp"
@@ -6,7 +6,8 @@
 
 namespace eigentrail {
 
-/// The message of a trace whose steps became too small after `node`, `verdict` being the last refusal.
+/// The message of a trace whose steps became too small after `node`. `verdict` is the judgement of the last
+/// rejected step.
 std::string too_small_message(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
                               const Verdict& verdict);
 

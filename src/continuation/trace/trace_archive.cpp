@@ -1,8 +1,8 @@
-// Leaving a trace between two points, and going on with it.
+// Saving the state of a trace between two points, and restoring it.
 //
-// The state is all that changes from one point to the next; models and options are not part of it. The lists
-// below take structs apart by structured bindings, so that a member that is added and forgotten here does not
-// compile.
+// The state is everything that changes from one point to the next. Models and options are not part of it.
+// The functions `fields` below list the members that are saved. They decompose each struct by a structured
+// binding: if a member is added to a struct and not listed here, the code does not compile.
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
@@ -10,7 +10,7 @@
 
 namespace eigentrail {
 
-// In this namespace, where the archive finds them by their argument.
+// These functions are in this namespace so that the archive finds them by argument-dependent lookup.
 
 template <SameAs<Path> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
@@ -24,7 +24,7 @@ static void fields(Self& self, Visit& visit) {
   visit(Z, Lambda);
 }
 
-/// Without its factors, which no point needs once it is left.
+/// The factors are not saved: they are not used after the point.
 template <SameAs<InvariantPair> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [status, chart, is_real, Z, Lambda, W, backward_error, condition, factors] = self;
@@ -130,7 +130,7 @@ static void fields(Self& self, Visit& visit) {
   visit(coordinate, p);
 }
 
-/// Without its range, which the options say.
+/// The range is not saved: the options give it.
 template <SameAs<PathFrame> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [range, plane, direction, largest_position, bridge, branch_point] = self;
@@ -149,7 +149,7 @@ static void fields(Self& self, Visit& visit) {
   visit(order, s_ref, s_max, route, follows_all);
 }
 
-/// Without the other path, which is left or forgotten before a trace is saved.
+/// The other path is not saved: it is used, or no longer needed, before the next state is saved.
 template <SameAs<BranchPassage> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [passed, tries, other] = self;
@@ -182,13 +182,19 @@ std::string save_state(const TraceState& state) {
 
 namespace {
 
-/// Sizes that everything at a point must have.
+/// Largest relative difference, in the Frobenius norm, between a matrix at the last point as saved and as
+/// recomputed from the scene. Recomputation on the same machine gives the same bits; the margin allows for
+/// numbers that are read from another file with other rounding. With a larger value changed matrices may go
+/// unnoticed, with a smaller one rounding may prevent a resume.
+constexpr double matrix_rounding = 1e-9;
+
+/// The sizes of all vectors and matrices at a point.
 struct PointSizes {
   Eigen::Index parameters = 0, coordinates = 0, constraints = 0, freedoms = 0;
-  int columns = 0;  ///< modes
+  int columns = 0;  ///< number of modes
 };
 
-/// At least one coefficient, each of that size.
+/// Whether a series has at least one coefficient and all coefficients have that size.
 template <class Coefficients>
 bool all_are(const Coefficients& series, Eigen::Index rows, Eigen::Index columns) {
   for (const auto& coefficient : series) {
@@ -237,7 +243,8 @@ bool fits(const PathNode& node, const PointSizes& sizes) {
          all_are(node.pencil.K, sizes.freedoms, sizes.freedoms);
 }
 
-/// The same up to rounding, whatever the scene reads them from.
+/// Whether M, C, K and A that the model gives at a saved point equal the saved ones up to rounding. They
+/// differ if a file of matrices that the scene reads has changed.
 bool same_matrices(const PathProblem& problem, const PathNode& node) {
   const Model& model = problem.model;
   const Path here{parameters_at(problem, node.p), node.path.x.col(0), node.path.lambda.col(0)};
@@ -245,14 +252,14 @@ bool same_matrices(const PathProblem& problem, const PathNode& node) {
   Linearization now;
   if (model.linearize(here, 0, now, counts)) return false;
   const auto same = [](const SystemMatrix& a, const SystemMatrix& b) {
-    return (a.dense() - b.dense()).norm() <= 1e-9 * b.norm();
+    return (a.dense() - b.dense()).norm() <= matrix_rounding * b.norm();
   };
   const Linearization& before = node.linearization;
   return same(now.M[0], before.M[0]) && same(now.C[0], before.C[0]) && same(now.K[0], before.K[0]) &&
          same(now.A[0], before.A[0]);
 }
 
-/// What of a state does not fit the problem; empty when all of it does.
+/// The first part of a state that does not fit the problem, in words; empty if all of it fits.
 std::string misfit(const TraceState& state, const PathProblem& problem, const TraceOptions& options) {
   const Model& model = problem.model;
   const TraceResult& result = state.result;

@@ -20,22 +20,31 @@
 namespace eigentrail {
 namespace {
 
-/// Shortest step, as a share of the range: eigenvalues that vary like the root of the distance change by
-/// 3e-6 over it.
+/// Shortest step, as a share of the range; the trace gives up below it. Even where an eigenvalue varies like
+/// the square root of the distance it changes by only 3e-6 over such a step. With a larger value traces end
+/// that a shorter step would carry on; with a smaller one hopeless traces try longer before they end.
 constexpr double shortest_step = 1e-11;
-/// A step moves p by at least this many units in its last place.
+/// The shortest step moves p by at least this many units in its last place. With fewer, the step length
+/// itself would be dominated by rounding.
 constexpr double units_in_last_place = 8.0;
-/// Longest step, as a share of the range, where the options say nothing; and with a block of three or more,
-/// where more than one meeting may hide in a step.
+/// Longest step as a share of the range, if the options give none. With a larger value error estimates and
+/// searches for events rest on fewer points, a smaller one costs points where all modes are smooth.
 constexpr double longest_step = 0.25;
+/// The same while a block of three or more is followed. More than one meeting of eigenvalues may lie within
+/// one step of such a block; shorter steps have fewer. A smaller value costs points.
 constexpr double longest_step_of_large_blocks = 0.05;
-/// A step without certificate is shortened as much as one with this error.
+/// A step whose certificate fails is shortened as if this were its error in units of the accepted one: to
+/// 0.56 of its length at order 3. A larger value shortens more at once, a smaller one needs more attempts.
 constexpr double uncertified_error = 30.0;
-/// Blocks that may be joined at one point: so many steps are refused there at most before one is shortened.
+/// Largest number of attempts to join blocks at one point. It limits how often a step of the same length is
+/// tried before it is shortened. Fewer may miss a useful block, more may waste attempts.
 constexpr int most_joins = 12;
-/// What the memory of the longest step loses from step to step: it spans some ten of them.
+/// Factor by which the stored longest step decreases with each step, so that it covers about the last ten
+/// steps (0.85^10 = 0.2). Nearer to one, old long steps count for longer.
 constexpr double forgetting = 0.85;
-constexpr std::size_t most_notes = 20;  ///< on doubtful tracks, which may come at every point
+/// A note on a doubtful track is added only while there are fewer notes than this, because such notes may
+/// come at every point.
+constexpr std::size_t most_notes = 20;
 
 void count(const Verdict& verdict, Rejections& rejections) {
   switch (verdict.kind) {
@@ -150,7 +159,7 @@ void TraceLoop::follow() {
                                             here + "; raise max_nodes or the tolerance");
       return;
     }
-    // They served the point; what follows begins from series.
+    // The factors are no longer needed: the next point is predicted from the series.
     for (Track& track : state_.origin.node.tracks) track.pair.factors.reset();
     result.seconds = seconds_so_far();
     if (!observer_.checkpoint(*this)) {
@@ -159,7 +168,7 @@ void TraceLoop::follow() {
     }
     if (!advance()) return;
     if (state_.steps.turned_step > 0.0) {
-      // In the path's own coordinate the range has length one.
+      // In the coordinate across a plane, which is scaled, the range has a length of about one.
       const double longest =
           options_.max_step ? *options_.max_step / state_.frame.range.length() : longest_step;
       state_.control = StepControl(problem_.order, state_.steps.turned_step, std::max(longest, shortest_step),
@@ -169,8 +178,9 @@ void TraceLoop::follow() {
   }
 }
 
-/// Proposes, solves, judges, lands and commits one step, or tries again with a shorter one or after a remedy.
-/// Returns whether the trace goes on.
+/// One attempt at a step: proposes a length, solves and judges the step, shortens it where it has to end on a
+/// special point (landing), and commits it. If the step is rejected, applies a remedy or shortens the next
+/// attempt. Returns whether the trace goes on.
 bool TraceLoop::advance() {
   const double ahead = remaining(state_.frame, state_.origin.node);
   const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
@@ -239,7 +249,9 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
               too_small_message(problem_, options_, state_.origin.node, verdict));
 }
 
-/// A step that is taken: its events, what is stored of it, and the point at its end as the next origin.
+/// Takes a step: finds its events, stores and emits it, checks that no mode is missing, chooses what is
+/// followed together behind its end, and makes the end the origin of the next step. Returns whether the trace
+/// goes on.
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   settle_events(landed);
   Step& step = landed.step;
@@ -269,15 +281,16 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   return goes_on;
 }
 
-/// The events of a step, in the order in which they are recorded: meetings at its end, zeros and extrema,
-/// veerings, branch point, fold. In between, the modes behind its end are ordered.
+/// Finds and records the events of a step, in this order: coinciding eigenvalues at its end, zeros and
+/// extrema of criteria, veerings, branch point, fold. After the first of these, orders the modes behind its
+/// end.
 void TraceLoop::settle_events(LandedStep& landed) {
   const EventWork work(state_.result.counts);
   search_.node = state_.result.nodes;
   Step& step = landed.step;
   mark_meetings(landed.meetings, step.right);
   FoundEvents met = meeting_events(search_, step.right, landed.meetings);
-  // The other path at a branch point has an order of its own.
+  // If the trace leaves its path here, leave_path orders the modes on the other path.
   std::vector<Birth> births;
   if (!leaves_path_at(step.right))
     births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
@@ -290,7 +303,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log(find_fold(search_, step.right, step.h));
 }
 
-/// The branch point that a point lies on, if it does, and what paths there are to choose from.
+/// If a point lies on a branch point, records it with a note on the paths that leave it.
 void TraceLoop::log_branch_point(const PathNode& node) {
   FoundEvents found = find_branch_point(search_, node);
   if (found.events.empty()) return;
@@ -301,7 +314,8 @@ void TraceLoop::log_branch_point(const PathNode& node) {
   log(std::move(found));
 }
 
-/// What is followed together from the end of a step on.
+/// Chooses which modes are followed together from the end of a step on: separates blocks, or else joins modes
+/// that limit the step.
 void TraceLoop::regroup(Step& step) {
   TraceResult& result = state_.result;
   const double next_step = state_.control.step();
@@ -316,7 +330,7 @@ void TraceLoop::regroup(Step& step) {
       result.regroupings);
 }
 
-/// The end of a step becomes the origin of the next one.
+/// Makes the end of a step the origin of the next one. Changes the coordinate along the path where needed.
 void TraceLoop::move_on(Step step) {
   StepMemory& memory = state_.steps;
   StepOrigin& origin = state_.origin;
@@ -338,7 +352,8 @@ void TraceLoop::move_on(Step step) {
   }
 }
 
-/// Goes on from the branch point that was just reached along the other path.
+/// Continues along the other path from the branch point that was just reached. Returns whether the trace goes
+/// on.
 bool TraceLoop::leave_path() {
   const PathNode& arrived = state_.origin.node;
   const int choice = choice_at(options_.branch, state_.branches.passed);

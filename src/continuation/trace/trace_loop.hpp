@@ -1,4 +1,5 @@
-// The loop of a trace: propose a step, solve it, judge it, land it on what it passes, judge that, commit.
+// The loop of a trace: propose a step length, solve for the point at its end, judge the step, shorten it if
+// it passes a place where a step has to end (landing), judge the shortened step, commit it.
 #pragma once
 
 #include <chrono>
@@ -10,7 +11,7 @@
 
 namespace eigentrail {
 
-// Nothing derives from it. NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor)
+// The class is final. NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor)
 class TraceLoop final : private Checkpoint {
  public:
   TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -18,7 +19,7 @@ class TraceLoop final : private Checkpoint {
 
   TraceResult run();
 
-  /// Goes on from a saved state. Throws InputError when the bytes are no state of a trace of this model.
+  /// Continues from a saved state. Throws InputError if the bytes are not a state of a trace of this model.
   TraceResult resume(std::string_view bytes);
 
  private:
@@ -31,7 +32,8 @@ class TraceLoop final : private Checkpoint {
   bool advance();
 
   Verdict judge(const Step& step);
-  /// Whether something else than a shorter step may help; then it has been done, and the step is tried again.
+  /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if
+  /// they were solved. Returns whether something was changed, so that the step shall be tried again.
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
   bool shorten(const Verdict& verdict, double length);
   bool commit(LandedStep landed, const std::vector<bool>& certified);
@@ -58,9 +60,9 @@ class TraceLoop final : private Checkpoint {
   PointSolver points_;
   EventLog log_;
   EventSearch search_;
-  double reach_ = 3.0;  ///< see parting_reach
+  double reach_ = 3.0;  ///< see parting_reach; replaced when the order is known
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double seconds_before_ = 0.0;  ///< of the runs that this one goes on from
+  double seconds_before_ = 0.0;  ///< wall time of the earlier runs that this one continues
 };
 
 }  // namespace eigentrail

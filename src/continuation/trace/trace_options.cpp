@@ -13,15 +13,23 @@
 namespace eigentrail {
 namespace {
 
-/// Points of the range at which masses, lengths and the direction of gravity are checked.
+/// Number of equidistant points of the range, ends included, at which the model is checked before the trace
+/// (masses, lengths, direction of gravity). The interval is 1/32 of the range. With fewer points a fault in
+/// the middle of the range may end the trace instead; more points make the start slower.
 constexpr std::size_t checked_points = 33;
+/// Largest magnitude of a whole number that an option may have: it fits into an int (2^31 - 1 = 2.1e9).
+constexpr double largest_whole_number = 1e9;
+/// Bounds of the tolerance. Rounding of an eigenvalue leaves no accuracy below about 1e-13. Above 0.1 the
+/// error would be of the size of the distances between modes.
+constexpr double least_tolerance = 1e-13;
+constexpr double largest_tolerance = 0.1;
 
-/// What stands for a whole number that is not given.
+/// The word for a whole number that is not given.
 std::string word_for_absent(std::string_view key) {
   return key == "modes" ? "all" : "auto";
 }
 
-/// Reads options from a table of texts and numbers: the [trace] table, or the command line turned into one.
+/// Reads the options from a table of texts and numbers: the [trace] table merged with the command line.
 class OptionReader {
  public:
   OptionReader(const Scene& scene, TableReader& table) : scene_(scene), table_(table) {}
@@ -38,7 +46,7 @@ class OptionReader {
   void operator()(const char* key, const char*, int& value) {
     if (table_.has(key)) value = whole_number(key);
   }
-  /// A whole number, or a text of some: "1, 2".
+  /// A whole number, or a text with several: "1, 2".
   void operator()(const char* key, const char*, std::vector<int>& value) {
     if (!table_.has(key)) return;
     if (!is_text(key)) {
@@ -90,7 +98,7 @@ class OptionReader {
     }
   }
 
-  /// A word that is no parameter was meant to be the one that may stand for the number.
+  /// Reports a word that is neither a parameter nor the word for an absent number.
   void reject_other_word(const char* key) {
     if (!is_text(key)) return;
     const std::string text = table_.text(key);
@@ -123,7 +131,7 @@ class OptionReader {
 
   int whole_number(const char* key) {
     const double value = number(key);
-    if (value != std::floor(value) || std::abs(value) > 1e9) {
+    if (value != std::floor(value) || std::abs(value) > largest_whole_number) {
       table_.fail(key, "expected a whole number, found " + exact_text(value));
     }
     return static_cast<int>(value);
@@ -133,8 +141,8 @@ class OptionReader {
   TableReader& table_;
 };
 
-/// The [trace] table with the command line's values in place of its own. Texts that are numbers become
-/// numbers.
+/// The [trace] table in which values from the command line replace those of the same key. Texts of the
+/// command line that are numbers become numbers, "true" and "false" become flags.
 Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const auto found = tables(scene, "trace");
   if (found.size() > 1)
@@ -179,7 +187,7 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(std::isfinite(options.to), "to", "is not a finite number");
   require(options.from != options.to, "to",
           "equals from (" + exact_text(options.from) + "): the range is empty");
-  require(options.tolerance >= 1e-13 && options.tolerance <= 0.1, "tolerance",
+  require(options.tolerance >= least_tolerance && options.tolerance <= largest_tolerance, "tolerance",
           "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
   require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
   require(!options.order || (*options.order >= 1 && *options.order < max_order), "order",
@@ -200,7 +208,7 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
 
 namespace {
 
-/// A frequency of excitation is a number at both ends of the range.
+/// Checks that the excitation frequency is finite at both ends of the range; throws if not.
 void check_excitation(const Scene& scene, const TraceOptions& options) {
   const auto traced = scene.parameters.index(options.parameter);
   if (!options.events.excitation || !traced) return;
@@ -246,7 +254,7 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengt
   TraceSetup setup{std::move(scene), {}, nullptr};
   std::set<int> used;
   setup.options = read_trace_options(setup.scene, overrides, used);
-  used.erase(setup.traced());  // that must enter the model
+  used.erase(setup.traced());  // the model itself must depend on the traced parameter
   const TraceOptions& options = setup.options;
   std::vector<Vector> points(checked_points, setup.scene.parameters.declared_values());
   points[0][setup.traced()] = options.from;

@@ -14,23 +14,34 @@
 namespace eigentrail {
 namespace {
 
-/// s_ref / median |s| of the followed modes at the start: what is a thousand times slower than most modes is
-/// wanted to the accuracy of a zero.
+/// s_ref / median |s| of the followed modes at the start, if the options give no reference. A mode a thousand
+/// times slower than most others then gets the absolute accuracy of a zero eigenvalue. A larger value loosens
+/// the tolerance of slow modes, a smaller one may ask for more accuracy near zero than rounding allows.
 constexpr double reference_share = 1e-3;
-/// Of the pencil's scale: a smaller median is rounding, as where most modes are rigid-body motions.
+/// Least median |s| that is used, as a share of the scale of the pencil. A smaller median is rounding: most
+/// modes are rigid-body motions.
 constexpr double rigid_share = 1e-6;
-/// s_max / largest |s| at the start.
+/// s_max / largest |s| at the start: magnitude from which an eigenvalue counts as infinite. A larger value
+/// lets an eigenvalue be followed farther, a smaller one ends it where it may still be of interest.
 constexpr double infinity_share = 1e4;
-/// Freedoms per mode above which modes are few: their vectors cost less one by one than by the full spectrum.
+/// If the number of freedoms exceeds this many times the number of modes, only eigenvalues are computed, and
+/// eigenvectors for the followed modes one by one: that costs less than all eigenvectors. Affects time only.
 constexpr double few_share = 4.0;
-/// 1/s^2: stiffness per mass that is rounding.
+/// Ratio of the largest entry of K or C to that of M (1/s^2, 1/s) up to which the forces on the freedoms are
+/// rounding, and all eigenvalues zero. The trace then does not start.
 constexpr double no_force = 1e-16;
-/// A start that moves by more than this, relatively, while it is corrected was no eigenvalue of its own.
+/// Largest relative change of the mean of a group of eigenvalues by the corrector at the start. After a
+/// larger one it has converged to other eigenvalues than those of the spectrum, and the trace does not start.
 constexpr double largest_drift = 1e-2;
-/// First steps, as shares of the range: at most, and at least.
+/// Largest first step as a share of the range. The error of the first step is estimated from one series only,
+/// so it is shorter than the longest step; a longer one is more often rejected.
 constexpr double longest_first = 0.05;
+/// Least first step as a share of the range, against estimates that are far too small. A shorter one takes
+/// more steps to grow to the usual length.
 constexpr double shortest_first = 1e-6;
-/// Of the range: how far behind a first point on which eigenvalues meet the modes are told apart.
+/// As a share of the range: where eigenvalues coincide at the first point, the modes are ordered by the
+/// eigenvalues this far behind it. At a larger distance other changes are mixed in; at a smaller one the
+/// eigenvalues differ too little.
 constexpr double beside_start = 1e-6;
 
 double largest_entry(const Matrix& matrix) {
@@ -44,7 +55,7 @@ std::string text_of(const ComplexVector& roots) {
   return text.str();
 }
 
-/// The start of one trace.
+/// Computes the first point of a trace.
 class Start {
  public:
   Start(const PointSolver& solver, const TraceOptions& options, PathProblem& problem, TraceState& state)
@@ -70,7 +81,7 @@ class Start {
   TraceState& state_;
   TraceResult& result_;
   PathPoint point_;
-  std::vector<StartingMode> modes_;  ///< of the whole spectrum, by ascending |s|
+  std::vector<StartingMode> modes_;  ///< the whole spectrum, by ascending |s|
 };
 
 std::optional<StartFailure> Start::compute() {
@@ -96,7 +107,7 @@ void Start::settle_order() {
   apply(state_.settings, problem_);
 }
 
-/// Why the spectrum at the start cannot be followed.
+/// The reason why the spectrum at the start cannot be followed, if there is one.
 std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) const {
   const ReducedPencil& pencil = point_.pencil;
   const std::string idle = idle_coordinate(problem_.model, point_);
@@ -109,7 +120,7 @@ std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) cons
     return StartFailure{TraceStatus::singular_pencil,
                         "the pencil is singular" + where() + ": every number is an eigenvalue. " + advice};
   }
-  // On a branch point the stiffness of a single freedom vanishes, and there alone.
+  // On a branch point the stiffness of a single freedom vanishes without the system being free of forces.
   const double mass = largest_entry(pencil.M[0]);
   const double force = std::max(largest_entry(pencil.K[0]), largest_entry(pencil.C[0]));
   if (!state_.frame.bridge && mass > 0.0 && force <= no_force * mass) {
@@ -125,7 +136,7 @@ std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) cons
                           (result_.n_independent == 0 ? ": the constraints leave no freedom" : "")};
 }
 
-/// All modes, how many of them are followed, and how.
+/// Computes the spectrum, and decides how many modes are followed and by which route.
 std::optional<StartFailure> Start::find_modes() {
   const ReducedPencil& pencil = point_.pencil;
   const StageTimer timer(result_.counts.modes_seconds);
@@ -138,7 +149,7 @@ std::optional<StartFailure> Start::find_modes() {
   if (auto failure = check_spectrum(spectrum)) return failure;
   result_.n_modes = std::min(options_.modes.value_or(result_.n_available), result_.n_available);
   result_.n_columns = state_.numbers.count = result_.n_modes;
-  // Infinite eigenvalues are not followed: the checksum would miss them.
+  // With infinite eigenvalues, which are not followed, the checksum of all eigenvalues cannot hold.
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
   settings.route = cheapest_route(problem_.structure,
@@ -148,9 +159,9 @@ std::optional<StartFailure> Start::find_modes() {
   return std::nullopt;
 }
 
-/// The magnitudes that count as zero and as infinite.
+/// Sets s_ref and s_max, the magnitudes that count as zero and as infinite.
 void Start::settle_magnitudes(const Spectrum& spectrum) {
-  // On a branch point eigenvalues vanish; how large they are beside it tells what is small.
+  // On a branch point eigenvalues vanish. Their size beside it is the scale.
   const auto beside = state_.frame.bridge ? spectrum_beside_branch_point() : std::nullopt;
   const std::vector<StartingMode>& typical = beside ? beside->modes : spectrum.modes;
   const auto middle = std::min(static_cast<std::size_t>(result_.n_modes) / 2, typical.size() - 1);
@@ -161,7 +172,7 @@ void Start::settle_magnitudes(const Spectrum& spectrum) {
   apply(settings, problem_);
 }
 
-/// The spectrum where the bridge ends; nothing when it has no modes.
+/// The spectrum at the end of the bridge over the branch point; empty if it has no modes.
 std::optional<Spectrum> Start::spectrum_beside_branch_point() const {
   const Bridge& bridge = *state_.frame.bridge;
   const PathPoint point =
@@ -217,7 +228,8 @@ double first_step(const PathNode& node, const PathProblem& problem, const TraceO
   const int q = problem.order;
   double step = longest_first * range;
   for (const Track& track : node.tracks) {
-    // The term of power q stays small: the interpolant's error has about a factor of 4^(q+1) in its favour.
+    // Chosen so that the series term |c_q| h^q is below 4^(q+1) times the tolerance: the error of the
+    // interpolant has the factor |t (t - 1)|^(q+1) <= 4^-(q+1).
     const double allowed = options.tolerance * std::pow(4.0, q + 1) *
                            std::max(std::abs(track.functions(0, 0)), problem.reference(track.pair.chart));
     const double last = std::abs(track.functions(0, q));

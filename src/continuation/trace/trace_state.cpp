@@ -6,13 +6,20 @@
 namespace eigentrail {
 namespace {
 
-/// Error of the coefficients of a series, as a share of the tolerance: the dense output multiplies them by
-/// powers of the step up to the fourth, against the first.
+/// Relative error of every series coefficient of a single mode, as a share of the tolerance. The coefficient
+/// of power k enters the dense output times h^k, k up to 4, and its error with it; the share leaves a wide
+/// margin. A larger value may show in the dense output, a smaller one costs refinements.
 constexpr double series_share = 1e-5;
+/// Least such error: what rounding allows.
 constexpr double series_rounding = 1e-15;
-/// Error of a mode that stands without correction, as a share of the tolerance.
+/// Largest error of a mode that is accepted without correction, as a share of the tolerance. The rest of the
+/// tolerance is left to the dense output. A larger value adds to the error of the result, a smaller one needs
+/// more corrections.
 constexpr double passing_share = 0.01;
-/// A block pays where its members would need steps shorter by this factor.
+/// Factor in parting_reach. At a distance of 0.5 tolerance^(-1/(2q+2)) steps, a meeting allows single modes a
+/// step of exactly the present length. 0.7 keeps a block together until single modes would allow steps 1.4
+/// times as long. A larger value keeps blocks, which cost more, for longer; a smaller one separates blocks
+/// that soon have to be joined again.
 constexpr double parting_share = 0.7;
 
 }  // namespace

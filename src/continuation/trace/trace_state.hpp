@@ -1,5 +1,5 @@
-// The state of a trace: all that changes from one point to the next, in one aggregate. The lists of what is
-// saved (trace_archive.cpp) take it apart member by member.
+// The state of a trace: everything that changes from one point to the next. trace_archive.cpp saves it member
+// by member.
 #pragma once
 
 #include "continuation/events/criteria_scan.hpp"
@@ -11,29 +11,30 @@
 
 namespace eigentrail {
 
-/// What the first point settles for the whole trace.
+/// Settings that are determined at the first point for the whole trace; fields as in PathProblem.
 struct TraceSettings {
   int order = 3;
   double s_ref = 1.0, s_max = 1e300;
   ModeRoute route = ModeRoute::one_by_one;
-  bool follows_all = false;
+  bool follows_all = false;  ///< every mode is followed and none is infinite
 };
 
-/// Branch points on the way.
+/// Branch points along the trace.
 struct BranchPassage {
   std::size_t passed = 0;  ///< branch points so far
-  int tries = 0;           ///< bridges looked for from the last point
-  std::optional<OtherPath> other =
-      {};  ///< at the branch point that was reached last; not saved: it is used at once
+  int tries = 0;           ///< attempts to build a bridge from the last point
+  /// The other path at the branch point that was reached last. Not saved, because it is used at once.
+  std::optional<OtherPath> other = {};
 };
 
-/// How the steps went of late.
+/// What is remembered of the last steps.
 struct StepMemory {
-  int joins = 0;              ///< blocks that were tried at the last point
-  double longest_step = 0.0;  ///< of late, in the coordinate along the path
-  double turned_step = 0.0;   ///< next step in a coordinate that has just changed; 0: it has not
+  int joins = 0;              ///< attempts to join blocks at the last point
+  double longest_step = 0.0;  ///< of about the last ten steps, in the coordinate along the path
+  double turned_step = 0.0;   ///< length of the next step if the coordinate has just changed, else 0
 };
 
+/// The whole state.
 struct TraceState {
   TraceSettings settings = {};
   TraceResult result = {};
@@ -43,21 +44,23 @@ struct TraceState {
   BranchPassage branches = {};
   ModeNumbers numbers = {};
   CriterionHistories histories = {};
-  std::vector<Event> dismissed = {};  ///< places of veerings that are none
+  std::vector<Event> dismissed = {};  ///< predicted veerings that turned out to be none
   StepMemory steps = {};
 };
 
-/// The problem of a trace: the model along the traced parameter, with what the options say of it. Settings
-/// are applied when they are known.
+/// The problem of a trace: the model along the traced parameter with the values in the options. `apply` adds
+/// the settings that are determined at the first point.
 PathProblem trace_problem(const Model& model, const TraceOptions& options, BasisChoice basis);
 void apply(const TraceSettings& settings, PathProblem& problem);
 
-/// Blocks part when their meetings are farther away than this many steps. The interpolant of order q
-/// converges like (h / 2d)^(2q+2) where the nearest meeting is at distance d: nearer ones limit the step.
+/// Distance in steps beyond which a meeting of two eigenvalues no longer keeps them in one block. The error
+/// of the interpolant of order q decreases like (h / 2d)^(2q+2), where d is the distance of the nearest
+/// meeting: only nearer meetings limit the step.
 double parting_reach(const TraceOptions& options, int order);
 
-/// The state as bytes, and back. Throws InputError when the bytes are no state of a trace of this problem.
+/// The state as bytes.
 std::string save_state(const TraceState& state);
+/// The state from such bytes. Throws InputError if they are not a state of a trace of this problem.
 TraceState restore_state(std::string_view bytes, const PathProblem& problem, const TraceOptions& options);
 
 }  // namespace eigentrail

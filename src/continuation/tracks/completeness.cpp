@@ -16,14 +16,26 @@
 namespace eigentrail {
 namespace {
 
-constexpr double checksum_tolerance = 1e-7;  ///< of the sum of magnitudes
-constexpr double singular = 1e-9;            ///< reciprocal condition below which M or K is left out
-constexpr double same = 1e-4;                ///< relative distance of a track from its eigenvalue
+/// Largest difference of both sides of a checksum, as a share of the sum of magnitudes: rounding of
+/// ill-conditioned eigenvalues. The loss of a mode that contributes less is not noticed.
+constexpr double checksum_tolerance = 1e-7;
+/// Reciprocal condition of M or K up to which the sums that need its inverse are left out, as too inaccurate.
+constexpr double singular = 1e-9;
+/// Largest relative difference of a track from its eigenvalue in the spectrum. QZ gives a double eigenvalue
+/// to 1e-8, a triple one to 1e-5.
+constexpr double same = 1e-4;
+/// Largest cost in the assignment, also that of a track or a mode without a counterpart. Far above `same`.
+constexpr double unrelated = 1e6;
+/// A track with a larger backward error is no eigenpair: corrected pairs have errors close to rounding.
 constexpr double largest_backward_error = 1e-8;
-constexpr double shared_distance = 1e-8;  ///< relative, of eigenvalues that two tracks have in common
-constexpr double shared_angle = 0.03;     ///< of a vector with the space of the other track
+/// Two tracks have the same eigenpair if they have an eigenvalue in common up to this relative difference,
+/// ...
+constexpr double shared_distance = 1e-8;
+/// ... and the unit vector of one has at most this distance from the space of the other, about the sine of
+/// the angle.
+constexpr double shared_angle = 0.03;
 
-/// All eigenvalues that the tracks stand for, conjugates included.
+/// All eigenvalues that the tracks represent, with the conjugates of complex pairs.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
   std::vector<Complex> all;
   for (const Track& track : node.tracks) {
@@ -36,6 +48,8 @@ std::vector<Complex> all_eigenvalues(const PathNode& node) {
   return all;
 }
 
+/// Whether the sums of mu and mu^2 agree with the traces, for mu in a chart. In the reciprocal chart, M and K
+/// are exchanged by the caller. True also if M is too ill-conditioned for the test.
 bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::vector<Complex>& all,
                 Chart chart, double reference) {
   const Eigen::PartialPivLU<Matrix> lu(M);
@@ -75,19 +89,18 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
   for (const Track& track : node.tracks) {
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       const Complex s = chart_value(track.roots[i], track.pair.chart);
-      // Members of a real block below the axis stand for the same mode as their conjugates.
+      // In a real block, the members with Im s < 0 are the conjugates of others: the same modes.
       if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) tracked.push_back(s);
     }
   }
   const auto n = static_cast<Eigen::Index>(std::max(tracked.size(), spectrum.modes.size()));
-  constexpr double nobody = 1e6;
-  Matrix cost = Matrix::Constant(n, n, nobody);
+  Matrix cost = Matrix::Constant(n, n, unrelated);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
       const Complex s = spectrum.modes[j].s;
       const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::min(distance / std::max(std::abs(s), s_ref), nobody);
+          std::min(distance / std::max(std::abs(s), s_ref), unrelated);
     }
   }
   std::vector<bool> taken(spectrum.modes.size(), false);
@@ -106,7 +119,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
 
 namespace {
 
-/// Vector of a root of a track, of unit length.
+/// Eigenvector of a root of a track, of unit length, in reduced coordinates.
 ComplexVector vector_of(const Track& track, Eigen::Index root) {
   if (track.size() == 1) return track.pair.Z.col(0).normalized();
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
@@ -115,6 +128,7 @@ ComplexVector vector_of(const Track& track, Eigen::Index root) {
   return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
 }
 
+/// Whether two tracks have an eigenpair in common.
 bool share_eigenpair(const Track& a, const Track& b, double reference) {
   if (a.pair.chart != b.pair.chart) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
@@ -142,11 +156,11 @@ bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
 
 namespace {
 
-/// Eigenvalues on their way in from infinity are added when they have arrived: below this share of what
-/// counts as infinite.
+/// Missing eigenvalues are added if their magnitude is at most this share of that which counts as infinite.
+/// Larger ones come from infinity, where the mass was singular, and are added later.
 constexpr double arrived = 0.1;
 
-/// The modes that a full spectrum has and the tracks lack, as groups to be followed.
+/// The missing modes, grouped into single modes and blocks.
 std::vector<StartingGroup> missing_groups(const PathProblem& problem, const PathNode& node,
                                           RunCounts& counts) {
   const ReducedPencil& pencil = node.pencil;

@@ -1,4 +1,4 @@
-// Whether all modes are there, and each once.
+// Checks that no mode is lost and none is followed by two tracks.
 #pragma once
 
 #include "continuation/tracks/mode_order.hpp"
@@ -6,30 +6,31 @@
 
 namespace eigentrail {
 
-/// Checksum for a trace that follows every mode: sum s = -tr(M^-1 C) and sum s^2 = tr((M^-1 C)^2) - 2 tr(M^-1
-/// K), and the same with M and K exchanged for the sums of 1/s. The first pair sees the high modes, the
-/// second the low ones; a matrix that is singular or nearly so leaves its pair out. Sees lost and doubled
-/// modes, not exchanged ones. Cost O(n^3), real.
+/// Checksum for a trace that follows every mode: sum s = -tr(M^-1 C), sum s^2 = tr((M^-1 C)^2) - 2 tr(M^-1
+/// K), and with M and K exchanged the same for the sums of 1/s and 1/s^2. The sums of s are sensitive to high
+/// modes, those of 1/s to low ones. If M or K is nearly singular, the sums that need its inverse are left
+/// out. Detects lost and doubled modes, but not exchanged ones. Cost O(n^3) in real arithmetic.
 bool checksum_holds(const PathNode& node, const PathProblem& problem);
 
-/// What a full spectrum has that the tracks lack: modes to be added.
+/// The modes of a full spectrum that no track follows. Tracks and modes are assigned to each other one to
+/// one. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
 std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref);
 
-/// Whether a track has left the spectrum, by its backward error, or two have the same eigenpair: eigenvalues
-/// within 1e-8, and a vector of one in the space of the other. Cost O(n) for every two tracks with such
-/// eigenvalues.
+/// Whether the backward error of a track is so large that it is no eigenpair, or two tracks have the same
+/// eigenpair: eigenvalues that differ by at most 1e-8, relatively, and a vector of one in the space of the
+/// other. Cost O(n) for every two tracks with such eigenvalues.
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem);
 
-/// What was found at a point.
+/// The result of `complete`.
 struct Completion {
   bool doubtful = false;  ///< as has_doubtful_track
   int added = 0;          ///< modes that were missing
 };
 
 /// Checks that no mode is lost or followed twice at a point. Where all modes are followed (`follows_all`) and
-/// the checksum does not hold, a full spectrum tells which are missing; they are added to the node with new
-/// numbers. At a meeting, where eigenvalues are known to half their digits, nothing is checked. Cost: the
-/// checksum; O(n^3) for the spectrum.
+/// the checksum does not hold, computes a full spectrum and adds the missing modes to the node, with new
+/// numbers. At a point where eigenvalues coincide nothing is checked, since they are known to the square root
+/// of rounding only. Cost: that of the checksum, and if it fails of a spectrum, O(n^3) each.
 Completion complete(const PathProblem& problem, bool follows_all, PathNode& node, ModeNumbers& numbers,
                     RunCounts& counts);
 

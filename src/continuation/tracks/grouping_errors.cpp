@@ -10,7 +10,8 @@
 namespace eigentrail {
 namespace {
 
-/// Series of every eigenvalue of a track in a chart; empty when one of them cannot be told.
+/// Series of every eigenvalue of a track in a chart. Empty if one of them is not simple, or infinite in that
+/// chart.
 std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
   std::vector<ComplexVector> all;
   for (const Complex root : track.roots) {
@@ -21,8 +22,8 @@ std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
   return all;
 }
 
-/// Mean and power means of the distances from it: the smooth functions of a block as far as single
-/// eigenvalues tell.
+/// Smooth functions of the eigenvalues as a block, from their single series: the mean, and the means of the
+/// powers 2 to k of the differences from it.
 ComplexMatrix symmetric_functions(const std::vector<ComplexVector>& series) {
   const auto k = static_cast<Eigen::Index>(series.size());
   ComplexVector mean = ComplexVector::Zero(series.front().size());
@@ -41,8 +42,9 @@ ComplexMatrix symmetric_functions(const std::vector<ComplexVector>& series) {
   return functions;
 }
 
-/// How far errors of the symmetric functions move their roots: through the characteristic polynomial, whose
-/// slope at a root is the product of the distances to the others.
+/// Largest error of an eigenvalue caused by errors of the symmetric functions: the change of the
+/// characteristic polynomial divided by its slope at the root, the product of the distances from the other
+/// roots. Distances count as at least `least_gap`.
 double symmetric_root_error(const ComplexVector& roots, const Vector& errors, double least_gap) {
   const Eigen::Index k = roots.size();
   const Complex mean = roots.mean();
@@ -130,7 +132,7 @@ Vector errors_as_singles(const PathProblem& problem, const PathNode& left, const
     const ComplexVector from = root_series(a.functions, a.roots[i]);
     const ComplexVector to = root_series(b.functions, b.roots[i]);
     if (from.size() == 0 || to.size() == 0) continue;
-    // NaN is no error that is known.
+    // fmin ignores NaN.
     errors[i] = std::fmin(errors[i], relative_error(from, to, h, problem.reference(chart)));
     errors[i] =
         std::fmin(errors[i], relative_error_of_reciprocal(from, to, h, problem.reference(other(chart))));

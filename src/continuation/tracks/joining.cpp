@@ -9,37 +9,41 @@
 namespace eigentrail {
 namespace {
 
-// The values below trade time against time: a block costs about its size more than its members one by one,
-// and lets the steps grow. They were chosen by the benchmarks of sweeps; results do not depend on them.
+// These values affect the time of a trace, not its results: a block of k modes costs about k times as much as
+// its modes one by one, but allows longer steps. They come from benchmarks of parameter sweeps.
 
-/// Error of a block, as a share of its member's, from which on the block is worth its cost: with order 3 the
-/// step grows by the eighth root, here to 1.45 times.
+/// Largest error of a block, as a share of that of the single mode, at which the block is worth its cost.
+/// With order 3 the step grows with the eighth root of the error, 1 / 0.05^(1/8) = 1.45 times.
 constexpr double worthwhile = 0.05;
-/// Single modes whose error is this share of what is accepted limit the step.
+/// Single modes with at least this share of the accepted error limit the step.
 constexpr double limiting_error = 0.1;
-/// The same for the other chart, which costs nothing more.
+/// As `worthwhile`, for the change to the other chart, which has no extra cost.
 constexpr double better_chart = 0.3;
-/// Steps shorter than this share of the longest one of late keep shrinking: then blocks of more than two are
-/// tried, which tell their members less well and hold more events at once.
+/// Blocks of more than two are formed only if the step is shorter than this share of the longest one of the
+/// last steps. In large blocks the eigenvalues are harder to identify, and more events are close to each
+/// other.
 constexpr double shrinking = 0.25;
-/// Meetings farther away than this, in units of the nearest one's distance, hardly matter.
+/// Meetings farther away than this many times the distance of the nearest one have little influence on the
+/// error.
 constexpr double as_near = 1.5;
 constexpr std::size_t most_partners = 5;  ///< of one track: the largest block has six eigenvalues
 
-/// A track to be joined, with its partners. All are chosen before any is joined, which reorders the tracks:
-/// they are found again by their lineages.
+/// A track to be joined, with its partners. All choices are made before the first tracks are joined. Since
+/// joining changes the indices of the tracks, they are identified by their lineages.
 struct Choice {
   std::uint64_t lineage = 0;
   std::vector<Partner> partners;
   std::vector<std::uint64_t> partner_lineages;
 };
 
+/// Index of the track with that lineage; the number of tracks if there is none.
 std::size_t index_of(const PathNode& node, std::uint64_t lineage) {
   const auto found = std::find_if(node.tracks.begin(), node.tracks.end(),
                                   [&](const Track& track) { return track.lineage == lineage; });
   return static_cast<std::size_t>(found - node.tracks.begin());
 }
 
+/// Joins the tracks of a choice. False if one of them no longer exists or the block cannot be formed.
 bool join_choice(const PathProblem& problem, Choice& choice, PathNode& node, RunCounts& counts) {
   const std::size_t track = index_of(node, choice.lineage);
   bool all_there = choice.lineage != 0 && track < node.tracks.size();

@@ -1,4 +1,5 @@
-// Modes that limit each other's accuracy are followed as one block.
+// Decides which modes are followed as one block: those whose exceptional points limit the accuracy of their
+// series.
 #pragma once
 
 #include "continuation/step/step.hpp"
@@ -7,22 +8,24 @@
 
 namespace eigentrail {
 
-/// What decides about joining, beside the step itself.
+/// Data of the trace on which joining depends.
 struct JoiningRules {
-  double tolerance = 1e-6;
-  double parting_reach = 3.0;  ///< steps, see regrouping.hpp
-  double longest_step = 0.0;   ///< of late, in the coordinate along the path
+  double tolerance = 1e-6;     ///< of the trace
+  double parting_reach = 3.0;  ///< in steps: meetings within this distance keep a block together
+  double longest_step = 0.0;   ///< of about the last ten steps, in the coordinate along the path
 };
 
-/// The partners with which a track on the step, whose error is `error` (a fraction of what is accepted),
-/// would be so much more accurate as a block that a block is worth its cost: the nearest of the candidates
-/// alone, or with those after it. Empty when nobody helps.
+/// The partners with which a block reduces the error of a track so much that it is worth its cost: the
+/// nearest candidate and, if that is not enough, the next ones. Empty if no such block does. `error`: error
+/// of the track on the step, divided by the accepted one. `candidates`: by ascending distance, as from
+/// find_partners.
 std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningRules& rules, const Step& step,
                                       std::size_t track, double error,
                                       const std::vector<Partner>& candidates);
 
-/// At the end of a step, joins single modes that limit each other's accuracy, or changes the chart of one
-/// that would do better in the other. `next_step` is the signed length of the next step.
+/// At the end of a step, joins single modes whose errors limit the length of the steps with the partners that
+/// help. If one of them is much more accurate in the other chart, changes only that chart. Returns the
+/// numbers of changes. `next_step`: signed length of the next step.
 Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRules& rules, Step& step,
                                    double next_step, RunCounts& counts);
 

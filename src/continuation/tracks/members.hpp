@@ -1,4 +1,4 @@
-// Members of a block: indices of its eigenvalues, ascending, and the modes that they are.
+// Members of a block: ascending indices of some of its eigenvalues, and the numbers of their modes.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,11 @@
 
 namespace eigentrail {
 
-/// The modes among members of a block, ascending, each once; members that are no modes are left out.
+/// Mode numbers in ascending order without repetitions. Negative entries (Track::no_mode, Track::guest) are
+/// left out.
 std::vector<int> sorted_modes(const std::vector<int>& modes);
 
-/// Elements of either list, ascending; both are ascending.
+/// Union of two ascending lists, ascending.
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 
 /// The eigenvalues of a track with these indices.

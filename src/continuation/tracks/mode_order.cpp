@@ -10,15 +10,21 @@
 namespace eigentrail {
 namespace {
 
-/// Share of a step beside a meeting at which its modes are told apart: the eigenvalues differ there by
-/// sqrt(1e-5) of what they do over the step at an exceptional point, far above the root of rounding.
+/// In steps: distance from a point with coinciding eigenvalues at which these are distinguished. Close to an
+/// exceptional point they differ there by sqrt(1e-5) of their difference over the step, far above the square
+/// root of rounding.
 constexpr double beside_meeting = 1e-5;
+/// As a share of the first step: the same at a branch point, where the eigenvalues of the other path vary on
+/// the scale of the first step, which is short.
+constexpr double beside_branch_point = 1e-3;
 
+/// Eigenvalues of a track at a distance from its point, by its series.
 ComplexVector roots_beside(const Track& track, double distance) {
   return block_roots(evaluate_series(track.functions, distance));
 }
 
-/// Puts complex pairs of a real block in order: the upper member is the mode.
+/// Assigns the mode of every complex pair of a real block to the member with Im s > 0. Two modes that have
+/// become a pair keep the smaller number and are noted as partners.
 void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     if (roots[i].imag() == 0.0) continue;
@@ -39,8 +45,8 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
   }
 }
 
-/// The real mode from which the lower member of a pair has come apart: the nearest one that has no partner
-/// in the block.
+/// The mode from which a new real mode comes: the nearest real one in the block whose partner is not in the
+/// block.
 int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root, const ModeNumbers& numbers) {
   int parent = 0;
   double nearest = INFINITY;
@@ -58,6 +64,7 @@ int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root,
   return parent;
 }
 
+/// The partner of a mode; a new number if it has none yet.
 int partner_of(int mode, ModeNumbers& numbers) {
   const auto found = numbers.partners.find(mode);
   if (found != numbers.partners.end()) return found->second;
@@ -95,7 +102,8 @@ std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, M
     const double near = 1.0 - beside_meeting;
     const ComplexVector before = follow_roots(functions, start, from, near, &track.told_apart);
     const ComplexVector earlier = follow_roots(functions, before, near, 1.0 - 2.0 * beside_meeting);
-    // Straight on through a crossing. At an exceptional point no order is the right one; this one is as good.
+    // Linear extrapolation is right at a crossing. Behind an exceptional point no assignment is better than
+    // another.
     const ComplexVector expected = before + 2.0 * (before - earlier);
     track.roots = in_order_of(before, track.roots);
     track.departure = Track::Departure{distance, in_order_of(expected, roots_beside(track, distance))};
@@ -108,14 +116,13 @@ std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, M
 
 std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step, PathNode& node,
                                        ModeNumbers& numbers) {
-  constexpr double beside_branch_point = 1e-3;  // of the first step
   std::vector<Birth> births;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& track = node.tracks[i];
     track.roots = in_order_of(arrived.tracks[i].roots, track.roots);
     track.modes = track.arriving = arrived.tracks[i].arriving;
     if (track.size() == 1) continue;
-    // Where eigenvalues meet, their order a little behind the point is the one that counts.
+    // If eigenvalues coincide at the point, their order a little behind it determines the modes.
     const double distance = beside_branch_point * next_step;
     track.departure = Track::Departure{distance, in_order_of(track.roots, roots_beside(track, distance))};
     if (!track.pair.is_real) continue;
@@ -132,7 +139,7 @@ std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers) {
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     int& mode = track.modes[static_cast<std::size_t>(i)];
     if (roots[i].imag() != 0.0 || mode != Track::no_mode) continue;
-    // The lower member of a pair that has come apart is a mode of its own from here on.
+    // A real eigenvalue without a mode was the lower member of a pair that has become two real modes.
     const int parent = parent_of(track, roots, i, numbers);
     mode = partner_of(parent, numbers);
     births.push_back({parent, mode});

@@ -1,8 +1,8 @@
-// Which eigenvalue of a block is which mode, on both sides of a point.
+// Assignment of mode numbers to the eigenvalues of blocks, before and behind a point.
 //
-// Along a step every eigenvalue is followed from the left end. Where eigenvalues meet at a point, who is who
-// behind it is decided anew: straight on through a crossing; on the real axis a pair becomes two modes, or
-// two modes become a pair.
+// Along a step every eigenvalue is followed continuously from the left end. Where eigenvalues coincide at a
+// point, the assignment behind it is made by extrapolation: modes keep their direction through a crossing. On
+// the real axis a complex pair becomes two modes, or two real modes become one complex pair.
 #pragma once
 
 #include <map>
@@ -12,32 +12,36 @@
 
 namespace eigentrail {
 
-/// The modes of a trace: how many there are, and which two shared a pair of real eigenvalues, so that the
-/// same mode comes back when a pair parts again.
+/// The mode numbers of a trace.
 struct ModeNumbers {
-  int count = 0;
+  int count = 0;  ///< numbers given so far
+  /// For every mode that has become one pair with another, or comes from the same pair: that other one. When
+  /// the pair becomes two real modes again, they get the same numbers as before.
   std::map<int, int> partners = {};
 };
 
-/// A mode that begins where a pair comes apart on the real axis.
+/// A mode that begins where a complex pair becomes two real modes: the number of the pair, which one of the
+/// two keeps, and that of the other.
 struct Birth {
   int parent = 0, born = 0;
 };
 
-/// Orders the eigenvalues of every block at the end of a step as they come from its beginning.
+/// Puts the eigenvalues of every block at the end of a step in the order in which they are continued from its
+/// beginning, and takes over the mode numbers. Sets Track::told_apart.
 void order_arrival(Step& step);
 
-/// Orders the modes behind the end of a step in those blocks whose eigenvalues meet there (`meets`, per
-/// track). Returns the modes that begin there.
+/// Assigns modes behind the end of a step in blocks whose eigenvalues coincide there (`meets`, per track),
+/// and sets Track::departure. Returns the modes that begin there.
 std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers);
 
-/// Orders the modes of a point on another path, with the tracks of `arrived`, at which the trace leaves its
-/// own. `next_step`: signed length of the first step. Returns the modes that begin there.
+/// The same for `node`, the branch point as a start on another path. `arrived`: the branch point at the end
+/// of the trace's own path, with the same tracks. `next_step`: signed length of the first step.
 std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step, PathNode& node,
                                        ModeNumbers& numbers);
 
-/// In a real block every real eigenvalue is a mode, and of a complex pair the upper member is one. Returns
-/// the modes that begin, or begin again.
+/// Updates the mode numbers of a real block so that every real eigenvalue is a mode, and of a complex pair
+/// the member with Im s > 0. Eigenvalues that are not followed stay guests. Returns the modes that begin, or
+/// begin again.
 std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers);
 
 }  // namespace eigentrail

@@ -11,11 +11,14 @@
 namespace eigentrail {
 namespace {
 
-/// Two eigenvalues of a block closer than this, relatively to the block, have no derivatives of their own: of
-/// a defective pair the slope, 1 / (2 gap), would be known to less than a digit for half of all digits lost.
+/// Eigenvalues of a block get no derivative if their distance from another one, relative to the norm of the
+/// block, is at most this. Beside an exceptional point the slope is proportional to 1 / distance, and
+/// rounding changes it by eps / distance^2, relatively: 2e-4 at this limit, times the condition of the block.
 constexpr double coinciding = 1e-6;
+/// Smallest norm of a block as a scale: keeps the limit above zero where all eigenvalues are zero.
+constexpr double least_scale = 1e-300;
 
-/// Eigenvectors of a block in its own coordinates, in the order of its roots.
+/// Eigenvectors of Lambda as columns, in the order of the roots of the track.
 ComplexMatrix vectors_of(const Track& track) {
   if (track.size() == 1) return ComplexMatrix::Identity(1, 1);
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
@@ -29,10 +32,11 @@ ComplexMatrix vectors_of(const Track& track) {
   return ordered;
 }
 
-/// ds/dp of a root of a track, `speed` = dp / d(coordinate); not a number where another root is too near.
+/// Derivative of a root of a track with respect to p, in its chart. `speed` = dp / d(coordinate). NaN where
+/// another root is too close.
 Complex slope_of(const Track& track, Complex root, Eigen::Index index, double speed) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const double scale = std::max(track.pair.Lambda.norm(), 1e-300);
+  const double scale = std::max(track.pair.Lambda.norm(), least_scale);
   double nearest = INFINITY;
   for (Eigen::Index j = 0; j < track.size(); ++j) {
     if (j != index) nearest = std::min(nearest, std::abs(track.roots[j] - root));
@@ -42,6 +46,7 @@ Complex slope_of(const Track& track, Complex root, Eigen::Index index, double sp
   return series.size() > 1 ? series[1] / speed : Complex(nan, nan);
 }
 
+/// The mode of root i of a track; `vectors` as from vectors_of.
 ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors, double speed) {
   ModeState state;
   state.mode = mode;

@@ -1,11 +1,11 @@
-// The modes of a point, one by one, as the loci file has them.
+// The modes of a point one by one, as the loci file stores them.
 #pragma once
 
 #include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 
-/// Every mode that exists just before or just behind the point. `traced`: index of the traced parameter.
+/// Every mode that exists before or behind the point. `traced`: index of the traced parameter.
 std::vector<ModeState> mode_states(const PathNode& node, int traced);
 
 }  // namespace eigentrail

@@ -15,11 +15,22 @@
 namespace eigentrail {
 namespace {
 
+/// Largest number of eigenvalues of a block. Bounds its cost: a block of k eigenvalues takes k
+/// factorizations, and its dense output has k^2 functions.
 constexpr Eigen::Index largest_block = 6;
-/// Members part that would have met this share of the accepted error alone: of a pair, which costs little to
-/// keep, and of larger blocks, which are told less well.
+/// Eigenvalues are separated if their error as single modes is below this share of the accepted one: in
+/// blocks of two, which cost little to keep, and in larger blocks, whose eigenvalues are harder to identify.
 constexpr double parting_error = 0.03;
 constexpr double bystander_error = 0.5;
+/// A part of a block can be separated if its distance from the others is more than this many times its
+/// diameter.
+constexpr double isolated = 3.0;
+/// The other chart is preferred if its last term is less than this share of that of the present chart,
+/// relative to the eigenvalue, ...
+constexpr double much_smaller_term = 0.2;
+/// ... and the eigenvalue changes by more than this share of itself on the step. Otherwise both charts are
+/// alike.
+constexpr double least_change = 0.2;
 
 /// Distance of a complex number from the real segment between 0 and h.
 double distance_to_step(Complex z, double h) {
@@ -27,11 +38,11 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
-/// A root of a series means nothing where the last term is this share of the largest one: there the series
-/// has not yet begun to converge.
+/// A series is not accurate where its last term is a larger share of the largest term: its terms do not
+/// decrease there.
 constexpr double last_term = 0.3;
 
-/// Whether a series still tells something at z.
+/// Whether the last term of a series at z is small enough.
 bool converges_at(const ComplexVector& series, Complex z) {
   double largest = 0.0;
   double term = 0.0;
@@ -44,12 +55,13 @@ bool converges_at(const ComplexVector& series, Complex z) {
   return term <= last_term * largest;
 }
 
+/// Whether meetings at places where the series are not accurate count.
 enum class Doubtful { counts, is_left_out };
 
-/// Distance from the step at which two eigenvalues with these series meet; infinite beyond `limit`. `spread`
-/// is the square of the radius that blocks extend around their means: the discriminant of what lies between
-/// their rims is nearer to zero by so much. `doubtful` says what becomes of meetings where the series do not
-/// converge.
+/// Distance from the step [0, h] of the nearest meeting of two eigenvalues with these series; infinite beyond
+/// `limit`. For blocks, the series are those of the means, and `spread` is the square of the radius of the
+/// eigenvalues about the mean: the magnitude of the discriminant is reduced by it, to allow for the members
+/// that are closest to each other.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h, double limit,
                         Doubtful doubtful) {
   ComplexVector delta = discriminant_series(a, b);
@@ -63,27 +75,29 @@ double meeting_distance(const ComplexVector& a, const ComplexVector& b, double s
   return nearest;
 }
 
+/// Square of the largest distance of an eigenvalue of a track from the mean.
 double square_radius(const Track& track) {
   double radius = 0.0;
   for (const Complex root : track.roots) radius = std::max(radius, std::norm(root - track.roots.mean()));
   return track.size() == 1 ? 0.0 : radius;
 }
 
-/// Mean of a track in a chart; empty where it is at infinity there.
+/// Series of the mean of a track in a chart; empty where it is infinite there.
 ComplexVector mean_in(const Track& track, Chart chart) {
   ComplexVector mean = mean_series(track.series.Lambda);
   if (track.pair.chart == chart) return mean;
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
 
-/// Replaces the tracks with the given indices by one.
+/// Replaces the tracks with the given indices by one track at the end of the list.
 void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
   std::sort(old.rbegin(), old.rend());
   for (const std::size_t i : old) node.tracks.erase(node.tracks.begin() + static_cast<std::ptrdiff_t>(i));
   node.tracks.push_back(std::move(track));
 }
 
-/// The pair corrected at the node and differentiated, its roots in the order of `known`.
+/// Sets a track from a pair that is corrected at the node and differentiated, with its roots in the order of
+/// `known` and the mode numbers `modes`. False if that fails.
 bool settle(const PathProblem& problem, const PathNode& node, const InvariantPair& pair,
             const ComplexVector& known, const std::vector<int>& modes, Track& track, RunCounts& counts) {
   const PencilAtPoint pencil(node.pencil, pair.chart);
@@ -109,7 +123,8 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     partner.distance = meeting_distance(mean, other, spread, h, limit, Doubtful::is_left_out);
     if (partner.distance <= limit) partners.push_back(partner);
   };
-  // A member may as well meet the conjugate of another track: both are near the real axis then.
+  // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
+  // the track is joined with its own conjugate.
   double nearest_conjugate = INFINITY;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
@@ -129,7 +144,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
 
 namespace {
 
-/// Where the modes of some tracks that meet at the node are told apart; empty when none of them meet.
+/// The smallest distance of the departures of these tracks (Track::departure); empty if none of them has one.
 std::optional<double> departure_distance(const PathNode& node, const std::vector<std::size_t>& members) {
   std::optional<double> distance;
   for (const std::size_t i : members) {
@@ -140,7 +155,7 @@ std::optional<double> departure_distance(const PathNode& node, const std::vector
   return distance;
 }
 
-/// Roots of a track there, in the order of its modes.
+/// Roots of a track at a distance from the node, in the order of its modes.
 ComplexVector roots_at_departure(const Track& track, double distance) {
   double position = 0.0;
   const ComplexVector start = departing_roots(track, distance / farthest_departure, position);
@@ -148,6 +163,7 @@ ComplexVector roots_at_departure(const Track& track, double distance) {
   return in_order_of(start, roots);
 }
 
+/// Adds roots to a list: their reciprocals in the other chart, and after them their conjugates if requested.
 void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, std::vector<Complex>& all) {
   const std::size_t first = all.size();
   for (const Complex root : roots) all.push_back(other_chart ? 1.0 / root : root);
@@ -203,13 +219,15 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
 
 namespace {
 
-/// Two eigenvalues of a block that differ by less, relative to the block or to the reference if that is
-/// larger, are not told apart: the square root of rounding, to which a double eigenvalue is known.
+/// Two eigenvalues of a block count as equal if they differ by no more, relative to the norm of the block or
+/// to the reference magnitude if that is larger: about the square root of rounding, the accuracy of a double
+/// eigenvalue.
 constexpr double told_apart = 1e-7;
 
-/// Which eigenvalues of a block still belong together: connected by meetings within the reach. `reference` is
-/// the size below which eigenvalues count as zero: without it the two zeros at which a pair passes through
-/// the origin would be compared with nothing but their own rounding.
+/// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
+/// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
+/// eigenvalues count as zero. It is the scale where a pair passes through the origin and the block itself is
+/// nearly zero.
 std::vector<std::vector<int>> groups(const Track& track, double reference, double h, double reach) {
   const Eigen::Index k = track.size();
   std::vector<int> group(static_cast<std::size_t>(k));
@@ -224,7 +242,8 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
       const auto& b = series[static_cast<std::size_t>(j)];
       const bool apart =
           std::abs(track.roots[i] - track.roots[j]) > told_apart * scale && a.size() > 0 && b.size() > 0;
-      // In doubt they stay together: close behind a meeting of three or more no series converges.
+      // Meetings at places where the series are not accurate count, so that the eigenvalues stay together:
+      // close to a meeting of three or more eigenvalues no series converges.
       const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit, Doubtful::counts) < limit ||
                           meeting_distance(a, b, 0.0, -h, limit, Doubtful::counts) < limit;
       if (!linked) continue;
@@ -244,7 +263,8 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
   return result;
 }
 
-/// A block without the eigenvalues that could have done alone.
+/// Groups of the eigenvalues of a block by their errors as single modes: each with less than the accepted
+/// error by itself, and all others as one block.
 std::vector<std::vector<int>> without_bystanders(const Vector& errors, double accepted) {
   std::vector<std::vector<int>> members;
   std::vector<int> rest;
@@ -255,15 +275,16 @@ std::vector<std::vector<int>> without_bystanders(const Vector& errors, double ac
       rest.push_back(static_cast<int>(i));
     }
   }
-  // One alone that could not do alone has lost its partner by mistake.
+  // A single eigenvalue with a large error needs a partner: then the block stays together.
   if (rest.size() == 1) return {};
   if (!rest.empty()) members.push_back(std::move(rest));
   return members;
 }
 
-/// Whether the groups can be followed by themselves: eigenvalues that are much closer to each other than the
-/// block is far from a multiple of the unit matrix are (nearly) defective.
+/// Whether the groups can be separated. Eigenvalues of different groups whose distance is small against the
+/// norm of the centred Lambda (less the mean times the unit matrix) are nearly defective; then they cannot.
 bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& groups) {
+  // The condition of the eigenvectors is about the reciprocal of this share.
   constexpr double nearly_defective = 1e-4;
   ComplexMatrix N = block.pair.Lambda;
   N.diagonal().array() -= block.roots.mean();
@@ -278,7 +299,7 @@ bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& gro
   return gap > nearly_defective * N.norm();
 }
 
-/// The tracks that a block falls into; empty when one of them does not converge.
+/// The tracks into which a block is separated; empty if one of them does not converge.
 std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, const Track& block,
                             const std::vector<std::vector<int>>& groups, RunCounts& counts) {
   std::vector<Track> parts;
@@ -289,7 +310,7 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
       known[static_cast<Eigen::Index>(i)] = block.roots[members[i]];
       modes.push_back(block.modes[static_cast<std::size_t>(members[i])]);
     }
-    // Conjugates and guests that have parted from the modes are no longer needed.
+    // Groups of conjugates and guests only are not followed.
     if (std::all_of(modes.begin(), modes.end(), [](int mode) { return mode < 0; })) continue;
     Track track;
     if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
@@ -332,7 +353,7 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
     }
   }
   Track result;
-  if (!(outside > 3.0 * inside)) return std::nullopt;
+  if (!(outside > isolated * inside)) return std::nullopt;
   if (!settle(problem, node, part_of(track.pair, track.roots, members), known, modes, result, counts))
     return std::nullopt;
   return result;
@@ -351,7 +372,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
           left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
       if (members.size() == 1 && comparable) {
         const double share = track.size() == 2 ? parting_error : bystander_error;
-        // What they would be on the next step, which may be longer.
+        // Errors on the next step, which may be longer: they grow like the length to the power 2 order + 2.
         const double growth = std::pow(std::abs(h / last_step), 2.0 * problem.order + 2.0);
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
                                      share * accepted);
@@ -376,8 +397,8 @@ bool prefers_other_chart(const Track& track, double h) {
     const Eigen::Index last = series.size() - 1;
     return std::abs(series[last]) * std::pow(std::abs(h), static_cast<double>(last)) / std::abs(series[0]);
   };
-  // The eigenvalue must move by a good part of itself, or the charts do not differ.
-  return std::abs(here[1] * h) > 0.2 * std::abs(here[0]) && tail(there) < 0.2 * tail(here);
+  return std::abs(here[1] * h) > least_change * std::abs(here[0]) &&
+         tail(there) < much_smaller_term * tail(here);
 }
 
 bool change_chart(const PathProblem& problem, PathNode& node, std::size_t index, RunCounts& counts) {

@@ -1,9 +1,9 @@
-// What is followed together at a point: close modes are joined into blocks, blocks whose modes have parted
-// are taken apart, eigenvalues on their way to infinity change to the reciprocal chart.
+// Changes of the tracks at a point: close modes are joined into blocks, blocks whose modes are no longer
+// close are separated, and single modes change their chart.
 //
-// Two eigenvalues limit each other's series by the exceptional point where they would meet, a root of
-// ((s_i - s_j)/2)^2 in the complex plane of the path's coordinate. That function is smooth, so its own series
-// tells where the root lies.
+// The radius of convergence of the series of two eigenvalues is limited by the exceptional point where they
+// coincide, a root of ((s_i - s_j)/2)^2 in the complex plane of the path's coordinate. That function is
+// smooth there, so that the root follows from its own series.
 #pragma once
 
 #include "continuation/tracks/partner.hpp"
@@ -11,28 +11,31 @@
 
 namespace eigentrail {
 
-/// The partners whose meeting with `track` lies within `reach` steps of the step [0, h], nearest first.
+/// The partners whose nearest meeting with `track` is at most `reach` |h| away from the step [0, h], by
+/// ascending distance.
 std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
 
-/// Joins `track` with its partners at the node. Returns false, and leaves the node alone, when the joint
-/// block does not converge or would exceed the largest size.
+/// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
+/// change the node, if the block does not converge or would have more than six eigenvalues.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
           RunCounts& counts);
 
-/// Some members of a block as a block of their own; empty when they cannot be told from the others.
+/// Some members of a block as a track of their own. Empty if they are too close to the other eigenvalues or
+/// the corrector fails.
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
                               const std::vector<int>& members, RunCounts& counts);
 
-/// Takes apart the blocks whose eigenvalues meet nowhere within `reach` steps of length h around the node,
-/// and those whose members would have been accurate enough alone on the last step, from `left` (null at the
-/// start). `accepted` is the relative error that a step may have.
+/// Separates blocks into those eigenvalues that have meetings within `reach` |h| of a step of length h to
+/// either side of the node. If this leaves a block as it is, separates eigenvalues that would be accurate
+/// enough as single modes, estimated from the last step, of length `last_step` from `left` (null at the
+/// start). `accepted`: largest relative error of a step.
 void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
           double reach, double accepted, RunCounts& counts);
 
-/// Changes the chart of a single mode.
+/// Changes the chart of a single mode. False, without a change, if that fails.
 bool change_chart(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts);
 
-/// Whether the series of a single mode falls faster in the other chart on a step h.
+/// Whether the series of a single mode converges faster in the other chart on a step of length h.
 bool prefers_other_chart(const Track& track, double h);
 
 }  // namespace eigentrail

@@ -3,8 +3,9 @@
 namespace eigentrail {
 namespace {
 
-/// Steps: where a mode is lost, exchanged or not certified, it is joined with what it would meet within this
-/// distance. Nearer meetings are what makes tracks jump; farther ones only cost accuracy.
+/// In steps: a mode that is lost, exchanged or not certified is joined with the nearest mode that it meets
+/// within this distance from the step. Close meetings let the corrector converge to the wrong mode; more
+/// distant ones only reduce the accuracy.
 constexpr double join_reach = 1.0;
 
 }  // namespace

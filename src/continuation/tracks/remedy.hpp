@@ -1,5 +1,5 @@
-// What may help where a step was refused, other than a shorter step: another coordinate along the path,
-// another chart for the mode to blame, or a block of it with the modes that it would meet.
+// Remedies for a rejected step other than a shorter step: another coordinate along the path, another chart
+// for the track that is the reason, or a block of that track with modes that it meets nearby.
 #pragma once
 
 #include "continuation/path/path_frame.hpp"
@@ -7,19 +7,19 @@
 
 namespace eigentrail {
 
-/// What a remedy changed; empty: nothing, and only a shorter step may help.
+/// What was changed. If nothing was (`helps` is false), only a shorter step can help.
 struct Remedy {
   Regroupings changes = {};
-  /// Where the coordinate changed: length of the next step in the new one.
+  /// If the coordinate was changed: length of the next step in the new one.
   std::optional<double> turned_step = {};
-  bool tried_to_join = false;
+  bool tried_to_join = false;  ///< whether partners for a block were found, joined or not
 
   bool helps() const { return turned_step || changes.charts + changes.joined > 0; }
 };
 
-/// Looks for a remedy at `node`, where the refused step of length h begins; `step` is that step if its points
-/// were solved, else null. Changes tracks of the node, or the frame. `may_join`: whether blocks may still be
-/// joined at this node.
+/// Applies the first possible remedy at `node`, where the rejected step of signed length h begins, and
+/// changes tracks of the node or the frame. `verdict`: why the step was rejected. `step`: the rejected step
+/// if its right end was computed, else null. `may_join`: whether blocks may be formed at this node.
 Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRules& rules,
                    const Verdict& verdict, double h, const Step* step, bool may_join, PathNode& node,
                    RunCounts& counts);

@@ -7,10 +7,12 @@
 namespace eigentrail {
 namespace {
 
-/// Eigenvalues closer than this, relatively, start as a block: QZ tells a double one no better than 1e-8, a
-/// triple one no better than 1e-5.
+/// Eigenvalues with at most this relative distance start as a block. QZ gives a double eigenvalue to 1e-8 at
+/// best, a triple one to 1e-5.
 constexpr double close = 1e-4;
 
+/// A label per mode, equal for modes that are connected by close eigenvalues. A mode is also close to another
+/// if it is close to the conjugate of that.
 std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref) {
   std::vector<int> label(modes.size());
   std::iota(label.begin(), label.end(), 0);
@@ -26,6 +28,7 @@ std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_r
   return label;
 }
 
+/// Whether an eigenvalue is so close to its conjugate that both start in one block.
 bool near_real(Complex s, double s_ref) {
   return 2.0 * std::abs(s.imag()) <= close * std::max(std::abs(s), s_ref);
 }

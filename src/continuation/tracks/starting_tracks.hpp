@@ -1,4 +1,4 @@
-// From a spectrum to what is followed: single modes, and blocks where eigenvalues nearly coincide.
+// Initial tracks from a spectrum: single modes, and blocks of eigenvalues that nearly coincide.
 #pragma once
 
 #include "eigentrail/continuation/path_point.hpp"
@@ -6,16 +6,17 @@
 
 namespace eigentrail {
 
-/// Which modes of a spectrum are followed together, with their numbers.
+/// A single mode or a block of a spectrum, with mode numbers.
 struct StartingGroup {
   InvariantPair pair;      ///< not yet corrected
-  ComplexVector roots;     ///< as the spectrum has them
+  ComplexVector roots;     ///< eigenvalues from the spectrum
   std::vector<int> modes;  ///< mode number of every root, or Track::no_mode, Track::guest
 };
 
-/// `least_scale`: magnitude of eigenvalues beside the point, where those of the pencil vanish with its
-/// stiffness. Groups of the first `n_modes` modes of the spectrum; later ones join as guests where they are
-/// too close.
+/// Groups that contain the first `n_modes` modes of the spectrum. Later modes are in these groups, as guests,
+/// where they are too close. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s. `least_scale`:
+/// lower bound of s_ref, the magnitude of eigenvalues near the point; needed on a branch point, where the
+/// pencil may have no other eigenvalues than zero.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale = 0.0);

@@ -11,9 +11,16 @@
 namespace eigentrail {
 namespace {
 
-/// Relative distance below which two eigenvalues coincide; double ones that are defective are told to the
-/// root of rounding only.
+/// Distance relative to the norm of the block up to which eigenvalues coincide on a whole step: rounding with
+/// a margin, for double eigenvalues that are semisimple.
 constexpr double coinciding = 1e-12;
+/// Relative tolerance for rounding in the comparison of distances.
+constexpr double length_rounding = 1e-9;
+/// A departure that is too far away is replaced by one at this share of the largest distance.
+constexpr double much_closer = 0.1;
+/// Places on a step at which eigenvalues are compared: irregular, so that eigenvalues that meet at simple
+/// fractions of the step do not seem to coincide everywhere.
+constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
 
 }  // namespace
 
@@ -22,9 +29,10 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
   if (!track.departure) return track.roots;
   const Track::Departure& departure = *track.departure;
   position = departure.distance / h;
-  if (std::abs(position) <= farthest_departure * (1.0 + 1e-9)) return departure.roots;
-  // On their way to the meeting roots, and square roots of the distance, only shrink: their order is kept.
-  const double share = 0.1 * farthest_departure / std::abs(position);
+  if (std::abs(position) <= farthest_departure * (1.0 + length_rounding)) return departure.roots;
+  // Towards the point, the differences of the eigenvalues shrink linearly or like a square root of the
+  // distance. The order therefore follows from linear interpolation between the point and the departure.
+  const double share = much_closer * farthest_departure / std::abs(position);
   position *= share;
   return in_order_of(track.roots + share * (departure.roots - track.roots),
                      block_roots(evaluate_series(track.functions, share * departure.distance)));
@@ -48,7 +56,6 @@ const ComplexVector& StrandSampler::operator()(double t) {
 }
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
-  constexpr std::array<double, 6> samples{0.07, 0.19, 0.37, 0.61, 0.83, 1.0};
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);

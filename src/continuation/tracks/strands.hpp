@@ -1,4 +1,4 @@
-// The eigenvalues of a step one by one, each followed from its left end.
+// Strands: the eigenvalues of a track on a step one by one, each followed continuously from the left end.
 #pragma once
 
 #include <map>
@@ -10,25 +10,26 @@
 
 namespace eigentrail {
 
-/// An eigenvalue of a track, or several that coincide on the whole step.
+/// An eigenvalue of a track, or several of them that coincide on the whole step.
 struct Strand {
-  std::size_t track = 0;
+  std::size_t track = 0;     ///< index of the track
   std::vector<int> members;  ///< indices of the roots of the track, ascending
 };
 
-/// Roots of one track on a step at any t in [0, 1], in the order of its modes.
+/// Eigenvalues of one track on a step at any t in [0, 1], in the order of its modes. Remembers those that it
+/// has computed.
 class StrandSampler {
  public:
-  /// `index` is the track's, the same at both ends.
+  /// `index`: of the track, the same at both ends. `length`: signed length of the step.
   StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
-  /// Smooth functions of the track on the step.
+  /// Smooth functions of the track on the step (modes/invariants.hpp).
   const HermiteInterpolant& functions() const { return functions_; }
 
-  /// Roots that stay closer than this are one.
+  /// Distance within which two eigenvalues cannot be distinguished.
   double resolution() const { return resolution_; }
 
-  /// Valid until the next call.
+  /// Eigenvalues at t. The reference is valid until the next call.
   const ComplexVector& operator()(double t);
 
  private:
@@ -38,14 +39,17 @@ class StrandSampler {
   ComplexVector single_;                   ///< the root of a track that has one, at the last t
 };
 
-/// A departure farther than this share of a step is looked at again nearer by.
+/// In steps: if a departure (Track::departure) is farther from the left end than this, the eigenvalues are
+/// distinguished closer to it.
 constexpr double farthest_departure = 0.1;
 
-/// Where the eigenvalues of a track are told apart at the left end of a step of length h: at the end itself,
-/// or a little behind it where some meet there. `position` is a share of the step.
+/// Eigenvalues of a track at the left end of a step of signed length h, in the order of its modes. If some
+/// coincide there, those a small distance away, where they differ. `position` is set to that distance in
+/// steps, else to zero.
 ComplexVector departing_roots(const Track& track, double h, double& position);
 
-/// The strands of a track on a step: eigenvalues that coincide throughout are one.
+/// The strands of a track on a step. `index`: of the track. Eigenvalues that coincide at all of several
+/// samples form one strand.
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler);
 
 }  // namespace eigentrail
