@@ -123,7 +123,7 @@ class RootsOnStep {
   void search(double begin, double end) {
     if (given_up() || stay_apart(begin, end)) return;
     ++pieces_;
-    if (given_up()) roots_.clear();
+    if (given_up()) return roots_.clear();
     const double length = end - begin;
     if (length < smallest_piece) {
       if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece)

@@ -271,7 +271,7 @@ bool VeeringWalk::counts(const Event& event, Complex root) const {
   const double widest = thresholds.widest * (1.0 + limit_rounding) * search_.frame().range.length();
   return !discriminant_.is_double_root(root, thresholds.trusted_share) &&
          confirms_root(discriminant_at(*below_), root - position_, thresholds.trusted_share) &&
-         event.half_width <= widest && event.half_width >= resolution_;
+         event.half_width <= widest && std::abs(root.imag()) >= resolution_;
 }
 
 FoundEvents VeeringWalk::run() {

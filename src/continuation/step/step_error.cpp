@@ -15,6 +15,21 @@ namespace {
 /// accurate than they are. A larger value loses accuracy near folds, a smaller one needs more steps there.
 constexpr double parameter_accuracy = 1e-5;
 
+/// Truncation errors of a part of an accurate step, as a share of those of the whole step. If this share is
+/// smaller, the part is accurate even if the error of the whole step was estimated a million times too small.
+/// A larger estimate for the part then shows rounding in two points that are close to each other, or
+/// eigenvalues that coincide at its end; a shorter step would not lower it.
+constexpr double negligible_share = 1e-6;
+
+bool is_short_part(const PathProblem& problem, const Step& step) {
+  if (step.whole == 0.0) return false;
+  return std::pow(std::abs(step.h / step.whole), 2.0 * problem.order + 2.0) <= negligible_share;
+}
+
+/// In t: distance from an end of the step with coinciding eigenvalues at which the error is evaluated
+/// instead.
+constexpr double beside_meeting = 0.1;
+
 /// Estimated error of p on a step / accepted error.
 double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const auto row = [&](const PathNode& node) {
@@ -32,7 +47,8 @@ double track_error(const PathProblem& problem, double tolerance, const Step& ste
   const Vector errors = (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
   const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
   const double smallest = place_of_least_magnitude(dense.series(0.0, degree));
-  // Where the roots of a block meet, no bound of single eigenvalues holds; the functions are accurate there.
+  // Where roots of a block coincide, the error of a single root has no bound, although the functions of the
+  // block are accurate.
   const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
   const double begin = track.departure ? beside_meeting : 0.0;
   const double end = meets ? 1.0 - beside_meeting : 1.0;

@@ -22,7 +22,7 @@ constexpr double least_relative_gap = 0.1;
 double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
 
 /// The largest error of all tracks, and of p where the coordinate is the distance across a plane. The verdict
-/// is `accepted` up to an error of one, else `inaccurate`.
+/// is `accepted` up to an error of one, else `inaccurate`. A short part of an accurate step is accurate.
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step);
 
 }  // namespace eigentrail
