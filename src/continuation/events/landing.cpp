@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "continuation/events/walk.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -274,18 +275,30 @@ MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, doub
 
 bool MeetingLanding::land() {
   const std::vector<ExpectedMeeting> expected = expected_in_blocks(*step_.left, step_.right, step_.h);
+  std::optional<std::size_t> first;
+  double place = step_.h;
+  int first_looks = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     double distance = expected[i].position.real();
+    // A prediction may be off: what was found first can lie behind others that are expected later.
+    if (first && distance / place >= 1.0 - worth_a_look) break;
+    std::optional<Step> kept = std::exchange(cut_, std::nullopt);
     int looks = 0;
     const Cut cut = cut_at(expected[i], distance, looks);
     if (cut == Cut::failed) return false;
-    if (cut == Cut::none) continue;
-    record(expected[i], looks);
-    for (std::size_t j = i + 1; j < expected.size(); ++j) {
-      if (std::abs(expected[j].position.real() - distance) <= worth_a_look * std::abs(step_.h))
-        record(expected[j], 1);
+    if (cut == Cut::none || (first && distance / place >= 1.0)) {
+      cut_ = std::move(kept);
+      continue;
     }
-    break;
+    first = i;
+    place = distance;
+    first_looks = looks;
+  }
+  if (!first) return true;
+  record(expected[*first], first_looks);
+  for (std::size_t j = 0; j < expected.size(); ++j) {
+    const bool is_there = std::abs(expected[j].position.real() - place) <= worth_a_look * std::abs(step_.h);
+    if (j != *first && is_there) record(expected[j], 1);
   }
   return true;
 }
