@@ -25,10 +25,24 @@ def roots_of(functions):
     return np.linalg.eigvals(by_columns if np.any(by_columns.imag) else by_columns.real).astype(complex)
 
 
-def least_gap(roots):
-    """The least distance of any two of the roots (k)."""
+def distinctness(functions):
+    """How well the roots of a block can be distinguished, from the values of its functions (functions): the least
+    distance of two roots, for three and more relative to their condition numbers 1 / |y^H x|. At an exceptional point
+    rounding alone separates the roots, and the condition numbers are large."""
+    count = functions.shape[-1]
+    if count <= 2:
+        roots = roots_of(functions)
+        condition = np.ones(len(roots))
+    else:
+        k = round(count**0.5)
+        roots, vectors = np.linalg.eig(functions.reshape(k, k))
+        try:
+            inverse = np.linalg.inv(vectors)
+        except np.linalg.LinAlgError:
+            return 0.0
+        condition = np.linalg.norm(inverse, axis=1) * np.linalg.norm(vectors, axis=0)
     i, j = np.triu_indices(len(roots), 1)
-    return np.abs(roots[i] - roots[j]).min()
+    return (np.abs(roots[i] - roots[j]) / np.maximum(condition[i], condition[j])).min()
 
 
 def named(known, roots):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .blocks import followed, least_gap, named, roots_of
+from .blocks import distinctness, followed, named, roots_of
 from .interpolation import TwoPointTaylor
 from .path import Path
 
@@ -59,8 +59,9 @@ class DenseOutput:
         def roots_at(places):
             return roots_of(functions(places[:, np.newaxis]))
 
-        at_ends = roots_at(np.array([0.0, 1.0]))
-        end = 0 if least_gap(at_ends[0]) >= least_gap(at_ends[1]) else 1
+        ends = functions(np.array([[0.0], [1.0]]))
+        at_ends = roots_of(ends)
+        end = 0 if distinctness(ends[0]) >= distinctness(ends[1]) else 1
         known = _from_chart(self._eigenvalue[step + end, modes], chart)
         roots = followed(roots_at, end, named(known, at_ends[end]), t)
         return _from_chart(roots[:, :len(modes)], chart)

@@ -1,5 +1,7 @@
 #include "eigentrail/continuation/path_step.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -147,6 +149,26 @@ class Differences {
   std::vector<bool> unclear_;
 };
 
+/// How well the roots of a block can be distinguished, to compare both ends of a step: the least distance of
+/// two roots, for three and more relative to the condition numbers 1 / |y^H x| of the two, with unit
+/// eigenvectors x and y. At an exceptional point rounding alone separates the roots, and the condition
+/// numbers are large; roots that are as close to each other elsewhere are well conditioned.
+double distinctness(const ComplexVector& functions, const ComplexVector& roots) {
+  const Eigen::Index k = roots.size();
+  if (k <= 2) return least_gap(roots);
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(ComplexMatrix(functions.reshaped(k, k)));
+  const ComplexMatrix right = solver.eigenvectors();
+  const ComplexMatrix left = right.inverse();
+  const Vector condition = left.rowwise().norm().cwiseProduct(right.colwise().norm().transpose());
+  const ComplexVector& s = solver.eigenvalues();
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j)
+      least = std::min(least, std::abs(s[i] - s[j]) / std::max(condition[i], condition[j]));
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
 /// The function p(t) - p on a step for a given p. It is evaluated as the change of p from the nearer end, so
 /// that it is accurate relative to that change. This matters beside a fold at the begin or end of a step.
 class Miss {
@@ -287,12 +309,12 @@ ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_
     if (block.size() == 1) {
       roots = HermiteInterpolant(step.length, block.left, block.right)(t);
     } else {
-      // Followed from the end where the eigenvalues are farther apart: where they coincide, they do not
-      // determine the order.
+      // Followed from the end where the eigenvalues are better distinguished: where they coincide, they do
+      // not determine the order.
       const ComplexVector left = block_roots(block.left.col(0));
       const ComplexVector right = block_roots(block.right.col(0));
       work += 2 * static_cast<std::size_t>(block.size());
-      const bool from_left = least_gap(left) >= least_gap(right);
+      const bool from_left = distinctness(block.left.col(0), left) >= distinctness(block.right.col(0), right);
       const ComplexVector start =
           ordered_by_modes(from_left ? left : right, block, from_left ? at_left : at_right);
       bool told_apart = true;
