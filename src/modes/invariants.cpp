@@ -75,6 +75,64 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
   return errors.norm() * std::min(1.0 / std::max(reciprocal, 1e-300), worst_condition);
 }
 
+namespace {
+
+/// The x with x^k = error (nu^(k-1) + nu^(k-2) x + ... + x^(k-1)): eigenvalues of a k x k matrix whose
+/// departure from normality is nu move at most so far if the matrix changes by `error` (Henrici 1962).
+double henrici_bound(double error, double nu, Eigen::Index k) {
+  double low = error;
+  double high = std::max(2.0 * error, 1e-300);
+  const auto holds = [&](double x) {
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < k; ++j) sum = sum * (nu / x) + 1.0;
+    return x >= error * sum;
+  };
+  while (!holds(high) && std::isfinite(high)) high *= 2.0;
+  constexpr int halvings = 10;  // to a tenth of a per cent
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+Vector errors_of_many(const ComplexMatrix& Lambda, const ComplexVector& roots, double error) {
+  const Eigen::Index k = roots.size();
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(Lambda);
+  const ComplexVector s = solver.eigenvalues();
+  const ComplexMatrix vectors = solver.eigenvectors();
+  const ComplexMatrix inverse = vectors.inverse();
+  const double nu = std::sqrt(std::max(Lambda.squaredNorm() - s.squaredNorm(), 0.0));
+  const double anywhere = henrici_bound(error, nu, k);
+  Vector bounds(k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    Eigen::Index own = 0;
+    (s.array() - roots[i]).abs().minCoeff(&own);
+    // |y^H dLambda x| with unit x and y^H x = 1, doubled for the second order, holds where it is small
+    // compared with the distance from the others.
+    const double first_order = 2.0 * inverse.row(own).norm() * vectors.col(own).norm() * error;
+    double gap = INFINITY;
+    for (Eigen::Index j = 0; j < k; ++j) {
+      if (j != own) gap = std::min(gap, std::abs(s[j] - s[own]));
+    }
+    constexpr double small = 0.25;
+    bounds[i] = first_order <= small * gap ? std::min(first_order, anywhere) : anywhere;
+  }
+  return bounds;
+}
+
+}  // namespace
+
+Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors) {
+  const Eigen::Index k = block_size(functions.size());
+  if (k == 1) return errors;
+  if (k > 2) return errors_of_many(functions.reshaped(k, k), roots, errors.norm());
+  // |sqrt(delta + e) - sqrt(delta)| <= min(sqrt(e), e / sqrt(|delta|))
+  const double of_root = std::sqrt(errors[1]);
+  const double apart = std::sqrt(std::abs(functions[1]));
+  return Vector::Constant(2, errors[0] + (apart > of_root ? errors[1] / apart : of_root));
+}
+
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots) {
   // relative, of the corrector and of the basis that both ends of a step share
   constexpr double rounding = 1e-13;

@@ -6,6 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -24,31 +27,59 @@ constexpr double same_place = 1e-9;
 constexpr double on_node = 1e-8;
 /// Beyond this multiple of the reference an eigenvalue is about to pass through infinity.
 constexpr double infinite_size = 1e9;
+/// Relative rounding error of the matrix of a block at a stored point.
+constexpr double function_rounding_level = 1e-13;
+/// A trace promises its tolerance for eigenvalues of a block that are this far apart, relatively.
+constexpr double least_relative_gap = 0.1;
 
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
 }
 
-/// Distance to the nearest other eigenvalue of the block, conjugates included.
-double gap_in_block(const DenseBlock& block, const ComplexVector& s, int mode) {
-  double gap = s[mode].imag() != 0.0 ? 2.0 * std::abs(s[mode].imag()) : INFINITY;
-  for (const int other : block.modes) {
-    if (other == mode || !std::isfinite(s[other].real())) continue;
-    gap = std::min({gap, std::abs(s[other] - s[mode]), std::abs(std::conj(s[other]) - s[mode])});
+/// Errors of the functions of a block at a place of a step of a trace. At a stored point they are rounding.
+Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& functions, bool exact,
+                       double scale, double tolerance) {
+  const Eigen::Index k = block_size(functions.size());
+  // Rounding of Lambda, and of delta for two: that times |Lambda - tau I|, which is of the size of the
+  // largest sqrt(delta) on the step. If this is rounding itself, so is delta.
+  Vector errors = Vector::Constant(functions.size(), function_rounding_level * scale);
+  if (k == 2) {
+    double largest = 0.0;
+    for (const double t : {0.0, 0.5, 1.0}) largest = std::max(largest, std::abs(dense(t)[1]));
+    errors[1] *= std::sqrt(largest);
+    if (largest <= function_rounding_level * scale * scale) errors[1] += largest;
   }
-  return gap;
+  if (exact) return errors;
+  // The estimate is for a lower order than that of the dense output; the trace has promised the tolerance.
+  Vector promised = Vector::Constant(functions.size(), tolerance * scale / static_cast<double>(k));
+  if (k == 2) promised << tolerance * scale, tolerance * least_relative_gap * scale * scale;
+  return errors + dense.error_without_last().cwiseMin(promised);
 }
 
-/// How far an eigenvalue may be off where the functions of its block are known to `level`: near a meeting as
-/// far as a multiple root.
-double uncertainty(const DenseBlock& block, const ComplexVector& s, int mode, double level,
+/// How far the eigenvalues of the modes of a block may be off at a place, 1/s, in the order of its modes.
+/// `s`: of all modes there.
+Vector uncertainty(const DenseBlock& block, double length, double t, const ComplexVector& s, bool exact,
                    const EigenvalueAccuracy& accuracy) {
-  const double scale = scale_of(s[mode], accuracy);
-  if (block.size() == 1) return level * scale;
-  const double nearness = std::min(1.0, gap_in_block(block, s, mode) / (0.1 * scale));
-  const double others = static_cast<double>(block.size() - 1);
-  const double multiple = std::pow(level, others / (others + 1.0));
-  return level * scale / std::max(std::pow(nearness, others), multiple);
+  const double level = exact ? vanishing_damping : accuracy.tolerance;
+  Vector doubts(static_cast<Eigen::Index>(block.modes.size()));
+  for (Eigen::Index i = 0; i < doubts.size(); ++i)
+    doubts[i] = level * scale_of(s[block.modes[static_cast<std::size_t>(i)]], accuracy);
+  if (block.size() == 1) return doubts;
+  const HermiteInterpolant dense(length, block.left, block.right);
+  const ComplexVector functions = dense(t);
+  const ComplexVector roots = block_roots(functions);
+  const double scale = scale_of(roots.cwiseAbs().maxCoeff(), accuracy);
+  const Vector errors =
+      root_errors(functions, roots, function_errors(dense, functions, exact, scale, accuracy.tolerance));
+  for (Eigen::Index i = 0; i < doubts.size(); ++i) {
+    const Complex own = s[block.modes[static_cast<std::size_t>(i)]];
+    const Complex root = chart_value(own, block.chart);
+    Eigen::Index nearest = 0;
+    (roots.array() - root).abs().min((roots.array() - std::conj(root)).abs()).minCoeff(&nearest);
+    const double of_s = block.chart == Chart::finite ? 1.0 : std::norm(own);
+    doubts[i] = std::max(exact ? doubts[i] : 0.0, errors[nearest] * of_s);
+  }
+  return doubts;
 }
 
 double largest_magnitude(const ComplexVector& s) {
@@ -64,16 +95,18 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Eigenv
   result.at = at;
   result.exact = at.t == 0.0 || at.t == 1.0;
   result.all_decay = true;
-  const double level = result.exact ? vanishing_damping : accuracy.tolerance;
   const ComplexVector s = path.eigenvalues_at(at);
   const double zero = double_zero * std::min(largest_magnitude(s), infinite_size * accuracy.reference);
   double fastest = -INFINITY;
-  for (const DenseBlock& block : path.steps[at.step].blocks) {
-    for (const int mode : block.modes) {
+  const PathStep& step = path.steps[at.step];
+  for (const DenseBlock& block : step.blocks) {
+    const Vector doubts = uncertainty(block, step.length, at.t, s, result.exact, accuracy);
+    for (std::size_t i = 0; i < block.modes.size(); ++i) {
+      const int mode = block.modes[i];
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
       const bool vanishes = block.size() > 1 && std::abs(s[mode]) <= zero;
-      const double doubt = vanishes ? zero : uncertainty(block, s, mode, level, accuracy);
+      const double doubt = vanishes ? zero : doubts[static_cast<Eigen::Index>(i)];
       if (growth > doubt) result.unstable.push_back(mode);
       result.all_decay = result.all_decay && growth < -doubt;
       if (growth > fastest) result.critical = mode;
@@ -312,16 +345,17 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   return stretches;
 }
 
-int count_growing(const AxisStretch& stretch, const PathStep& step, const ComplexVector& s,
+int count_growing(const AxisStretch& stretch, const PathStep& step, double t, const ComplexVector& s,
                   const EigenvalueAccuracy& accuracy) {
   if (stretch.stability != Stability::unstable) return 0;
   int count = 0;
   for (const DenseBlock& block : step.blocks) {
-    for (const int mode : block.modes) {
+    const Vector doubts = uncertainty(block, step.length, t, s, false, accuracy);
+    for (std::size_t i = 0; i < block.modes.size(); ++i) {
+      const int mode = block.modes[i];
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
-      const double doubt = uncertainty(block, s, mode, accuracy.tolerance, accuracy);
-      const bool doubtful = std::abs(growth) <= doubt;
+      const bool doubtful = std::abs(growth) <= doubts[static_cast<Eigen::Index>(i)];
       if (doubtful ? stretch.grows(mode) : growth > 0.0) ++count;
     }
   }

@@ -96,7 +96,8 @@ const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, dou
   const double near = on_cut * (line.path.highest() - line.path.lowest());
   const PathStep& step = line.path.steps[at.step];
   const auto fewer = [&](const AxisStretch* best, const AxisStretch& other) {
-    return count_growing(other, step, s, line.accuracy) < count_growing(*best, step, s, line.accuracy)
+    return count_growing(other, step, at.t, s, line.accuracy) <
+                   count_growing(*best, step, at.t, s, line.accuracy)
                ? &other
                : best;
   };
@@ -119,7 +120,7 @@ void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line
   const ComplexVector s = trace.path.eigenvalues_at(at);
   const AxisStretch* stretch = stretch_at(trace, at, p, s);
   if (stretch == nullptr) return;
-  line.unstable[cell] = count_growing(*stretch, trace.path.steps[at.step], s, trace.accuracy);
+  line.unstable[cell] = count_growing(*stretch, trace.path.steps[at.step], at.t, s, trace.accuracy);
   line.margin[cell] = margin(s, stretch->stability);
   line.damping_ratio[cell] = least_damping_ratio(s);
   line.marginal_cells += stretch->stability == Stability::marginal ? 1 : 0;

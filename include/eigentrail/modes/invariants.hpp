@@ -34,6 +34,12 @@ Vector function_rounding(const ComplexMatrix& Lambda);
 /// eigenvalues a distance smaller than `least_gap` is replaced by `least_gap`.
 double root_error(const ComplexVector& functions, const Vector& errors, double least_gap);
 
+/// Bounds of the errors of the eigenvalues of a block for given errors of its functions, 1/s, in the order of
+/// `roots`, the eigenvalues that these functions have. Valid also where eigenvalues coincide: those of a
+/// defective block are known to a root of the errors only, those of a semisimple one as well as single ones
+/// (first order where it holds; Henrici, Numer. Math. 4, 1962, where it does not).
+Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
+
 /// Distance (1/s) below which the eigenvalues of a block cannot be distinguished. Nonzero only for blocks of
 /// three and more whose `roots` all coincide within rounding, for example several rigid-body modes. Their
 /// matrix is far from normal, so the eigenvalues are known only to the square root of its rounding error.
