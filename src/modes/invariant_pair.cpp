@@ -50,7 +50,43 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
   W.bottomRows(n) /= gamma;
 }
 
+std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  if (pair.factors) return pair.factors;
+  return std::make_shared<const PairFactorization>(pencil, pair.Z, pair.Lambda, pair.W);
+}
+
 namespace {
+
+/// Scale of the residuals of a pair: the magnitude of the pencil at the typical size of its eigenvalues,
+/// times |Z|.
+double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+  return pencil.magnitude(size) * pair.Z.norm();
+}
+
+}  // namespace
+
+double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  const double scale = residual_scale(pencil, pair);
+  return scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
+}
+
+namespace {
+
+/// A backward error up to this is rounding: the pair is exact for a pencil that differs by no more than that
+/// relatively. Products of size n leave a few units in the last place.
+constexpr double rounding_level = 1e-14;
+
+/// Whether a correction is rounding, by its ratio to the one before: it is small and does not decrease
+/// quickly, or it does not decrease, and is large only because the pair is badly conditioned. At an
+/// exceptional point corrections decrease to one half each: that is not taken for rounding.
+bool is_rounding(const PencilAtPoint& pencil, const InvariantPair& pair, double size, double contraction) {
+  constexpr double small = 1e-10;       // for any pair
+  constexpr double least_known = 1e-6;  // a pair that is known less accurately is followed in a block
+  constexpr double constant = 0.7;
+  if (size < small) return contraction > 0.5;
+  return size < least_known && contraction > constant && backward_error(pencil, pair) < rounding_level;
+}
 
 /// Chord-Newton on (Z, Lambda). Leaves the factors of the last iterate that was factored.
 PairStatus newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options,
@@ -84,8 +120,7 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
     if (k == 1 && std::isfinite(last) && contraction < options.refactor_contraction &&
         size * contraction <= 0.1 * options.tolerance)
       return PairStatus::converged;
-    // at the rounding level: corrections do not decrease any more
-    if (contraction > 0.5 && size < 1e-10) return PairStatus::converged;
+    if (is_rounding(pencil, pair, size, contraction)) return PairStatus::converged;
     if (contraction > options.refactor_contraction) {
       if (std::isfinite(last) && contraction > 2.0) return PairStatus::not_converged;
       if (++refactorizations > 6 && contraction > 0.9) return PairStatus::not_converged;
@@ -97,27 +132,6 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
 }
 
 }  // namespace
-
-std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  if (pair.factors) return pair.factors;
-  return std::make_shared<const PairFactorization>(pencil, pair.Z, pair.Lambda, pair.W);
-}
-
-namespace {
-
-/// Scale of the residuals of a pair: the magnitude of the pencil at the typical size of its eigenvalues,
-/// times |Z|.
-double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
-  return pencil.magnitude(size) * pair.Z.norm();
-}
-
-}  // namespace
-
-double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  const double scale = residual_scale(pencil, pair);
-  return scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
-}
 
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts) {

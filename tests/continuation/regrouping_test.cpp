@@ -99,20 +99,37 @@ TEST(Regrouping, JoinsAcrossChartsInThatOfTheTrack) {
   EXPECT_LT(distance(node.tracks.back().roots, ComplexVector{{2.0 * j, 2.6 * j}}), rounding);
 }
 
-TEST(Regrouping, DoesNotJoinMoreThanSix) {
-  Matrix w(7, 2);
-  for (Eigen::Index i = 0; i < 7; ++i) w.row(i) << 2.0 + 0.1 * static_cast<double>(i), 0.1;
+TEST(Regrouping, DoesNotJoinMoreThanSixteen) {
+  constexpr Eigen::Index count = 17;
+  Matrix w(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) w.row(i) << 2.0 + 0.1 * static_cast<double>(i), 0.1;
   Planted family = Planted::frequencies(uncoupled(w));
   std::vector<Complex> s;
-  for (Eigen::Index i = 0; i < 7; ++i) s.push_back(w(i, 0) * j);
+  for (Eigen::Index i = 0; i < count; ++i) s.push_back(w(i, 0) * j);
   PathNode node = family.point(0.0, alone(s));
-  std::vector<Partner> six;
-  for (std::size_t i = 1; i < 7; ++i) six.push_back({false, i, 0.0});
-  EXPECT_FALSE(join(family.problem(), node, 0, six, family.counts));
-  EXPECT_EQ(node.tracks.size(), 7U);
-  six.pop_back();
-  EXPECT_TRUE(join(family.problem(), node, 0, six, family.counts));
+  std::vector<Partner> others;
+  for (std::size_t i = 1; i < s.size(); ++i) others.push_back({false, i, 0.0});
+  EXPECT_FALSE(join(family.problem(), node, 0, others, family.counts));
+  EXPECT_EQ(node.tracks.size(), s.size());
+  others.pop_back();
+  EXPECT_TRUE(join(family.problem(), node, 0, others, family.counts));
   EXPECT_EQ(node.tracks.size(), 2U);
+}
+
+/// Three modes that move together by 0.4 h, 0.001 and 0.3 apart, and one farther away.
+TEST(Regrouping, CrowdedAreThoseCloserThanAShareOfTheWayTheyMove) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.4}, {2.001, 0.4}, {2.3, 0.4}, {4.0, -0.1}}));
+  const PathNode node = family.point(0.0, alone({2.0 * j, 2.001 * j, 2.3 * j, 4.0 * j}));
+  const auto crowd = [&](double h) {
+    std::vector<std::size_t> tracks;
+    for (const Partner& partner : crowding_partners(node, 0, h)) tracks.push_back(partner.track);
+    return tracks;
+  };
+  EXPECT_EQ(crowd(0.01), std::vector<std::size_t>{});   // the way is 0.004, four times the distance
+  EXPECT_EQ(crowd(1.0), std::vector<std::size_t>{1});   // 0.4: four hundred times
+  EXPECT_EQ(crowd(-1.0), std::vector<std::size_t>{1});  // backwards as well
+  // 0.3 is close beside a way of 20; 1.7 is not
+  EXPECT_EQ(crowd(50.0), (std::vector<std::size_t>{1, 2}));
 }
 
 /// The same mode twice is no block: its two columns are one.
@@ -130,7 +147,7 @@ TEST(Regrouping, PartingAfterJoiningGivesBackTheSameSeries) {
   PathNode node = family.point(0.0, alone(at_zero));
   const PathNode before = node;
   ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.3}}, family.counts));
-  part(family.problem(), nullptr, node, 0.05, 0.0, 1.0, 0.0, family.counts);
+  part(family.problem(), nullptr, node, 0.05, 0.0, {1.0, 0.0}, family.counts);
   ASSERT_EQ(node.tracks.size(), 4U);
   for (const Track& track : node.tracks) {
     ASSERT_EQ(track.size(), 1);
@@ -143,10 +160,10 @@ TEST(Regrouping, DoesNotPartThoseWhoMeetWithinTheReachOnEitherSide) {
   Planted family = crossing();
   for (const double h : {0.05, -0.05}) {
     PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-    part(family.problem(), nullptr, node, h, 0.0, 5.5, 0.0, family.counts);
+    part(family.problem(), nullptr, node, h, 0.0, {5.5, 0.0}, family.counts);
     EXPECT_EQ(node.tracks.size(), 1U) << h;
     // The meeting lies 0.25 beyond the step on its side.
-    part(family.problem(), nullptr, node, h, 0.0, 4.0, 0.0, family.counts);
+    part(family.problem(), nullptr, node, h, 0.0, {4.0, 0.0}, family.counts);
     EXPECT_EQ(node.tracks.size(), 2U) << h;
   }
 }
@@ -154,7 +171,7 @@ TEST(Regrouping, DoesNotPartThoseWhoMeetWithinTheReachOnEitherSide) {
 TEST(Regrouping, PartsOnlyTheOneThatMeetsNobody) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -0.1}}));
   PathNode node = family.point(0.0, {{{2.0 * j, 2.9 * j, 2.2 * j}}});
-  part(family.problem(), nullptr, node, 0.2, 0.0, 1.0, 0.0, family.counts);
+  part(family.problem(), nullptr, node, 0.2, 0.0, {1.0, 0.0}, family.counts);
   ASSERT_EQ(node.tracks.size(), 2U);
   EXPECT_EQ(node.tracks[0].modes, (Modes{0, 2}));
   EXPECT_EQ(node.tracks[1].modes, Modes{1});
@@ -166,7 +183,7 @@ TEST(Regrouping, ConjugateThatIsNoLongerNeededIsDropped) {
   Planted family = towards_the_axis(0.5);
   const Complex s = upper(0.5, 0.5);
   PathNode node = family.point(0.5, {{{s, std::conj(s)}}});
-  part(family.problem(), nullptr, node, 0.01, 0.0, 1.0, 0.0, family.counts);
+  part(family.problem(), nullptr, node, 0.01, 0.0, {1.0, 0.0}, family.counts);
   ASSERT_EQ(node.tracks.size(), 1U);
   EXPECT_EQ(node.tracks[0].size(), 1);
   EXPECT_EQ(node.tracks[0].modes, Modes{0});
@@ -177,7 +194,7 @@ TEST(Regrouping, ConjugateThatIsNoLongerNeededIsDropped) {
 TEST(Regrouping, DefectiveBlockIsNotTakenApart) {
   Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
   PathNode node = family.point(1e-10, {{{(2.0 + 1e-5) * j, (2.0 - 1e-5) * j}}});
-  part(family.problem(), nullptr, node, 1e-14, 0.0, 1.0, 0.0, family.counts);
+  part(family.problem(), nullptr, node, 1e-14, 0.0, {1.0, 0.0}, family.counts);
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
@@ -187,7 +204,7 @@ TEST(Regrouping, PartsThoseWhoWouldHaveBeenAccurateAloneOnTheLastStep) {
   // They meet, but are polynomials by themselves.
   for (const double accepted : {0.0, 1e-6}) {
     PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-    part(family.problem(), &left, node, 0.1, 0.1, 10.0, accepted, family.counts);
+    part(family.problem(), &left, node, 0.1, 0.1, {10.0, accepted}, family.counts);
     EXPECT_EQ(node.tracks.size(), accepted > 0.0 ? 2U : 1U) << accepted;
   }
 }
@@ -202,7 +219,7 @@ TEST(Regrouping, ASingleModeThatCouldNotDoAloneKeepsItsPartner) {
   };
   const PathNode left = family.point(-0.3, both(-0.3));
   PathNode node = family.point(0.0, both(0.0));
-  part(family.problem(), &left, node, 0.3, 0.3, 1.0, 1e-8, family.counts);
+  part(family.problem(), &left, node, 0.3, 0.3, {1.0, 1e-8}, family.counts);
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
@@ -216,7 +233,7 @@ TEST(Regrouping, DoesNotPartAPairOfWhichOneCouldNotDoAlone) {
   };
   const PathNode left = family.point(-0.1, both(-0.1));
   PathNode node = family.point(0.1, both(0.1));
-  part(family.problem(), &left, node, 0.2, 0.2, 1.0, 1e-8, family.counts);
+  part(family.problem(), &left, node, 0.2, 0.2, {1.0, 1e-8}, family.counts);
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
@@ -233,7 +250,7 @@ TEST(Regrouping, WhoIsWhoBehindAMeetingOutlivesJoiningAndParting) {
   EXPECT_LT(distance(joined.departure->roots, ComplexVector{{2.503 * j, 2.01 * j, 1.99 * j}}), rounding);
   // The third could do alone; of the two that coincide here that is not known.
   const PathNode left = family.point(-0.1, {{{2.47 * j, 1.9 * j, 2.1 * j}}});
-  part(family.problem(), &left, node, 0.1, 0.1, 1.0, 1e-6, family.counts);
+  part(family.problem(), &left, node, 0.1, 0.1, {1.0, 1e-6}, family.counts);
   ASSERT_EQ(node.tracks.size(), 2U);
   const Track& pair = node.tracks[1];
   EXPECT_EQ(pair.modes, (Modes{0, 1}));

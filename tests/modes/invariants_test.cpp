@@ -67,6 +67,66 @@ TEST_P(Blocks, RootErrorBoundsWhatErrorsOfTheFunctionsDo) {
   EXPECT_GT(worst, 0.05 * bound) << "a bound that is never approached says nothing";
 }
 
+/// The largest change of every eigenvalue over changes of the functions by their errors in random directions.
+Vector seen_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors) {
+  std::mt19937_64 engine(11);
+  std::uniform_real_distribution<double> angle(0.0, 2.0 * M_PI);
+  Vector worst = Vector::Zero(roots.size());
+  for (int trial = 0; trial < 200; ++trial) {
+    ComplexVector moved = functions;
+    for (Eigen::Index i = 0; i < moved.size(); ++i) moved[i] += std::polar(errors[i], angle(engine));
+    worst = worst.cwiseMax((in_order_of(roots, block_roots(moved)) - roots).cwiseAbs());
+  }
+  return worst;
+}
+
+TEST_P(Blocks, RootErrorsBoundEveryEigenvalue) {
+  const Vector errors = Vector::LinSpaced(functions.size(), 1e-9, 3e-9);
+  const Vector bounds = root_errors(functions, eigenvalues, errors);
+  const Vector seen = seen_errors(functions, eigenvalues, errors);
+  ASSERT_EQ(bounds.size(), k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    EXPECT_LE(seen[i], 1.001 * bounds[i]);
+    EXPECT_GT(seen[i], 0.02 * bounds[i]) << "a bound that is never approached says nothing";
+  }
+}
+
+TEST(RootErrors, OfEqualEigenvaluesThatAreNotDefectiveAreThoseOfSingleOnes) {
+  // Four equal oscillators: Lambda = s I. The square root of the error would be 3e-5.
+  const Complex s(-0.01, 3.0);
+  const ComplexVector roots = ComplexVector::Constant(4, s);
+  const ComplexVector functions = functions_of(s * ComplexMatrix::Identity(4, 4));
+  const Vector errors = Vector::Constant(functions.size(), 1e-9);
+  const Vector bounds = root_errors(functions, roots, errors);
+  EXPECT_GE(bounds.minCoeff(), seen_errors(functions, roots, errors).maxCoeff());
+  EXPECT_LE(bounds.maxCoeff(), 10.0 * errors.norm());
+}
+
+TEST(RootErrors, OfADefectiveBlockAreARootOfTheErrors) {
+  for (Eigen::Index k = 3; k <= 5; ++k) {
+    // A Jordan block: an entry e in its corner moves all eigenvalues by e^(1/k).
+    ComplexMatrix Lambda = Complex(0.0, 3.0) * ComplexMatrix::Identity(k, k);
+    Lambda.diagonal(1).setOnes();
+    const ComplexVector roots = ComplexVector::Constant(k, Complex(0.0, 3.0));
+    Vector errors = Vector::Zero(k * k);
+    errors[k - 1] = 1e-9;
+    const Vector bounds = root_errors(functions_of(Lambda), roots, errors);
+    const double moved = std::pow(1e-9, 1.0 / static_cast<double>(k));
+    EXPECT_GE(bounds.minCoeff(), moved);
+    EXPECT_LE(bounds.maxCoeff(), 5.0 * moved);
+  }
+}
+
+TEST(RootErrors, OfTwoFollowTheDiscriminant) {
+  const Vector errors{{0.0, 1e-10}};
+  // At an exceptional point its square root; away from there error / (2 sqrt(delta)), bounded by twice that.
+  const Complex tau(0.0, 3.0);
+  EXPECT_DOUBLE_EQ(root_errors(ComplexVector{{tau, 0.0}}, ComplexVector{{tau, tau}}, errors)[0], 1e-5);
+  const Vector apart = root_errors(ComplexVector{{tau, 0.01}}, ComplexVector{{tau + 0.1, tau - 0.1}}, errors);
+  EXPECT_GE(apart[1], 0.5e-9);
+  EXPECT_LE(apart[1], 1.001e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, Blocks, testing::Range(Eigen::Index{1}, Eigen::Index{5}));
 
 TEST(BlockFunctions, OfTwoDoNotDependOnTheBasis) {

@@ -14,7 +14,6 @@ namespace {
 /// fails when one of them starts to pass, so that it is taken off the list.
 const std::map<int, std::string>& open_seeds() {
   static const std::map<int, std::string> seeds{
-      {11, "reports a collision twice, as a veering of half-width 1e-12 as well"},
       {7, "stalls where two real roots come close and a crossing lies beside them"},
   };
   return seeds;

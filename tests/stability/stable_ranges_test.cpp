@@ -201,6 +201,17 @@ TEST(StableRanges, GoOnWhereTheMarginTouchesZero) {
   EXPECT_NEAR(traced.ranges[0].least_margin, 0.0, 1e-3);
 }
 
+TEST(StableRanges, OfEqualOscillatorsAreThoseOfOne) {
+  // Four equal ones, s = -p/2 +- j sqrt(1 - p^2/4): a block of four whose eigenvalues coincide throughout.
+  const std::string equal = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+  const std::string none = "[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]";
+  const TracedRanges traced = traced_family(
+      "from = 0.1\nto = -0.1", "M = [" + equal + "]\nC = [" + none + ", " + equal + "]\nK = [" + equal + "]");
+  expect_ranges(traced.ranges, {{stable, 0.1, 0.0, "start", "flutter"}});
+  ASSERT_EQ(traced.ranges.size(), 1u);
+  EXPECT_NEAR(traced.ranges[0].from.margin, 0.05, 1e-12);
+}
+
 TEST(StableRanges, ARigidBodyModeIsNoGrowth) {
   // Two masses on a spring, free to move on: the double eigenvalue zero is found as +-1e-8 or so.
   for (const std::string k : {"1", "1e4"}) {

@@ -165,8 +165,7 @@ class Tube {
   /// The same without halving. Sets Z1.
   bool piece_closes(double begin, double middle, double end, double& Z1) {
     const State centre = state(middle);
-    const double size = std::max(centre.Lambda.norm(), 1e-300);
-    const double scale = std::clamp(0.5 * gap_, least_scale * size, largest_scale * size);
+    const double scale = unknown_scale(gap_, centre.Lambda.norm());
     const auto samples = samples_of(begin, middle, end);
     if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       ++counts_.certificate_factorizations;

@@ -1,8 +1,20 @@
 #include "continuation/step/jacobian_change.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/products.hpp"
 
 namespace eigentrail {
+
+double unknown_scale(double gap, double size) {
+  // As a share of the size: keeps the equations well-conditioned where the distance is nearly zero.
+  constexpr double least = 1e-6;
+  constexpr double tiny = 1e-300;
+  if (!std::isfinite(gap)) return std::max(size, tiny);
+  return std::max({0.5 * gap, least * size, tiny});
+}
+
 namespace {
 
 /// M Z Lambda + C Z.

@@ -7,13 +7,11 @@
 
 namespace eigentrail {
 
-/// Limits of `scale` in the unknowns (vec Z, vec Lambda / scale), relative to the size of Lambda. The scale
-/// is about half the distance to the nearest other eigenvalue: changes of Lambda by one and of Z by one are
-/// then about equally large relative to what separates the pair from others. The limits keep the equations
-/// well-conditioned where that distance is nearly zero or very large. They affect the strength of the bounds
-/// of the certificate, not their validity.
-constexpr double least_scale = 1e-6;
-constexpr double largest_scale = 2.0;
+/// `scale` of the unknowns (vec Z, vec Lambda / scale), from the distance `gap` to the nearest other
+/// eigenvalue and the size of Lambda: half the distance, so that changes of Z and of Lambda by one are about
+/// equally large relative to what separates the pair from others. This holds for an eigenvalue that passes
+/// through zero, too. It affects the strength of the bounds of the certificate, not their validity.
+double unknown_scale(double gap, double size);
 
 /// A pair (Z, Lambda), in general not an exact solution, and the pencil at its place.
 struct PairAtPlace {

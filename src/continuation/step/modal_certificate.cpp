@@ -168,8 +168,7 @@ class ModalTube {
 
   /// `scale` of the unknowns (vec Z, s / scale) of a mode, about half the distance to the nearest other one.
   static double scale(const Matrix& weights, const PairSet& set, Eigen::Index b) {
-    const double size = std::max(std::abs(set.Lambda(0, b)), 1e-300);
-    return std::clamp(0.5 / weights.col(b).maxCoeff(), least_scale * size, largest_scale * size);
+    return unknown_scale(1.0 / weights.col(b).maxCoeff(), std::abs(set.Lambda(0, b)));
   }
 
   /// The interpolated pencil and pairs at a sample point.

@@ -1,4 +1,5 @@
 #include "continuation/trace/trace_loop.hpp"
+#include <iostream>
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,8 @@ void TraceLoop::prepare_to_follow() {
   const double max_step = std::max(options_.max_step.value_or(longest_step * range), min_step);
   PathNode& node = state_.origin.node;
   state_.control = StepControl(problem_.order, first_step(node, problem_, options_), max_step, min_step);
-  part(problem_, nullptr, node, state_.control.step(), 0.0, reach_, 0.0, state_.result.counts);
+  part(problem_, nullptr, node, state_.control.step(), 0.0, {reach_, 0.0, options_.certify},
+       state_.result.counts);
 }
 
 void TraceLoop::follow() {
@@ -194,6 +196,18 @@ bool TraceLoop::advance() {
            (verdict.kind == Verdict::Kind::uncertified && may_stay_uncertified(state_.frame, of_length));
   };
   const Verdict verdict = attempted.step ? judge(*attempted.step) : attempted.verdict;
+  if (getenv("DBG")) {
+    std::cerr.precision(12);
+    std::cerr << "try p=" << state_.origin.node.p << " h=" << h << " verdict " << (int)verdict.kind << " err "
+              << verdict.error << " " << verdict.reason;
+    if (verdict.track >= 0) {
+      std::cerr << " track";
+      for (Complex r : state_.origin.node.tracks[verdict.track].roots) std::cerr << " " << r;
+    }
+    std::cerr << " sizes";
+    for (auto& t : state_.origin.node.tracks) std::cerr << " " << t.size();
+    std::cerr << "\n";
+  }
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
@@ -320,8 +334,8 @@ void TraceLoop::regroup(Step& step) {
   TraceResult& result = state_.result;
   const double next_step = state_.control.step();
   const std::size_t before = step.right.tracks.size();
-  part(problem_, step.left, step.right, next_step, step.h, reach_, accepted_share * options_.tolerance,
-       result.counts);
+  part(problem_, step.left, step.right, next_step, step.h,
+       {reach_, accepted_share * options_.tolerance, options_.certify}, result.counts);
   const std::size_t after = step.right.tracks.size();
   result.regroupings.parted += static_cast<int>(after - std::min(before, after));
   if (after != before) return;

@@ -15,9 +15,16 @@
 namespace eigentrail {
 namespace {
 
-/// Largest number of eigenvalues of a block. Bounds its cost: a block of k eigenvalues takes k
-/// factorizations, and its dense output has k^2 functions.
-constexpr Eigen::Index largest_block = 6;
+/// Largest number of eigenvalues of a block that is formed on the way. Bounds its cost: a block of k
+/// eigenvalues takes k factorizations, and its dense output has k^2 functions.
+constexpr Eigen::Index largest_block = 16;
+/// Two eigenvalues are crowded on a step if their distance is below this share of the way that they move. A
+/// certificate that keeps them apart needs a number of factorizations of the order of the reciprocal. A
+/// larger value makes more blocks, a smaller one more expensive certificates; no result depends on it.
+constexpr double crowding = 0.02;
+/// As a multiple of `crowding`: a block is separated only where the distance is larger than this, so that it
+/// is not joined again on the next step.
+constexpr double crowding_hysteresis = 25.0;
 /// Eigenvalues are separated if their error as single modes is below this share of the accepted one: in
 /// blocks of two, which cost little to keep, and in larger blocks, whose eigenvalues are harder to identify.
 constexpr double parting_error = 0.03;
@@ -144,6 +151,54 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
 
 namespace {
 
+/// How far the mean eigenvalue of a track moves on a step of length h.
+double movement(const Track& track, double h) {
+  return std::abs(mean_series(track.series.Lambda)[1] * h);
+}
+
+/// Smallest distance of an eigenvalue of one track from one of another.
+double gap_between(const ComplexVector& a, const ComplexVector& b) {
+  double gap = INFINITY;
+  for (const Complex s : a) gap = std::min(gap, (b.array() - s).abs().minCoeff());
+  return gap;
+}
+
+}  // namespace
+
+std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, double h) {
+  const std::vector<Track>& tracks = node.tracks;
+  const Chart chart = tracks[index].pair.chart;
+  std::vector<Partner> partners;
+  std::vector<bool> taken(tracks.size(), false);
+  std::vector<std::size_t> open{index};
+  taken[index] = true;
+  Eigen::Index size = tracks[index].size();
+  bool with_conjugates = false;
+  while (!open.empty()) {
+    const Track& track = tracks[open.back()];
+    open.pop_back();
+    const double limit = crowding * movement(track, h);
+    if (!track.pair.is_real && gap_between(track.roots, track.roots.conjugate()) < limit)
+      with_conjugates = true;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (taken[i] || tracks[i].pair.chart != chart) continue;
+      const double gap = gap_between(track.roots, tracks[i].roots);
+      if (gap >= std::max(limit, crowding * movement(tracks[i], h))) continue;
+      taken[i] = true;
+      open.push_back(i);
+      partners.push_back({false, i, gap});
+      size += tracks[i].size();
+    }
+  }
+  if (with_conjugates) partners.push_back({true, index, 0.0});
+  if ((with_conjugates ? 2 : 1) * size > largest_block) return {};
+  std::sort(partners.begin(), partners.end(),
+            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
+  return partners;
+}
+
+namespace {
+
 /// The smallest distance of the departures of these tracks (Track::departure); empty if none of them has one.
 std::optional<double> departure_distance(const PathNode& node, const std::vector<std::size_t>& members) {
   std::optional<double> distance;
@@ -222,7 +277,7 @@ namespace {
 /// Two eigenvalues of a block count as equal if they differ by no more, relative to the norm of the block or
 /// to the reference magnitude if that is larger: about the square root of rounding, the accuracy of a double
 /// eigenvalue.
-constexpr double told_apart = 1e-7;
+constexpr double told_apart = 1e-5;
 
 /// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
 /// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
@@ -261,6 +316,30 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
     if (!members.empty()) result.push_back(std::move(members));
   }
   return result;
+}
+
+/// Unites groups whose eigenvalues are crowded on a step of length h.
+std::vector<std::vector<int>> without_crowding(const Track& track, std::vector<std::vector<int>> groups,
+                                               double h) {
+  const double least = crowding_hysteresis * crowding * movement(track, h);
+  const auto crowded = [&](const std::vector<int>& a, const std::vector<int>& b) {
+    return std::any_of(a.begin(), a.end(), [&](int i) {
+      return std::any_of(b.begin(), b.end(),
+                         [&](int j) { return std::abs(track.roots[i] - track.roots[j]) < least; });
+    });
+  };
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = a + 1; b < groups.size();) {
+      if (!crowded(groups[a], groups[b])) {
+        ++b;
+        continue;
+      }
+      groups[a].insert(groups[a].end(), groups[b].begin(), groups[b].end());
+      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(b));
+      b = a + 1;  // the group has grown: those before may be close to it now
+    }
+  }
+  return groups;
 }
 
 /// Groups of the eigenvalues of a block by their errors as single modes: each with less than the accepted
@@ -360,14 +439,14 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
 }
 
 void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
-          double reach, double accepted, RunCounts& counts) {
+          const PartingRules& rules, RunCounts& counts) {
   const StageTimer timer(counts.modes_seconds);
   std::vector<Track> tracks;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& track = node.tracks[i];
     std::vector<Track> parts;
     if (track.size() > 1) {
-      auto members = groups(track, problem.reference(track.pair.chart), h, reach);
+      auto members = groups(track, problem.reference(track.pair.chart), h, rules.reach);
       const bool comparable =
           left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
       if (members.size() == 1 && comparable) {
@@ -375,8 +454,9 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         // Errors on the next step, which may be longer: they grow like the length to the power 2 order + 2.
         const double growth = std::pow(std::abs(h / last_step), 2.0 * problem.order + 2.0);
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
-                                     share * accepted);
+                                     share * rules.accepted);
       }
+      if (rules.certify) members = without_crowding(track, std::move(members), h);
       if (members.size() > 1 && are_told_apart(track, members))
         parts = parts_of(problem, node, track, members, counts);
     }

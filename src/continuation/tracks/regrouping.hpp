@@ -15,8 +15,13 @@ namespace eigentrail {
 /// ascending distance.
 std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
 
+/// The tracks that a certificate cannot keep apart from `track` on a step of length h, by ascending distance:
+/// those closer to it, or to another one of them, than a small share of the way that their eigenvalues move.
+/// Empty if with them the block would be too large.
+std::vector<Partner> crowding_partners(const PathNode& node, std::size_t track, double h);
+
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
-/// change the node, if the block does not converge or would have more than six eigenvalues.
+/// change the node, if the block does not converge or would be too large.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
           RunCounts& counts);
 
@@ -25,12 +30,19 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t track, const s
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
                               const std::vector<int>& members, RunCounts& counts);
 
-/// Separates blocks into those eigenvalues that have meetings within `reach` |h| of a step of length h to
+/// When a block is separated.
+struct PartingRules {
+  double reach = 3.0;     ///< in steps: meetings within this distance keep a block together
+  double accepted = 0.0;  ///< largest relative error of a step
+  bool certify = false;   ///< what a certificate cannot keep apart (crowding_partners) stays together
+};
+
+/// Separates blocks into those eigenvalues that have meetings within the reach of a step of length h to
 /// either side of the node. If this leaves a block as it is, separates eigenvalues that would be accurate
 /// enough as single modes, estimated from the last step, of length `last_step` from `left` (null at the
-/// start). `accepted`: largest relative error of a step.
+/// start).
 void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
-          double reach, double accepted, RunCounts& counts);
+          const PartingRules& rules, RunCounts& counts);
 
 /// Changes the chart of a single mode. False, without a change, if that fails.
 bool change_chart(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts);

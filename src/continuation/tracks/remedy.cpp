@@ -24,7 +24,11 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   }
   if (!may_join) return remedy;
   std::vector<Partner> partners;
-  if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
+  // What was lost or not certified among close eigenvalues is followed together with them.
+  if (verdict.kind != Verdict::Kind::inaccurate) partners = crowding_partners(node, track, h);
+  if (!partners.empty()) {
+    // no need to look for a meeting
+  } else if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
     partners = helpful_partners(problem, rules, *step, track, verdict.error,
                                 find_partners(node, track, h, rules.parting_reach));
   } else {

@@ -11,8 +11,18 @@ namespace {
 /// best, a triple one to 1e-5.
 constexpr double close = 1e-4;
 
+/// Double eigenvalues zero, rigid-body motions for example, are known only to the square root of rounding,
+/// relative to the square root of |K|/|M|. This is ten times as much, for the factors that depend on n.
+constexpr double blurred = 1.5e-7;
+
+/// Distance (1/s) below which eigenvalues near zero cannot be distinguished.
+double blur_at_zero(const ReducedPencil& pencil) {
+  const double mass = pencil.M[0].norm();
+  return mass > 0.0 ? blurred * std::sqrt(pencil.K[0].norm() / mass) : 0.0;
+}
+
 /// A label per mode, equal for modes that are connected by close eigenvalues. A mode is also close to another
-/// if it is close to the conjugate of that.
+/// if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues count as zero.
 std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref) {
   std::vector<int> label(modes.size());
   std::iota(label.begin(), label.end(), 0);
@@ -38,7 +48,7 @@ bool near_real(Complex s, double s_ref) {
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale) {
-  s_ref = std::max(s_ref, least_scale);
+  s_ref = std::max({s_ref, least_scale, blur_at_zero(pencil) / close});
   const std::vector<int> labels = group_labels(modes, s_ref);
   std::vector<StartingGroup> groups;
   for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
