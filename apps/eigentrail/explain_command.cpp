@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "commands.hpp"
@@ -98,7 +100,27 @@ void explain_sensitivity(const Scene& scene, const ExplainArguments& arguments) 
   print_influences(influences, setup.options.parameter + " = " + exact_text(setup.options.from));
 }
 
-void print_structure(const Structure& structure, bool has_constraints, const std::string& parameter) {
+/// "3 independent parts: 3 of 2 freedoms"; empty where the equations do not fall apart.
+std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
+  if (!parts) return "";
+  if (parts->count() == 1) return "one; rows and columns scaled by powers of two";
+  std::map<Eigen::Index, int, std::greater<>> number;  // of parts by size
+  for (const IndependentParts::Range& range : parts->ranges) ++number[range.size];
+  std::string text = std::to_string(parts->count()) + " independent parts: ";
+  bool first = true;
+  for (const auto& [size, count] : number) {
+    text += (first ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size) +
+            (size == 1 ? " freedom" : " freedoms");
+    first = false;
+  }
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < parts->count(); ++i) copies += parts->ranges[i].copy_of == i ? 0 : 1;
+  if (copies > 0) text += "; " + std::to_string(copies) + " of them equal to another one";
+  return text + "; followed one by one";
+}
+
+void print_structure(const Structure& structure, bool has_constraints, const std::string& in_parts,
+                     const std::string& parameter) {
   const auto along = [&](bool constant) {
     return constant ? "constant along " + parameter : "changes with " + parameter;
   };
@@ -108,13 +130,15 @@ void print_structure(const Structure& structure, bool has_constraints, const std
                         : structure.damped   ? "symmetric C"
                                              : "no C";
   std::printf("structure of the pencil\n");
-  print_table(
+  std::vector<std::vector<std::string>> rows(
       {{"  mass", structure.symmetric_mass ? "symmetric M" : "unsymmetric M", along(structure.constant_mass)},
        {"  damping", damping,
         structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
        {"  stiffness", stiffness, along(structure.constant_stiffness)},
        {"  constraints", has_constraints ? "A" : "none",
         has_constraints ? along(structure.constant_constraints) : ""}});
+  if (!in_parts.empty()) rows.push_back({"  parts", in_parts, ""});
+  print_table(rows);
 }
 
 /// The route of the modes, and what it costs beside one LU per mode.
@@ -188,12 +212,17 @@ int run_explain(const ExplainArguments& arguments) {
   }
   print_parameters(*model, traced);
   print_effects(*model);
-  print_structure(structure, model->n_constraints() > 0, options.parameter);
+  const auto parts = find_independent_parts(model->coefficient_matrices());
+  print_structure(structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues show at the start of a trace only; its modes are then corrected one by one.
   const auto modes =
       std::min<Eigen::Index>(options.modes.value_or(static_cast<int>(sizes.freedoms)), 2 * sizes.freedoms);
-  print_solvers(*model, structure, {sizes.freedoms, modes, !options.modes, options.order.value_or(cheapest)},
+  // Independent parts are followed one by one, each with matrices of its own size.
+  const bool apart = parts && parts->count() > 1;
+  Eigen::Index size = apart ? 0 : sizes.freedoms;
+  for (std::size_t i = 0; apart && i < parts->count(); ++i) size = std::max(size, parts->ranges[i].size);
+  print_solvers(*model, structure, {size, modes, !options.modes && !apart, options.order.value_or(cheapest)},
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
   if (!computed) throw InputError(scene.path + ": " + point.message);
   if (arguments.sensitivity) explain_sensitivity(scene, arguments);

@@ -73,19 +73,16 @@ double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
 
 namespace {
 
-/// A backward error up to this is rounding: the pair is exact for a pencil that differs by no more than that
-/// relatively. Products of size n leave a few units in the last place.
-constexpr double rounding_level = 1e-14;
+/// Relative size of a correction up to which it may be rounding, for a pencil whose terms are not much larger
+/// than the change of the pencil with its eigenvalue.
+constexpr double correction_rounding = 1e-10;
 
-/// Whether a correction is rounding, by its ratio to the one before: it is small and does not decrease
-/// quickly, or it does not decrease, and is large only because the pair is badly conditioned. At an
-/// exceptional point corrections decrease to one half each: that is not taken for rounding.
-bool is_rounding(const PencilAtPoint& pencil, const InvariantPair& pair, double size, double contraction) {
-  constexpr double small = 1e-10;       // for any pair
-  constexpr double least_known = 1e-6;  // a pair that is known less accurately is followed in a block
-  constexpr double constant = 0.7;
-  if (size < small) return contraction > 0.5;
-  return size < least_known && contraction > constant && backward_error(pencil, pair) < rounding_level;
+/// By how much rounding of the terms s^2 M, s C, K is magnified in s and z because the pencil changes little
+/// with s: |P| / |s P'|. Of the order of one for well-scaled pencils, also at exceptional points.
+double magnified_rounding(const PencilAtPoint& pencil, const InvariantPair& pair) {
+  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+  const double change = (2.0 * size * pencil.norm_M + pencil.norm_C) * size;
+  return change > 0.0 ? std::max(1.0, pencil.magnitude(size) / change) : 1.0;
 }
 
 /// Chord-Newton on (Z, Lambda). Leaves the factors of the last iterate that was factored.
@@ -120,7 +117,9 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
     if (k == 1 && std::isfinite(last) && contraction < options.refactor_contraction &&
         size * contraction <= 0.1 * options.tolerance)
       return PairStatus::converged;
-    if (is_rounding(pencil, pair, size, contraction)) return PairStatus::converged;
+    // at the rounding level: corrections do not decrease any more
+    if (contraction > 0.5 && size < correction_rounding * magnified_rounding(pencil, pair))
+      return PairStatus::converged;
     if (contraction > options.refactor_contraction) {
       if (std::isfinite(last) && contraction > 2.0) return PairStatus::not_converged;
       if (++refactorizations > 6 && contraction > 0.9) return PairStatus::not_converged;
@@ -137,6 +136,7 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
                            const CorrectorOptions& options, ModeCounts& counts) {
   InvariantPair pair;
   pair.chart = start.chart;
+  pair.part = start.part;
   pair.is_real = start.is_real;
   pair.Z = start.Z;
   pair.Lambda = start.Lambda;

@@ -22,6 +22,7 @@ bool closed_under_conjugation(const ComplexVector& eigenvalues, const std::vecto
 InvariantPair with_conjugate(const InvariantPair& upper) {
   InvariantPair pair;
   pair.chart = upper.chart;
+  pair.part = upper.part;
   pair.is_real = true;
   const Eigen::Index n = upper.Z.rows();
   const Eigen::Index k = upper.size();
@@ -63,6 +64,7 @@ InvariantPair join_pairs(const std::vector<const InvariantPair*>& parts, bool ma
   }
   InvariantPair joined;
   joined.chart = parts.front()->chart;
+  joined.part = parts.front()->part;
   joined.is_real = make_real;
   Eigen::Index k = 0;
   for (const InvariantPair& block : blocks) k += block.size();
@@ -92,6 +94,7 @@ InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalue
   const auto size = static_cast<Eigen::Index>(part.size());
   InvariantPair result;
   result.chart = pair.chart;
+  result.part = pair.part;
   result.is_real = pair.is_real && closed_under_conjugation(eigenvalues, part);
   ComplexMatrix basis = schur.U.leftCols(size);
   result.Lambda = schur.T.topLeftCorner(size, size);

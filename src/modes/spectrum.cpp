@@ -127,6 +127,15 @@ Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
   return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, C, K) : by_qz(M, C, K, false);
 }
 
+/// By increasing |s|.
+void sort(Spectrum& spectrum) {
+  std::stable_sort(spectrum.modes.begin(), spectrum.modes.end(),
+                   [](const StartingMode& p, const StartingMode& q) {
+                     return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
+                            std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
+                   });
+}
+
 /// Collects the finite modes in the order of increasing |s|.
 void take_modes(const Homogeneous& all, Spectrum& spectrum) {
   for (Eigen::Index j = 0; j < all.beta.size(); ++j) {
@@ -138,10 +147,7 @@ void take_modes(const Homogeneous& all, Spectrum& spectrum) {
       if (all.vectors.size() > 0) spectrum.modes.back().z = right_vector(all.vectors, j, alpha.imag() > 0.0);
     }
   }
-  std::sort(spectrum.modes.begin(), spectrum.modes.end(), [](const StartingMode& p, const StartingMode& q) {
-    return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
-           std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
-  });
+  sort(spectrum);
 }
 
 Spectrum solve(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
@@ -175,6 +181,35 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
 
 Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) {
   return solve(M, C, K, false);
+}
+
+namespace {
+
+Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
+  if (pencil.parts.empty()) return solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+  Spectrum all;
+  all.status = SpectrumStatus::complete;
+  all.scale = 0.0;
+  for (std::size_t i = 0; i < pencil.parts.size(); ++i) {
+    Spectrum own = solve_parts(pencil.parts[i], with_vectors);
+    if (own.status != SpectrumStatus::complete) return own;
+    for (StartingMode& mode : own.modes) mode.part = static_cast<int>(i);
+    std::move(own.modes.begin(), own.modes.end(), std::back_inserter(all.modes));
+    all.n_infinite += own.n_infinite;
+    all.scale = std::max(all.scale, own.scale);
+  }
+  sort(all);
+  return all;
+}
+
+}  // namespace
+
+Spectrum compute_spectrum(const ReducedPencil& pencil) {
+  return solve_parts(pencil, true);
+}
+
+Spectrum compute_eigenvalues(const ReducedPencil& pencil) {
+  return solve_parts(pencil, false);
 }
 
 ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,

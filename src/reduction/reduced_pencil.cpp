@@ -67,7 +67,50 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
   return project_any(basis, B, order);
 }
 
+namespace {
+
+/// left^T B right with zeros between the parts, coefficient by coefficient up to h^order.
+MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, int order) {
+  MatrixSeries result(last_order(order, B.size(), 1) + 1);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const Matrix coefficient = B[k].dense();
+    if (parts.is_diagonal) {
+      result[k] = parts.left.diagonal().asDiagonal() * coefficient * parts.right.diagonal().asDiagonal();
+      continue;
+    }
+    result[k] = Matrix::Zero(coefficient.rows(), coefficient.cols());
+    const Matrix product = coefficient * parts.right;
+    for (const IndependentParts::Range& range : parts.ranges) {
+      result[k].block(range.first, range.first, range.size, range.size).noalias() =
+          parts.left.middleCols(range.first, range.size).transpose() *
+          product.middleCols(range.first, range.size);
+    }
+  }
+  return result;
+}
+
+/// The diagonal block of a part.
+MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& range) {
+  MatrixSeries result;
+  for (const Matrix& coefficient : B)
+    result.emplace_back(coefficient.block(range.first, range.first, range.size, range.size));
+  while (result.size() > 1 && result.back().isZero(0.0)) result.pop_back();
+  return result;
+}
+
+ReducedPencil reduce(const Linearization& linearization, const IndependentParts& parts, int order) {
+  ReducedPencil whole{transformed(parts, linearization.M, order), transformed(parts, linearization.C, order),
+                      transformed(parts, linearization.K, order)};
+  if (parts.count() == 1) return whole;
+  for (const IndependentParts::Range& range : parts.ranges)
+    whole.parts.push_back({block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range)});
+  return whole;
+}
+
+}  // namespace
+
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order) {
+  if (basis.parts) return reduce(linearization, *basis.parts, order);
   return {project(basis, linearization.M, order), project(basis, linearization.C, order),
           project(basis, linearization.K, order)};
 }

@@ -26,21 +26,36 @@ std::optional<Matrix> turned_basis(const ConstraintFactorization& constraints, c
 
 }  // namespace
 
+ComplexMatrix TangentBasis::coordinates(const ComplexMatrix& V, int part) const {
+  if (is_identity) return V;
+  if (!parts) return transposed_product(T[0], V);
+  return product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
+}
+
+ComplexMatrix TangentBasis::shapes(const ComplexMatrix& Z, int part) const {
+  if (is_identity) return Z;
+  return product(parts ? Matrix(parts->columns(static_cast<std::size_t>(part))) : T[0], Z);
+}
+
+TangentBasis basis_of(std::shared_ptr<const IndependentParts> parts) {
+  return {{parts->right}, false, parts};
+}
+
 TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Matrix& previous) {
   if (constraints.is_sparse() && previous.cols() == previous.rows() - constraints.rank()) {
-    if (auto turned = turned_basis(constraints, previous)) return {{std::move(*turned)}, false};
+    if (auto turned = turned_basis(constraints, previous)) return {{std::move(*turned)}, false, {}};
   }
   const Matrix& Q2 = constraints.null_basis();
-  if (constraints.rank() == 0) return {{Q2}, true};
-  if (previous.cols() != Q2.cols() || previous.rows() != Q2.rows()) return {{Q2}, false};
+  if (constraints.rank() == 0) return {{Q2}, true, {}};
+  if (previous.cols() != Q2.cols() || previous.rows() != Q2.rows()) return {{Q2}, false, {}};
   // On a short step W = Q2^T T_previous is nearly orthogonal, and W L^-T with W^T W = L L^T is an orthogonal
   // matrix close to it. If the tangent space turns by 90 degrees there is none, and the basis starts again
   // from Q2.
   const Matrix W = Q2.transpose() * previous;
   const Eigen::LLT<Matrix> cholesky(W.transpose() * W);
-  if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > 1e-8)) return {{Q2}, false};
+  if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > 1e-8)) return {{Q2}, false, {}};
   const Matrix rotation = cholesky.matrixL().solve(W.transpose()).transpose();
-  return {{Q2 * rotation}, false};
+  return {{Q2 * rotation}, false, {}};
 }
 
 void randomize_basis(TangentBasis& basis, std::uint64_t seed) {

@@ -28,8 +28,9 @@ namespace eigentrail {
 /// threads may use one object at the same time.
 class StepPencil {
  public:
-  /// `length` is the step in the path's coordinate; both points must outlive the object.
-  StepPencil(const PathNode& left, const PathNode& right, double length);
+  /// `length` is the step in the path's coordinate; both points must outlive the object. `part`: of the
+  /// equations, where they fall apart.
+  StepPencil(const PathNode& left, const PathNode& right, double length, int part = 0);
 
   /// The interpolated pencil at one value of t.
   struct Sample {
@@ -45,13 +46,14 @@ class StepPencil {
   std::shared_ptr<const Sample> at(double t) const;
 
   const PathNode& left() const { return left_; }
-  bool has_constant_mass() const { return left_.pencil.M.size() == 1 && right_.M.size() == 1; }
+  bool has_constant_mass() const { return left_pencil_.M.size() == 1 && right_.M.size() == 1; }
 
  private:
   std::shared_ptr<const Sample> sample(double t) const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
 
   const PathNode& left_;
+  const ReducedPencil& left_pencil_;
   double length_;
   Eigen::Index count_;   ///< number of coefficients at each end
   ReducedPencil right_;  ///< the right pencil in the reduced coordinates of the left point

@@ -136,6 +136,10 @@ class Model {
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
 
+  /// Constant matrices of which M, C and K are linear combinations, whatever the parameters; empty if they
+  /// are not known or there are constraints. Common structure of these matrices holds on every path.
+  virtual std::vector<Matrix> coefficient_matrices() const { return {}; }
+
   /// The same two at a point (order 0) with 113 bits, for reference solutions. A model that does not support
   /// them returns a fault.
   virtual EvaluationFault extended_residual(const BasicPath<Extended>&,

@@ -98,6 +98,7 @@ enum class PairStatus { converged, not_converged, singular };
 struct InvariantPair {
   PairStatus status = PairStatus::not_converged;
   Chart chart = Chart::finite;
+  int part = 0;          ///< of the reduced equations, where they fall apart (ReducedPencil::of)
   bool is_real = false;  ///< real Z and Lambda; the eigenvalues of the block are closed under conjugation
   ComplexMatrix Z;       ///< n x k
   ComplexMatrix Lambda;  ///< k x k

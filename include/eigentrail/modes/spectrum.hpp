@@ -10,6 +10,7 @@ namespace eigentrail {
 struct StartingMode {
   Complex s;        ///< Im s >= 0; this member represents a complex pair
   ComplexVector z;  ///< unit length; empty if only eigenvalues were requested
+  int part = 0;     ///< of the equations, where they fall apart
 };
 
 enum class SpectrumStatus { complete, singular_pencil, not_converged };
@@ -29,6 +30,11 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
 /// The same without eigenvectors, which take more than half of the work. If M is well-conditioned it is
 /// inverted, and the QR algorithm replaces QZ.
 Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
+
+/// The same of a reduced pencil at its point, part by part where it falls apart. Vectors are those of the
+/// part.
+Spectrum compute_spectrum(const ReducedPencil& pencil);
+Spectrum compute_eigenvalues(const ReducedPencil& pencil);
 
 /// Eigenvector of the eigenvalue nearest to s, of unit length, by inverse iteration with P(sigma)^-1
 /// P'(sigma), sigma = s + 1e-9 max(|s|, scale). Accurate enough as start of the corrector if no other

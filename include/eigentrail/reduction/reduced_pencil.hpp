@@ -11,7 +11,13 @@ struct ReducedPencil {
   MatrixSeries M;  ///< T^T M T
   MatrixSeries C;  ///< T^T C T
   MatrixSeries K;  ///< T^T (K + (A^T lambda)_/x) T
+  /// Its diagonal blocks, where the equations fall apart into more than one part (independent_parts.hpp).
+  std::vector<ReducedPencil> parts = {};
 
+  /// The equations of one part; all of them where they do not fall apart.
+  const ReducedPencil& of(int part) const {
+    return parts.empty() ? *this : parts[static_cast<std::size_t>(part)];
+  }
   Eigen::Index size() const { return M[0].rows(); }
 };
 

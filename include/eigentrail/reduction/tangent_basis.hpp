@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "eigentrail/core/constraint_factorization.hpp"
+#include "eigentrail/reduction/independent_parts.hpp"
 
 namespace eigentrail {
 
@@ -13,7 +14,17 @@ namespace eigentrail {
 struct TangentBasis {
   MatrixSeries T;            ///< n x (n - rank); T[0] orthonormal
   bool is_identity = false;  ///< no constraints: T is the identity, and multiplications by it are skipped
+  /// Set where the equations fall apart or are balanced in constant coordinates: T = parts->right.
+  std::shared_ptr<const IndependentParts> parts = {};
+
+  /// Reduced coordinates of physical vectors within the tangent space: T^T V, or those of one part.
+  ComplexMatrix coordinates(const ComplexMatrix& V, int part) const;
+  /// T(0) times reduced vectors (of one part).
+  ComplexMatrix shapes(const ComplexMatrix& Z, int part) const;
 };
+
+/// The basis of constant coordinates.
+TangentBasis basis_of(std::shared_ptr<const IndependentParts> parts);
 
 /// How the basis is chosen within the null space. The eigenvalues do not depend on the choice.
 enum class BasisChoice {

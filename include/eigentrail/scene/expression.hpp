@@ -58,12 +58,17 @@ class Expression {
     Op op = Op::number;
     double number = 0.0;  ///< value of a number, or exponent of an integer power
     int parameter = -1;   ///< index of a parameter
+
+    bool operator==(const Instruction&) const = default;
   };
 
   /// Size of the evaluation stack; `parse` rejects expressions that need more.
   static constexpr int max_stack = 64;
 
   Expression(double constant = 0.0) : code_{{Op::number, constant}} {}  // NOLINT: numbers are expressions
+
+  /// Whether both are the same sequence of operations, not whether they are equal as functions.
+  bool operator==(const Expression& other) const { return code_ == other.code_; }
 
   /// The parameter with this index.
   static Expression of_parameter(int index);

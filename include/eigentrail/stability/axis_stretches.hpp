@@ -67,9 +67,9 @@ struct EigenvalueAccuracy {
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 
-/// Number of modes that grow at a place of a stretch, at t of the path's step `step`, with the eigenvalues `s`
-/// there: those with a positive real part. Where it lies within the error of the dense output, the stretch as
-/// a whole tells.
+/// Number of modes that grow at a place of a stretch, at t of the path's step `step`, with the eigenvalues
+/// `s` there: those with a positive real part. Where it lies within the error of the dense output, the
+/// stretch as a whole tells.
 int count_growing(const AxisStretch& stretch, const PathStep& step, double t, const ComplexVector& s,
                   const EigenvalueAccuracy& accuracy);
 

@@ -55,7 +55,7 @@ PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCoun
   point.p = node.p;
   point.equilibrium = keep_equilibrium(problem.model, node.path.parameters.col(0), node.path.x.col(0),
                                        node.path.lambda.col(0), counts.evaluations);
-  point.basis = {{node.basis.T[0]}, node.basis.is_identity};
+  point.basis = {{node.basis.T[0]}, node.basis.is_identity, node.basis.parts};
   return point;
 }
 

@@ -409,6 +409,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (const auto& [b, left_b, right_b] : seen) {
       if (&b == &a) break;
       if (left.tracks[a.track].pair.chart != left.tracks[b.track].pair.chart) continue;
+      if (left.tracks[a.track].pair.part != left.tracks[b.track].pair.part) continue;
       if (a.track != b.track && stay_apart(left_a, left_b) && stay_apart(right_a, right_b)) continue;
       const ComplexVector at_left = gap_at(left, b, left_b, a, left_a);
       const ComplexVector at_right = gap_at(right, b, right_b, a, right_a);

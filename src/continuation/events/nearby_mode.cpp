@@ -64,7 +64,8 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
   if (const auto single =
           separate(solver.problem(), beside->node, there, {static_cast<int>(nearest)}, solver.counts())) {
     series = single->functions.row(0).transpose();
-    series[0] += eigenvalue_remainder(PencilAtPoint(beside->node.pencil, chart), single->pair);
+    series[0] +=
+        eigenvalue_remainder(PencilAtPoint(beside->node.pencil.of(single->pair.part), chart), single->pair);
     s = series[0];
   }
   const bool is_mean = of_pair && there.pair.is_real && there.size() == 2;

@@ -48,6 +48,7 @@ std::optional<ContinuedMode> continue_mode(const PathNode& previous, const PathN
     power *= last;
   }
   mode.pair.chart = track.pair.chart;
+  mode.pair.part = track.pair.part;
   mode.pair.is_real = track.pair.is_real;
   mode.pair.condition = track.pair.condition;
   mode.pair.Z = mode.series.Z[0];

@@ -76,6 +76,11 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
     return;
   }
   const StageTimer timer(counts.reduction_seconds);
+  if (problem.parts) {
+    point.basis = basis_of(problem.parts);
+    point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
+    return;
+  }
   point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
   if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
   point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
@@ -89,6 +94,7 @@ bool is_finite(const Track& track) {
 }  // namespace
 
 ComplexMatrix PathPoint::shapes(std::size_t pair) const {
+  if (basis.parts) return basis.shapes(pairs[pair].Z, pairs[pair].part);
   return basis.is_identity ? pairs[pair].Z : ComplexMatrix(basis.T[0].cast<Complex>() * pairs[pair].Z);
 }
 

@@ -36,9 +36,14 @@ class ModeCorrections {
       : problem_(problem),
         prediction_(prediction),
         point_(point),
-        projection_(point.basis.is_identity ? Matrix() : Matrix(point.basis.T[0].transpose())),
-        finite_(point.pencil, Chart::finite),
-        reciprocal_(point.pencil, Chart::reciprocal) {
+        projection_(point.basis.is_identity || point.basis.parts ? Matrix()
+                                                                 : Matrix(point.basis.T[0].transpose())) {
+    const std::size_t parts = std::max<std::size_t>(point.pencil.parts.size(), 1);
+    for (std::size_t i = 0; i < parts; ++i) {
+      const ReducedPencil& pencil = point.pencil.of(static_cast<int>(i));
+      finite_.emplace_back(pencil, Chart::finite);
+      reciprocal_.emplace_back(pencil, Chart::reciprocal);
+    }
     point.pairs.resize(prediction.pairs.size());
     point.passed.resize(prediction.pairs.size());
     point.ready = prediction.ready;
@@ -52,7 +57,8 @@ class ModeCorrections {
       return;
     }
     InvariantPair start = reduced(prediction_.pairs[i]);
-    const PencilAtPoint& pencil = start.chart == Chart::finite ? finite_ : reciprocal_;
+    const PencilAtPoint& pencil =
+        (start.chart == Chart::finite ? finite_ : reciprocal_)[static_cast<std::size_t>(start.part)];
     const double reference = problem_.reference(start.chart);
     if (i < prediction_.continued.size() && prediction_.continued[i]) {
       InvariantPair other = reduced(prediction_.continued[i]->pair);
@@ -77,25 +83,28 @@ class ModeCorrections {
     return all;
   }
 
-  const PencilAtPoint& finite() const { return finite_; }
+  /// The pencil as a whole; it must not fall apart.
+  const PencilAtPoint& finite() const { return finite_.front(); }
 
  private:
   InvariantPair reduced(InvariantPair pair) const {
     if (projection_.size() > 0) pair.Z = multiply(projection_, pair.Z);
+    if (point_.basis.parts) pair.Z = point_.basis.coordinates(pair.Z, pair.part);
     return pair;
   }
 
   const PathProblem& problem_;
   const Prediction& prediction_;
   PathPoint& point_;
-  Matrix projection_;  ///< T^T; empty where T is the identity
-  PencilAtPoint finite_, reciprocal_;
+  Matrix projection_;                               ///< T^T; empty where T is the identity or constant
+  std::vector<PencilAtPoint> finite_, reciprocal_;  ///< of every part of the equations
 };
 
 /// Corrects the predicted pairs all at once, if the problem allows that and it works at this point.
 bool correct_together(const PathProblem& problem, const Prediction& prediction,
                       const ModeCorrections& corrections, PathPoint& point, ModeCounts& counts) {
-  if (problem.route == ModeRoute::one_by_one || !is_complete(prediction.pairs, point.pencil.size()))
+  if (problem.route == ModeRoute::one_by_one || !point.pencil.parts.empty() ||
+      !is_complete(prediction.pairs, point.pencil.size()))
     return false;
   const double reference = problem.reference(Chart::finite);
   const std::vector<InvariantPair> starts = corrections.starts();
@@ -139,10 +148,14 @@ std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
   return V;
 }
 
-/// Series of V = T Z from the series of Z.
-std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z) {
+/// Series of V = T Z from the series of Z, reduced vectors of a part.
+std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z, int part) {
   const TangentBasis& basis = node.basis;
   if (basis.is_identity) return Z;
+  if (basis.parts) {
+    for (ComplexMatrix& coefficient : Z) coefficient = basis.shapes(coefficient, part);
+    return Z;
+  }
   // For a large model, a complex copy of the basis for every mode would take longer than the product.
   if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
   std::vector<ComplexMatrix> T;
@@ -163,9 +176,9 @@ Track make_track(InvariantPair pair, PairSeries series) {
 
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
                           ModeCounts& counts) {
-  PairSeries series =
-      differentiate_pair(node.pencil, pair, problem.order + 1, counts, problem.corrector.series_accuracy);
-  series.Z = physical_series(node, std::move(series.Z));
+  PairSeries series = differentiate_pair(node.pencil.of(pair.part), pair, problem.order + 1, counts,
+                                         problem.corrector.series_accuracy);
+  series.Z = physical_series(node, std::move(series.Z), pair.part);
   return make_track(std::move(pair), std::move(series));
 }
 
@@ -206,7 +219,7 @@ std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point,
                       : differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy,
                                           counts.modes);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    series[i].Z = physical_series(node, std::move(series[i].Z));
+    series[i].Z = physical_series(node, std::move(series[i].Z), point.pairs[i].part);
     tracks[i] = make_track(point.pairs[i], std::move(series[i]));
   }
   return tracks;

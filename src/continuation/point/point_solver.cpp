@@ -16,6 +16,7 @@ constexpr double share_of_end = 0.1;
 InvariantPair predicted_pair(const Track& track, double h) {
   InvariantPair pair;
   pair.chart = track.pair.chart;
+  pair.part = track.pair.part;
   pair.is_real = track.pair.is_real;
   pair.Z = evaluate_series(track.series.Z, h);
   pair.Lambda = evaluate_series(track.series.Lambda, h);

@@ -96,9 +96,9 @@ class Tube {
         W1_(W_.bottomRows(W_.rows() / 2)),
         counts_(counts),
         gap_(gap),
-        left_Z_(in_basis_of(pencil.left(), left.series.Z)),
+        left_Z_(in_basis_of(pencil.left(), left.series.Z, left.pair.part)),
         left_Lambda_(left.series.Lambda),
-        right_Z_(in_basis_of(pencil.left(), right.series.Z)),
+        right_Z_(in_basis_of(pencil.left(), right.series.Z, left.pair.part)),
         right_Lambda_(right.series.Lambda) {
     fix_basis(W_, left_Z_, left_Lambda_);
     fix_basis(W_, right_Z_, right_Lambda_);
@@ -287,9 +287,13 @@ MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order)
 
 }  // namespace
 
-StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length)
-    : left_(left), length_(length), count_(0), right_(right.pencil) {
-  for (const ReducedPencil* pencil : {&left.pencil, &right.pencil}) {
+StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length, int part)
+    : left_(left),
+      left_pencil_(left.pencil.of(part)),
+      length_(length),
+      count_(0),
+      right_(right.pencil.of(part)) {
+  for (const ReducedPencil* pencil : {&left_pencil_, &std::as_const(right_)}) {
     count_ =
         std::max({count_, static_cast<Eigen::Index>(pencil->M.size()),
                   static_cast<Eigen::Index>(pencil->C.size()), static_cast<Eigen::Index>(pencil->K.size())});
@@ -297,7 +301,7 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
   for (const Track& track : left.tracks) {
     count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
   }
-  if (left.basis.is_identity) return;
+  if (left.basis.is_identity || left.basis.parts) return;  // both have the same basis
   // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
   // coordinates of the left point.
   MatrixSeries overlap;
@@ -331,9 +335,9 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
   left.topRows(count_).setIdentity();
   right.bottomRows(count_).setIdentity();
   Vector weights = HermiteInterpolant(length_, left, right)(t).real();
-  ReducedPencil pencil{{interpolate(left_.pencil.M, right_.M, weights)},
-                       {interpolate(left_.pencil.C, right_.C, weights)},
-                       {interpolate(left_.pencil.K, right_.K, weights)}};
+  ReducedPencil pencil{{interpolate(left_pencil_.M, right_.M, weights)},
+                       {interpolate(left_pencil_.C, right_.C, weights)},
+                       {interpolate(left_pencil_.K, right_.K, weights)}};
   return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
 }
 

@@ -5,12 +5,14 @@
 
 namespace eigentrail {
 
-std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical) {
+std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical,
+                                       int part) {
   if (node.basis.is_identity) return physical;
   std::vector<ComplexMatrix> result;
   result.reserve(physical.size());
   for (const ComplexMatrix& V : physical)
-    result.emplace_back(node.basis.T[0].transpose().cast<Complex>() * V);
+    result.emplace_back(node.basis.parts ? node.basis.coordinates(V, part)
+                                         : ComplexMatrix(node.basis.T[0].transpose().cast<Complex>() * V));
   return result;
 }
 
@@ -49,7 +51,7 @@ DenseBlock block_on_step(const PathNode& left, const PathNode& right, std::size_
   block.left = a.functions;
   block.right = b.functions;
   if (a.size() <= 2) return block;
-  std::vector<ComplexMatrix> Z = in_basis_of(left, b.series.Z);
+  std::vector<ComplexMatrix> Z = in_basis_of(left, b.series.Z, b.pair.part);
   std::vector<ComplexMatrix> Lambda = b.series.Lambda;
   fix_basis(a.pair.W, Z, Lambda);
   block.right = block_functions(Lambda);

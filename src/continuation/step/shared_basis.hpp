@@ -7,8 +7,10 @@
 
 namespace eigentrail {
 
-/// T^T V: coordinates of the series V, in physical coordinates, in the tangent basis T of a point.
-std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical);
+/// T^T V: coordinates of the series V, in physical coordinates, in the tangent basis T of a point; those of
+/// one part where the equations fall apart.
+std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical,
+                                       int part = 0);
 
 /// Transforms the series of a block to the basis with W0^H Z + W1^H Z Lambda = I. W = [W0; W1] is 2n x k.
 void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vector<ComplexMatrix>& Lambda);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 
 #include "continuation/step/modal_certificate.hpp"
 #include "core/parallel.hpp"
@@ -21,7 +22,7 @@ double gap_of(const PathNode& node, std::size_t index) {
     if (!track.pair.is_real) gap = std::min(gap, 2.0 * std::abs(root.imag()));
     for (std::size_t j = 0; j < node.tracks.size(); ++j) {
       const Track& other = node.tracks[j];
-      if (j == index || other.pair.chart != track.pair.chart) continue;
+      if (j == index || other.pair.chart != track.pair.chart || other.pair.part != track.pair.part) continue;
       for (const Complex s : other.roots) gap = std::min(gap, std::abs(s - root));
     }
   }
@@ -34,9 +35,12 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
   const StageTimer timer(counts.certificate_seconds);
   const PathNode& left = *step.left;
   const std::size_t count = left.tracks.size();
-  const StepPencil pencil(left, step.right, step.h);
+  std::vector<std::unique_ptr<const StepPencil>> pencils;
+  const std::size_t parts = std::max<std::size_t>(left.pencil.parts.size(), 1);
+  for (std::size_t i = 0; i < parts; ++i)
+    pencils.push_back(std::make_unique<const StepPencil>(left, step.right, step.h, static_cast<int>(i)));
   std::vector<bool> certified(count, false);
-  if (problem.route != ModeRoute::one_by_one) certified = certify_all(pencil, step.right, counts);
+  if (problem.route != ModeRoute::one_by_one) certified = certify_all(*pencils.front(), step.right, counts);
   // With several threads, tracks behind the first one that fails may have been tested already. Their results
   // and their work are dropped, so that nothing depends on the number of threads.
   std::vector<RunCounts> own(count);
@@ -44,6 +48,7 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
   std::atomic<std::size_t> first_open{count};
   const auto look = [&](std::size_t i) {
     if (closed[i] != 0 || (!all_count && i > first_open)) return;
+    const StepPencil& pencil = *pencils[static_cast<std::size_t>(left.tracks[i].pair.part)];
     closed[i] = certify_step(pencil, left.tracks[i], step.right.tracks[i], gap_of(left, i), own[i]) ? 1 : 0;
     if (closed[i] != 0) return;
     for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {

@@ -38,7 +38,7 @@ Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Ste
 /// Whether the single mode `a` has converged to an eigenpair of the track `b`.
 bool have_merged(const PathProblem& problem, const Track& a, const Track& b, const SystemMatrix& mass) {
   const IdentityThresholds& thresholds = problem.thresholds.identity;
-  if (b.pair.chart != a.pair.chart) return false;
+  if (b.pair.chart != a.pair.chart || b.pair.part != a.pair.part) return false;
   for (const Complex root : b.roots) {
     const double scale = std::max(std::abs(a.roots[0]), problem.reference(a.pair.chart));
     if (std::abs(a.roots[0] - root) > thresholds.merged_distance * scale) continue;

@@ -27,8 +27,8 @@ static void fields(Self& self, Visit& visit) {
 /// The factors are not saved: they are not used after the point.
 template <SameAs<InvariantPair> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [status, chart, is_real, Z, Lambda, W, backward_error, condition, factors] = self;
-  visit(status, chart, is_real, Z, Lambda, W, backward_error, condition);
+  auto& [status, chart, part, is_real, Z, Lambda, W, backward_error, condition, factors] = self;
+  visit(status, chart, part, is_real, Z, Lambda, W, backward_error, condition);
 }
 
 template <SameAs<Track::Departure> Self, class Visit>
@@ -51,14 +51,14 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TangentBasis> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [T, is_identity] = self;
+  auto& [T, is_identity, parts] = self;  // the parts are found again
   visit(T, is_identity);
 }
 
 template <SameAs<ReducedPencil> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K] = self;
-  visit(M, C, K);
+  auto& [M, C, K, parts] = self;
+  visit(M, C, K, parts);
 }
 
 template <SameAs<PathNode> Self, class Visit>
@@ -210,9 +210,9 @@ bool fits(const std::vector<int>& modes, Eigen::Index size, int columns) {
   return static_cast<Eigen::Index>(modes.size()) == size;
 }
 
-bool fits(const Track& track, const PointSizes& sizes) {
+/// `n`: freedoms of the part of the equations that the track belongs to.
+bool fits(const Track& track, const PointSizes& sizes, Eigen::Index n) {
   const Eigen::Index k = track.pair.Lambda.rows();
-  const Eigen::Index n = sizes.freedoms;
   const Eigen::Index functions = k <= 2 ? k : k * k;
   for (const int root : track.met) {
     if (root < 0 || root >= k) return false;
@@ -231,8 +231,11 @@ bool fits(const PathNode& node, const PointSizes& sizes) {
   const auto series = [](const VectorSeries& columns, Eigen::Index rows) {
     return columns.rows() == rows && columns.cols() >= 1 && columns.cols() <= max_order + 1;
   };
+  const auto parts = static_cast<int>(std::max<std::size_t>(node.pencil.parts.size(), 1));
   for (const Track& track : node.tracks) {
-    if (!fits(track, sizes)) return false;
+    const int part = track.pair.part;
+    if (part < 0 || part >= parts || node.pencil.of(part).M.empty()) return false;
+    if (!fits(track, sizes, node.pencil.of(part).size())) return false;
   }
   const Linearization& full = node.linearization;
   return series(node.path.parameters, sizes.parameters) && series(node.path.x, n) &&
@@ -307,6 +310,8 @@ TraceState restore_state(std::string_view bytes, const PathProblem& problem, con
   } catch (const ArchiveError& error) {
     throw InputError(std::string("the state of the trace is damaged: ") + error.what());
   }
+  for (PathNode* node : {&state.origin.node, &state.origin.previous}) node->basis.parts = problem.parts;
+  if (state.origin.tried) state.origin.tried->basis.parts = problem.parts;
   state.frame.range = {problem.traced, options.from, options.to};
   if (const std::string fault = misfit(state, problem, options); !fault.empty())
     throw InputError("the state of the trace does not fit the scene: " + fault);

@@ -7,6 +7,7 @@
 
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/events/meeting_events.hpp"
+#include "continuation/events/part_crossings.hpp"
 #include "continuation/events/static_points.hpp"
 #include "continuation/events/veerings.hpp"
 #include "continuation/step/step_error.hpp"
@@ -296,8 +297,8 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
 }
 
 /// Finds and records the events of a step, in this order: coinciding eigenvalues at its end, zeros and
-/// extrema of criteria, veerings, branch point, fold. After the first of these, orders the modes behind its
-/// end.
+/// extrema of criteria, veerings, crossings of independent parts, branch point, fold. After the first of
+/// these, orders the modes behind its end.
 void TraceLoop::settle_events(LandedStep& landed) {
   const EventWork work(state_.result.counts);
   search_.node = state_.result.nodes;
@@ -313,6 +314,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
   log(find_veerings(search_, step));
+  log(find_part_crossings(search_, step));
   log_branch_point(step.right);
   log(find_fold(search_, step.right, step.h));
 }

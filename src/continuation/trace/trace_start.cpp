@@ -141,8 +141,7 @@ std::optional<StartFailure> Start::find_modes() {
   const ReducedPencil& pencil = point_.pencil;
   const StageTimer timer(result_.counts.modes_seconds);
   const bool few = options_.modes && few_share * *options_.modes < static_cast<double>(pencil.size());
-  Spectrum spectrum = few ? compute_eigenvalues(pencil.M[0], pencil.C[0], pencil.K[0])
-                          : compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  Spectrum spectrum = few ? compute_eigenvalues(pencil) : compute_spectrum(pencil);
   ++result_.counts.spectra;
   result_.n_infinite = spectrum.n_infinite;
   result_.n_available = static_cast<int>(spectrum.modes.size());
@@ -152,8 +151,9 @@ std::optional<StartFailure> Start::find_modes() {
   // With infinite eigenvalues, which are not followed, the checksum of all eigenvalues cannot hold.
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  settings.route = cheapest_route(problem_.structure,
-                                  {pencil.size(), result_.n_modes, settings.follows_all, settings.order});
+  const bool at_once = settings.follows_all && pencil.parts.empty();  // else every part by itself
+  settings.route =
+      cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, settings.order});
   settle_magnitudes(spectrum);
   modes_ = std::move(spectrum.modes);
   return std::nullopt;
@@ -179,7 +179,7 @@ std::optional<Spectrum> Start::spectrum_beside_branch_point() const {
       reduce_on(problem_, bridge.path(bridge.end(), 1), point_.basis.T[0], solver_.counts());
   if (point.status != PointStatus::computed) return std::nullopt;
   ++result_.counts.spectra;
-  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  Spectrum spectrum = compute_spectrum(point.pencil);
   if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) return std::nullopt;
   return spectrum;
 }
@@ -187,8 +187,8 @@ std::optional<Spectrum> Start::spectrum_beside_branch_point() const {
 std::optional<StartFailure> Start::correct_groups(const std::vector<StartingGroup>& groups) {
   const StageTimer timer(result_.counts.modes_seconds);
   for (const StartingGroup& group : groups) {
-    point_.pairs.push_back(correct_pair(PencilAtPoint(point_.pencil), group.pair, problem_.s_ref,
-                                        problem_.corrector, result_.counts.modes));
+    point_.pairs.push_back(correct_pair(PencilAtPoint(point_.pencil.of(group.pair.part)), group.pair,
+                                        problem_.s_ref, problem_.corrector, result_.counts.modes));
     const InvariantPair& pair = point_.pairs.back();
     const double moved = std::abs(pair.Lambda.trace() - group.roots.sum()) / static_cast<double>(pair.size());
     const double scale = std::max(group.roots.cwiseAbs().maxCoeff(), problem_.s_ref);

@@ -86,17 +86,22 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem) {
 
 std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref) {
   std::vector<Complex> tracked;
+  std::vector<int> parts;
   for (const Track& track : node.tracks) {
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       const Complex s = chart_value(track.roots[i], track.pair.chart);
       // In a real block, the members with Im s < 0 are the conjugates of others: the same modes.
-      if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) tracked.push_back(s);
+      if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) {
+        tracked.push_back(s);
+        parts.push_back(track.pair.part);
+      }
     }
   }
   const auto n = static_cast<Eigen::Index>(std::max(tracked.size(), spectrum.modes.size()));
   Matrix cost = Matrix::Constant(n, n, unrelated);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
+      if (spectrum.modes[j].part != parts[i]) continue;
       const Complex s = spectrum.modes[j].s;
       const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
@@ -130,7 +135,7 @@ ComplexVector vector_of(const Track& track, Eigen::Index root) {
 
 /// Whether two tracks have an eigenpair in common.
 bool share_eigenpair(const Track& a, const Track& b, double reference) {
-  if (a.pair.chart != b.pair.chart) return false;
+  if (a.pair.chart != b.pair.chart || a.pair.part != b.pair.part) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double scale = std::max(std::abs(a.roots[i]), reference);
     if ((b.roots.array() - a.roots[i]).abs().minCoeff() > shared_distance * scale) continue;
@@ -164,7 +169,7 @@ constexpr double arrived = 0.1;
 std::vector<StartingGroup> missing_groups(const PathProblem& problem, const PathNode& node,
                                           RunCounts& counts) {
   const ReducedPencil& pencil = node.pencil;
-  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
+  const Spectrum spectrum = compute_spectrum(pencil);
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> missing = missing_modes(node, spectrum, problem.s_ref);
@@ -185,8 +190,8 @@ Completion complete(const PathProblem& problem, bool follows_all, PathNode& node
   found.doubtful = has_doubtful_track(node, problem);
   if (!follows_all || checksum_holds(node, problem)) return found;
   for (const StartingGroup& group : missing_groups(problem, node, counts)) {
-    InvariantPair pair =
-        correct_pair(PencilAtPoint(node.pencil), group.pair, problem.s_ref, problem.corrector, counts.modes);
+    InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
+                                      problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
     Track track = differentiate_track(problem, node, std::move(pair), counts);
     track.roots = in_order_of(group.roots, track.roots);

@@ -107,7 +107,7 @@ void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
 /// `known` and the mode numbers `modes`. False if that fails.
 bool settle(const PathProblem& problem, const PathNode& node, const InvariantPair& pair,
             const ComplexVector& known, const std::vector<int>& modes, Track& track, RunCounts& counts) {
-  const PencilAtPoint pencil(node.pencil, pair.chart);
+  const PencilAtPoint pencil(node.pencil.of(pair.part), pair.chart);
   InvariantPair corrected =
       correct_pair(pencil, pair, problem.reference(pair.chart), problem.corrector, counts.modes);
   if (corrected.status != PairStatus::converged) return false;
@@ -135,6 +135,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   double nearest_conjugate = INFINITY;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
+    if (other.pair.part != track.pair.part) continue;  // they cross and never meet
     const double spread =
         i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
     const ComplexVector series = mean_in(other, track.pair.chart);
@@ -181,7 +182,7 @@ std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, 
     if (!track.pair.is_real && gap_between(track.roots, track.roots.conjugate()) < limit)
       with_conjugates = true;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (taken[i] || tracks[i].pair.chart != chart) continue;
+      if (taken[i] || tracks[i].pair.chart != chart || tracks[i].pair.part != track.pair.part) continue;
       const double gap = gap_between(track.roots, tracks[i].roots);
       if (gap >= std::max(limit, crowding * movement(tracks[i], h))) continue;
       taken[i] = true;
@@ -258,7 +259,9 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     modes.insert(modes.end(), track.modes.begin(), track.modes.end());
     if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
   }
-  if (static_cast<Eigen::Index>(known.size()) > std::min(largest_block, 2 * node.pencil.size())) return false;
+  if (static_cast<Eigen::Index>(known.size()) >
+      std::min(largest_block, 2 * node.pencil.of(pairs[0].part).size()))
+    return false;
   Track joined;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));

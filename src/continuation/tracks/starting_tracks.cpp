@@ -15,24 +15,28 @@ constexpr double close = 1e-4;
 /// relative to the square root of |K|/|M|. This is ten times as much, for the factors that depend on n.
 constexpr double blurred = 1.5e-7;
 
-/// Distance (1/s) below which eigenvalues near zero cannot be distinguished.
+/// Magnitude (1/s) up to which eigenvalues cannot be distinguished from zero.
 double blur_at_zero(const ReducedPencil& pencil) {
   const double mass = pencil.M[0].norm();
   return mass > 0.0 ? blurred * std::sqrt(pencil.K[0].norm() / mass) : 0.0;
 }
 
 /// A label per mode, equal for modes that are connected by close eigenvalues. A mode is also close to another
-/// if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues count as zero.
-std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref) {
+/// if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues count as zero; `blur`:
+/// as from blur_at_zero.
+std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref, double blur) {
   std::vector<int> label(modes.size());
   std::iota(label.begin(), label.end(), 0);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
+      if (modes[i].part != modes[j].part) continue;
       const Complex a = modes[i].s;
       const Complex b = modes[j].s;
       const double scale = std::max({std::abs(a), std::abs(b), s_ref});
       const double distance = std::min(std::abs(a - b), std::abs(a - std::conj(b)));
-      if (distance <= close * scale) std::replace(label.begin(), label.end(), label[i], label[j]);
+      const bool both_zero = std::max(std::abs(a), std::abs(b)) <= blur;
+      if (distance <= close * scale || both_zero)
+        std::replace(label.begin(), label.end(), label[i], label[j]);
     }
   }
   return label;
@@ -48,8 +52,9 @@ bool near_real(Complex s, double s_ref) {
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale) {
-  s_ref = std::max({s_ref, least_scale, blur_at_zero(pencil) / close});
-  const std::vector<int> labels = group_labels(modes, s_ref);
+  s_ref = std::max(s_ref, least_scale);
+  const double blur = blur_at_zero(pencil);
+  const std::vector<int> labels = group_labels(modes, s_ref, blur);
   std::vector<StartingGroup> groups;
   for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
     std::vector<std::size_t> members;
@@ -70,18 +75,21 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
       group.modes.push_back(followed ? Track::no_mode : Track::guest);
     }
     group.roots = Eigen::Map<ComplexVector>(roots.data(), static_cast<Eigen::Index>(roots.size()));
+    const int part = modes[members.front()].part;
+    const ReducedPencil& own = pencil.of(part);
     if (roots.size() == 1) {
       group.pair.is_real = roots[0].imag() == 0.0;
       const StartingMode& mode = modes[members.front()];
       group.pair.Z =
-          mode.z.size() > 0 ? mode.z : eigenvector_near(pencil.M[0], pencil.C[0], pencil.K[0], mode.s, s_ref);
+          mode.z.size() > 0 ? mode.z : eigenvector_near(own.M[0], own.C[0], own.K[0], mode.s, s_ref);
       group.pair.Lambda = group.roots;
       if (group.pair.is_real) group.pair.Z.imag().setZero();
     } else {
       const Complex centre = is_real ? Complex(group.roots.mean().real()) : group.roots.mean();
-      group.pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, group.roots.size(),
-                                      is_real, least_scale);
+      group.pair =
+          invariant_subspace(own.M[0], own.C[0], own.K[0], centre, group.roots.size(), is_real, least_scale);
     }
+    group.pair.part = part;
     groups.push_back(std::move(group));
   }
   return groups;

@@ -1,0 +1,50 @@
+// Constant coordinates in which the linearized equations fall apart into independent parts: axial motion,
+// torsion and bending of a shaft, equal columns side by side, harmonics of a ring of blades.
+//
+// Matrices A_k fall apart in common coordinates when pairs (X, Y) of matrices with Y A_k = A_k X for all k
+// exist besides multiples of (I, I). The eigenspaces of a random X of this kind are the parts (Murota, Kanno,
+// Kojima & Kojima, Japan J. Indust. Appl. Math. 27, 2010; Eberly & Giesbrecht, J. Symb. Comput. 37, 2004).
+//
+// The coordinates are also balanced: rows and columns are scaled by powers of two, so that units (metres and
+// radians, newtons and meganewtons) do not decide what is large.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+/// New coordinates y with x = right y, and equations multiplied from the left by left^T. In them M, C and K
+/// are block diagonal.
+struct IndependentParts {
+  /// Coordinates of one part.
+  struct Range {
+    Eigen::Index first = 0, size = 0;
+    /// Index of the first part that is equal to this one in suitable coordinates; its own if there is none
+    /// before it.
+    std::size_t copy_of = 0;
+  };
+
+  Matrix right;    ///< n x n
+  Matrix left;     ///< n x n
+  Matrix inverse;  ///< of `right`
+  std::vector<Range> ranges;
+  bool is_diagonal = false;  ///< `right` and `left` only scale coordinates and equations
+
+  std::size_t count() const { return ranges.size(); }
+  /// Columns of `right` that belong to a part, n x size.
+  auto columns(std::size_t part) const { return right.middleCols(ranges[part].first, ranges[part].size); }
+  /// Rows of `inverse` that belong to a part, size x n.
+  auto coordinates(std::size_t part) const {
+    return inverse.middleRows(ranges[part].first, ranges[part].size);
+  }
+};
+
+/// The independent parts of matrices of equal size n x n, of which M, C and K are linear combinations. Null
+/// where they neither fall apart nor need balancing. Parts whose coupling is not zero up to rounding are not
+/// separated. Cost: a few eigenproblems of size n.
+std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector<Matrix>& coefficients);
+
+}  // namespace eigentrail
