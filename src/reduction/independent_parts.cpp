@@ -377,15 +377,58 @@ Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Ra
   return result;
 }
 
-std::optional<Splitting> split(const std::vector<Matrix>& all) {
+/// The parts of matrices that no permutation makes block diagonal.
+Splitting split_connected(const std::vector<Matrix>& all, Random& random) {
+  const Eigen::Index n = all[0].rows();
+  const Splitting whole{Matrix::Identity(n, n), Matrix::Identity(n, n), {n}, {false}};
+  if (n == 1) return whole;
+  const bool keeps_symmetry = all_symmetric_or_skew(all);
+  // The coordinates of one X may be worse conditioned than those of another, and it may tell fewer parts.
+  constexpr int attempts = 6;
+  Splitting best = whole;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    std::optional<Splitting> found;
+    if (keeps_symmetry) found = split_symmetric(all, random);
+    if (!found) found = split_any(all, random);
+    if (!found) continue;
+    const bool is_one = found->sizes.size() == 1 && !found->of_pair[0];
+    if (is_one) return whole;  // X is a multiple of the unit matrix
+    const Splitting finer = refined(*found, all, random);
+    if (finer.sizes.size() == 1 || !holds(finer, all)) continue;
+    if (finer.sizes.size() == best.sizes.size()) break;  // twice the same
+    if (finer.sizes.size() > best.sizes.size()) best = finer;
+  }
+  return best;
+}
+
+/// The parts of any matrices. Coordinates that no entry connects come first: they are separated without
+/// rounding.
+Splitting split(const std::vector<Matrix>& all) {
   constexpr std::uint64_t seed = 20101;  // the same coordinates in every run
   Random random(seed);
-  std::optional<Splitting> result;
-  if (all_symmetric_or_skew(all)) result = split_symmetric(all, random);
-  if (!result) result = split_any(all, random);
-  if (!result) return std::nullopt;
-  result = refined(*result, all, random);
-  if (result->sizes.size() < 2 || !holds(*result, all)) return std::nullopt;
+  const Eigen::Index n = all[0].rows();
+  Matrix pattern = Matrix::Zero(n, n);
+  for (const Matrix& A : all) pattern += A.cwiseAbs();
+  const auto connected = connected_groups(
+      n, [&](Eigen::Index i, Eigen::Index j) { return pattern(i, j) != 0.0 || pattern(j, i) != 0.0; });
+  Splitting result{Matrix::Zero(n, n), Matrix::Zero(n, n), {}, {}};
+  Eigen::Index at = 0;
+  for (const auto& members : connected) {
+    std::vector<Matrix> own;
+    for (const Matrix& A : all) {
+      own.emplace_back(A(members, members));
+      if (own.back().isZero(0.0)) own.pop_back();
+    }
+    const auto size = static_cast<Eigen::Index>(members.size());
+    const Splitting finer =
+        own.empty() ? Splitting{Matrix::Identity(size, size), Matrix::Identity(size, size), {size}, {false}}
+                    : split_connected(own, random);
+    result.right(members, Eigen::seqN(at, size)) = finer.right;
+    result.left(members, Eigen::seqN(at, size)) = finer.left;
+    result.sizes.insert(result.sizes.end(), finer.sizes.begin(), finer.sizes.end());
+    at += size;
+  }
+  result.of_pair.assign(result.sizes.size(), false);
   return result;
 }
 
@@ -436,24 +479,23 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector
     A = scaling.of(A);
     A /= A.norm();
   }
-  const std::optional<Splitting> splitting = split(all);
-  if (!splitting && !scaling.is_needed()) return nullptr;
+  const Splitting splitting = split(all);
+  const bool falls_apart = splitting.sizes.size() > 1;
+  if (!falls_apart && !scaling.is_needed()) return nullptr;
   auto parts = std::make_shared<IndependentParts>();
-  parts->is_diagonal = !splitting;
-  const Matrix identity = Matrix::Identity(n, n);
-  parts->right = scaling.columns.asDiagonal() * (splitting ? splitting->right : identity);
-  parts->left = scaling.rows.asDiagonal() * (splitting ? splitting->left : identity);
-  parts->inverse = splitting ? Matrix(splitting->right.inverse()) : identity;
-  parts->inverse = (parts->inverse * scaling.columns.cwiseInverse().asDiagonal()).eval();
-  if (!splitting) {
+  parts->is_diagonal = !falls_apart;
+  parts->right = scaling.columns.asDiagonal() * splitting.right;
+  parts->left = scaling.rows.asDiagonal() * splitting.left;
+  parts->inverse = splitting.right.inverse() * scaling.columns.cwiseInverse().asDiagonal();
+  if (!falls_apart) {
     parts->ranges = {{0, n, 0}};
     return parts;
   }
-  const std::vector<std::size_t> copy_of = copies(*splitting, all);
+  const std::vector<std::size_t> copy_of = copies(splitting, all);
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < copy_of.size(); ++i) {
-    parts->ranges.push_back({first, splitting->sizes[i], copy_of[i]});
-    first += splitting->sizes[i];
+    parts->ranges.push_back({first, splitting.sizes[i], copy_of[i]});
+    first += splitting.sizes[i];
   }
   return parts;
 }
