@@ -37,6 +37,11 @@ int run_verify(const VerifyArguments& arguments) {
                 loci.modes[static_cast<std::size_t>(report.worst.mode)].c_str(), loci.parameter.c_str(),
                 exact_text(report.worst.parameter).c_str());
   }
+  if (report.missing > 0) {
+    std::printf("  %d eigenvalue%s of the spectrum at %s = %s %s no mode\n", report.missing,
+                report.missing == 1 ? "" : "s", loci.parameter.c_str(), exact_text(report.missing_at).c_str(),
+                report.missing == 1 ? "has" : "have");
+  }
   if (report.passed()) return done;
   std::fprintf(stderr, "eigentrail: %s: the check failed\n", arguments.file.c_str());
   return numbers_failed;
@@ -56,7 +61,9 @@ void add_verify(CLI::App& program, int& exit_code) {
       ->check(seed_fault)
       ->capture_default_str();
   command->footer(
-      "Exits with 1 when an eigenvalue is off by more than the file's tolerance.\n\n"
+      "Exits with 1 when an eigenvalue is off by more than the file's tolerance, or is missing where all "
+      "modes "
+      "are followed.\n\n"
       "Example:\n  eigentrail verify blade.h5 --samples 1000");
   command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "accuracy/spectrum_distance.hpp"
+#include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/modes/spectrum.hpp"
@@ -111,6 +112,52 @@ TraceSetup setup_of(const LociFile& loci) {
   }
 }
 
+/// Distances of the dense output from the exact eigenvalues, |s_dense - s| / max(|s|, reference). For the
+/// members of a block, in units of what their error may be: beside an exceptional point eigenvalues move by
+/// the root of the tolerance, and a distance of that size counts as the tolerance.
+Vector discrepancies(const LociFile& loci, const LociFile::Position& position, const ComplexVector& s,
+                     const std::vector<Complex>& exact, double tolerance, double reference) {
+  const std::vector<bool> alone(loci.modes.size(), false);
+  Vector result = distances_from_spectrum(s, alone, exact, reference);
+  const PathStep& step = loci.steps[position.step];
+  for (const DenseBlock& block : step.blocks) {
+    if (block.size() == 1) continue;
+    const bool at_node = position.t == 0.0 || position.t == 1.0;
+    const Vector errors = block_errors(block, step.length, position.t, s, at_node, tolerance, reference);
+    for (std::size_t i = 0; i < block.modes.size(); ++i) {
+      const int mode = block.modes[i];
+      if (!std::isfinite(s[mode].real())) continue;
+      const double promised = tolerance * std::max(std::abs(s[mode]), reference);
+      result[mode] *= std::min(1.0, promised / errors[static_cast<Eigen::Index>(i)]);
+    }
+  }
+  return result;
+}
+
+/// Number of exact eigenvalues, up to a magnitude, that no mode of the file has.
+int missing_modes(const ComplexVector& s, const std::vector<Complex>& exact, double largest) {
+  const auto is_within = [](Complex value, double limit) {
+    return std::isfinite(value.real()) && std::abs(value) <= limit;
+  };
+  constexpr double margin = 1.1;  // beside the limit an eigenvalue may count here and not there
+  const auto expected =
+      std::count_if(exact.begin(), exact.end(), [&](Complex value) { return is_within(value, largest); });
+  const auto found =
+      std::count_if(s.begin(), s.end(), [&](Complex value) { return is_within(value, margin * largest); });
+  return static_cast<int>(std::max<std::ptrdiff_t>(expected - found, 0));
+}
+
+/// Largest magnitude of an eigenvalue at the stored points, 1/s.
+double largest_of(const LociFile& loci) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < loci.steps.size(); ++i) {
+    for (const Complex s : loci.eigenvalues_at(LociFile::Position{i, 0.0})) {
+      if (std::isfinite(s.real())) largest = std::max(largest, std::abs(s));
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
@@ -119,6 +166,8 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.steady.relax = false;  // another equilibrium than the stored one proves nothing
   const double reference = std::stod(loci.attribute("reference"));
+  const bool follows_all = !setup.options.modes;
+  const double largest_finite = largest_of(loci);
   VerifyReport report;
   report.tolerance = setup.options.tolerance;
 
@@ -133,13 +182,16 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
         continue;
       }
       Eigen::Index mode = 0;
-      const std::vector<bool> in_block = in_blocks(loci.steps[position.step], loci.modes.size());
       std::vector<Complex> exact;
       for (const StartingMode& found : spectrum->modes) exact.push_back(found.s);
+      const ComplexVector s = loci.eigenvalues_at(position);
       const double worst =
-          distances_from_spectrum(loci.eigenvalues_at(position), in_block, exact, reference).maxCoeff(&mode);
+          discrepancies(loci, position, s, exact, report.tolerance, reference).maxCoeff(&mode);
       if (report.worst.mode < 0 || worst > report.worst.relative)
         report.worst = {worst, p, static_cast<int>(mode)};
+      const int missing = follows_all ? missing_modes(s, exact, largest_finite) : 0;
+      if (missing > report.missing) report.missing_at = p;
+      report.missing = std::max(report.missing, missing);
     }
   }
   return report;

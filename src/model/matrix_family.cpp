@@ -144,28 +144,33 @@ Structure MatrixFamily::structure(int traced_parameter) const {
   return result;
 }
 
-std::vector<Matrix> MatrixFamily::coefficient_matrices() const {
-  if (n_constraints() > 0) return {};
-  std::vector<Matrix> all;
-  for (const MatrixPolynomial* polynomial : {&M_, &C_, &K_}) {
-    all.insert(all.end(), polynomial->coefficients.begin(), polynomial->coefficients.end());
-    // Entries with the same expression and power have one coefficient matrix.
-    std::vector<const MatrixPolynomial::Entry*> first;
-    std::vector<Matrix> own;
-    for (const MatrixPolynomial::Entry& entry : polynomial->entries) {
-      const auto same = std::find_if(first.begin(), first.end(), [&](const MatrixPolynomial::Entry* other) {
-        return other->power == entry.power && other->expression == entry.expression;
-      });
-      const auto at = static_cast<std::size_t>(same - first.begin());
-      if (same == first.end()) {
-        first.push_back(&entry);
-        own.emplace_back(Matrix::Zero(n_coordinates(), n_coordinates()));
-      }
-      own[at](entry.row, entry.column) = 1.0;
+namespace {
+
+/// The constant matrices of a polynomial. Entries with the same expression and power have one of their own.
+std::vector<Matrix> coefficients_of(const MatrixPolynomial& polynomial, Eigen::Index n) {
+  std::vector<const MatrixPolynomial::Entry*> first;
+  std::vector<Matrix> own;
+  for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
+    const auto same = std::find_if(first.begin(), first.end(), [&](const MatrixPolynomial::Entry* other) {
+      return other->power == entry.power && other->expression == entry.expression;
+    });
+    const auto at = static_cast<std::size_t>(same - first.begin());
+    if (same == first.end()) {
+      first.push_back(&entry);
+      own.emplace_back(Matrix::Zero(n, n));
     }
-    all.insert(all.end(), own.begin(), own.end());
+    own[at](entry.row, entry.column) = 1.0;
   }
-  return all;
+  own.insert(own.end(), polynomial.coefficients.begin(), polynomial.coefficients.end());
+  return own;
+}
+
+}  // namespace
+
+CoefficientMatrices MatrixFamily::coefficient_matrices() const {
+  if (n_constraints() > 0) return {};
+  const Eigen::Index n = n_coordinates();
+  return {coefficients_of(M_, n), coefficients_of(C_, n), coefficients_of(K_, n)};
 }
 
 EvaluationFault MatrixFamily::residual(const Path& path, int order, SteadyResidual& result,

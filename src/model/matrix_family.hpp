@@ -36,7 +36,7 @@ class MatrixFamily final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
-  std::vector<Matrix> coefficient_matrices() const override;
+  CoefficientMatrices coefficient_matrices() const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,

@@ -130,7 +130,7 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
   });
   Values X = Values::Zero(H.rows(), H.cols());
   for (const auto& members : coupled) {
-    std::vector<Eigen::Index> first{0};  // of the unknowns of every space
+    std::vector<Eigen::Index> first(1, 0);  // of the unknowns of every space
     Eigen::Index rows = 0;
     for (const Eigen::Index i : members) {
       const auto m = static_cast<Eigen::Index>(spaces[static_cast<std::size_t>(i)].size());
@@ -465,12 +465,32 @@ std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Ma
   return first;
 }
 
+/// Whether the entries of left^T A right are more than rounding, for any of the matrices; within the parts.
+Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts) {
+  constexpr double rounding = 1e-13;  // of an entry, relative to the sum of the magnitudes of its terms
+  const Eigen::Index n = parts.right.rows();
+  Matrix pattern = Matrix::Zero(n, n);
+  const Matrix left = parts.left.cwiseAbs().transpose();
+  const Matrix right = parts.right.cwiseAbs();
+  for (const Matrix& A : matrices) {
+    const Matrix there = parts.left.transpose() * A * parts.right;
+    const Matrix terms = left * A.cwiseAbs() * right;
+    pattern = pattern.cwiseMax((there.cwiseAbs().array() > rounding * terms.array()).cast<double>().matrix());
+  }
+  Matrix within = Matrix::Zero(n, n);
+  for (const IndependentParts::Range& range : parts.ranges)
+    within.block(range.first, range.first, range.size, range.size).setOnes();
+  return pattern.cwiseProduct(within);
+}
+
 }  // namespace
 
-std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector<Matrix>& coefficients) {
+std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients) {
   std::vector<Matrix> all;
-  for (const Matrix& A : coefficients) {
-    if (A.size() > 0 && !A.isZero(0.0) && A.allFinite()) all.push_back(A);
+  for (const auto* matrices : {&coefficients.M, &coefficients.C, &coefficients.K}) {
+    for (const Matrix& A : *matrices) {
+      if (A.size() > 0 && !A.isZero(0.0) && A.allFinite()) all.push_back(A);
+    }
   }
   if (all.empty() || all[0].rows() < 2) return nullptr;
   const Eigen::Index n = all[0].rows();
@@ -489,6 +509,7 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector
   parts->inverse = splitting.right.inverse() * scaling.columns.cwiseInverse().asDiagonal();
   if (!falls_apart) {
     parts->ranges = {{0, n, 0}};
+    parts->pattern_M = parts->pattern_C = parts->pattern_K = Matrix::Ones(n, n);
     return parts;
   }
   const std::vector<std::size_t> copy_of = copies(splitting, all);
@@ -497,6 +518,9 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector
     parts->ranges.push_back({first, splitting.sizes[i], copy_of[i]});
     first += splitting.sizes[i];
   }
+  parts->pattern_M = pattern_of(coefficients.M, *parts);
+  parts->pattern_C = pattern_of(coefficients.C, *parts);
+  parts->pattern_K = pattern_of(coefficients.K, *parts);
   return parts;
 }
 

@@ -69,8 +69,9 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
 
 namespace {
 
-/// left^T B right with zeros between the parts, coefficient by coefficient up to h^order.
-MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, int order) {
+/// left^T B right within its pattern, coefficient by coefficient up to h^order.
+MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, const Matrix& pattern,
+                         int order) {
   MatrixSeries result(last_order(order, B.size(), 1) + 1);
   for (std::size_t k = 0; k < result.size(); ++k) {
     const Matrix coefficient = B[k].dense();
@@ -85,6 +86,7 @@ MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, i
           parts.left.middleCols(range.first, range.size).transpose() *
           product.middleCols(range.first, range.size);
     }
+    result[k] = result[k].cwiseProduct(pattern);
   }
   return result;
 }
@@ -99,8 +101,9 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
 }
 
 ReducedPencil reduce(const Linearization& linearization, const IndependentParts& parts, int order) {
-  ReducedPencil whole{transformed(parts, linearization.M, order), transformed(parts, linearization.C, order),
-                      transformed(parts, linearization.K, order)};
+  ReducedPencil whole{transformed(parts, linearization.M, parts.pattern_M, order),
+                      transformed(parts, linearization.C, parts.pattern_C, order),
+                      transformed(parts, linearization.K, parts.pattern_K, order)};
   if (parts.count() == 1) return whole;
   for (const IndependentParts::Range& range : parts.ranges)
     whole.parts.push_back({block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range)});

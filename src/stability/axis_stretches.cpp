@@ -6,8 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "eigentrail/continuation/dense_output.hpp"
-#include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/continuation/eigenvalue_error.hpp"
 
 namespace eigentrail {
 namespace {
@@ -27,33 +26,9 @@ constexpr double same_place = 1e-9;
 constexpr double on_node = 1e-8;
 /// Beyond this multiple of the reference an eigenvalue is about to pass through infinity.
 constexpr double infinite_size = 1e9;
-/// Relative rounding error of the matrix of a block at a stored point.
-constexpr double function_rounding_level = 1e-13;
-/// A trace promises its tolerance for eigenvalues of a block that are this far apart, relatively.
-constexpr double least_relative_gap = 0.1;
 
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
-}
-
-/// Errors of the functions of a block at a place of a step of a trace. At a stored point they are rounding.
-Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& functions, bool exact,
-                       double scale, double tolerance) {
-  const Eigen::Index k = block_size(functions.size());
-  // Rounding of Lambda, and of delta for two: that times |Lambda - tau I|, which is of the size of the
-  // largest sqrt(delta) on the step. If this is rounding itself, so is delta.
-  Vector errors = Vector::Constant(functions.size(), function_rounding_level * scale);
-  if (k == 2) {
-    double largest = 0.0;
-    for (const double t : {0.0, 0.5, 1.0}) largest = std::max(largest, std::abs(dense(t)[1]));
-    errors[1] *= std::sqrt(largest);
-    if (largest <= function_rounding_level * scale * scale) errors[1] += largest;
-  }
-  if (exact) return errors;
-  // The estimate is for a lower order than that of the dense output; the trace has promised the tolerance.
-  Vector promised = Vector::Constant(functions.size(), tolerance * scale / static_cast<double>(k));
-  if (k == 2) promised << tolerance * scale, tolerance * least_relative_gap * scale * scale;
-  return errors + dense.error_without_last().cwiseMin(promised);
 }
 
 /// How far the eigenvalues of the modes of a block may be off at a place, 1/s, in the order of its modes.
@@ -65,20 +40,8 @@ Vector uncertainty(const DenseBlock& block, double length, double t, const Compl
   for (Eigen::Index i = 0; i < doubts.size(); ++i)
     doubts[i] = level * scale_of(s[block.modes[static_cast<std::size_t>(i)]], accuracy);
   if (block.size() == 1) return doubts;
-  const HermiteInterpolant dense(length, block.left, block.right);
-  const ComplexVector functions = dense(t);
-  const ComplexVector roots = block_roots(functions);
-  const double scale = scale_of(roots.cwiseAbs().maxCoeff(), accuracy);
-  const Vector errors =
-      root_errors(functions, roots, function_errors(dense, functions, exact, scale, accuracy.tolerance));
-  for (Eigen::Index i = 0; i < doubts.size(); ++i) {
-    const Complex own = s[block.modes[static_cast<std::size_t>(i)]];
-    const Complex root = chart_value(own, block.chart);
-    Eigen::Index nearest = 0;
-    (roots.array() - root).abs().min((roots.array() - std::conj(root)).abs()).minCoeff(&nearest);
-    const double of_s = block.chart == Chart::finite ? 1.0 : std::norm(own);
-    doubts[i] = std::max(exact ? doubts[i] : 0.0, errors[nearest] * of_s);
-  }
+  const Vector errors = block_errors(block, length, t, s, exact, accuracy.tolerance, accuracy.reference);
+  for (Eigen::Index i = 0; i < doubts.size(); ++i) doubts[i] = std::max(exact ? doubts[i] : 0.0, errors[i]);
   return doubts;
 }
 

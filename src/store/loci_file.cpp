@@ -9,15 +9,12 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// Functions of a block: its eigenvalues are the roots of a polynomial of that degree, found anew wherever
-/// they are asked for. Traces join six at most on their way, and begin with as many as coincide at the start.
-constexpr std::size_t largest_block = 128;
 
 /// Root attributes as text; those that somebody added in a type of their own are left out.
 void read_attributes(const Hdf5File& file, LociFile& loci) {
@@ -132,7 +129,9 @@ DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size
   const auto number = static_cast<std::int64_t>(first);
   std::size_t size = 0;
   while (first + size < functions && arrays.block[step * functions + first + size] == number) ++size;
-  require(modes.size() <= size && size <= largest_block, loci, "dense_block");
+  // One, two, or the k^2 entries of a matrix.
+  const auto members = static_cast<std::size_t>(block_size(static_cast<Eigen::Index>(size)));
+  require(modes.size() <= members && (size <= 2 || members * members == size), loci, "dense_block");
   DenseBlock block;
   block.chart = arrays.chart[step * functions + first] == 1 ? Chart::reciprocal : Chart::finite;
   block.left.resize(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(orders));

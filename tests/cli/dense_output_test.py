@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import BIRTH, CROSSING, SCENES, ProgramTest, datasets
+from program import BIRTH, CROSSING, CROSSING_WITHIN, SCENES, ProgramTest, datasets
 
 
 def between(h, left, right, t):
@@ -120,7 +120,13 @@ class DenseOutput(ProgramTest):
 
     def test_block_of_two_modes_that_cross(self):
         places = np.linspace(0.0, 1.0, 152)  # not the crossing itself
-        s = self.check(CROSSING, "p", places, [1, 2])
+        s = self.check(CROSSING_WITHIN, "p", places, [1, 2])
+        apart = (places - 0.5) * np.sqrt(1.0 + (places - 0.5) ** 2)
+        np.testing.assert_allclose(s, 1j * np.sqrt(np.column_stack([1.5 + apart, 1.5 - apart])), rtol=1e-6)
+
+    def test_independent_modes_that_cross_are_no_block(self):
+        places = np.linspace(0.0, 1.0, 152)
+        s = self.check(CROSSING, "p", places, [1])
         np.testing.assert_allclose(s, 1j * np.sqrt(np.column_stack([1.0 + places, 2.0 - places])), rtol=1e-6)
 
     def test_chart_of_a_mode_that_passes_through_infinity(self):

@@ -86,6 +86,19 @@ M = [[[1, 0], [0, 1]]]
 K = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]
 """
 
+# -s^2 = 1.5 +- d sqrt(1 + d^2), d = p - 1/2: two modes that cross at p = 1/2, where the coupling d^2 between them vanishes.
+# They are no independent parts.
+CROSSING_WITHIN = """\
+[trace]
+parameter = "p"
+from = 0
+to = 1
+
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+K = [[[1, 0.25], [0.25, 2]], [[1, -1], [-1, -1]], [[0, 1], [1, 0]]]
+"""
+
 # A pendulum pushed sideways by p times its weight, sin(angle) = p: hanging up to p = 1, standing on the way back.
 PUSHED_PENDULUM = """
 [parameters]

@@ -8,20 +8,22 @@ import eigentrail
 import numpy as np
 
 from families import (THROUGH_INFINITY_ONCE, THROUGH_INFINITY_TWICE, coalescing, oscillators, random_family)
-from program import BIRTH, CROSSING, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
+from program import BIRTH, CROSSING, CROSSING_WITHIN, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
 
 ROUNDING = 1e-12
 
 # Sizes of blocks, and the charts, that the case must have: else it would test less than its name says.
 HARD = [("modes are born", BIRTH, {1, 2}, {0}),
-        ("two cross", CROSSING, {1, 2}, {0}),
+        ("two independent ones cross", CROSSING, {1}, {0}),
+        ("two cross", CROSSING_WITHIN, {1, 2}, {0}),
         ("three coalesce", coalescing(3), {1, 3}, {0}),
         ("four damped ones coalesce", coalescing(4, damping=0.1), {1, 4}, {0}),
         ("six coalesce", coalescing(6), {1, 6}, {0}),
-        ("three cross at once", oscillators([1, 1, 1], [0.5, -0.5, 0]), {1, 2, 3}, {0}),
+        ("three independent ones cross at once", oscillators([1, 1, 1], [0.5, -0.5, 0]), {1}, {0}),
+        ("three cross at once", oscillators([1, 1, 1], [0.5, -0.5, 0], curvature=0.1), {1, 2, 3}, {0}),
         ("three veer by 1e-5", oscillators([1, 1, 1], [0.5, -0.5, 0], 1e-5), {1, 2, 3}, {0}),
         ("two veer by 1e-8", oscillators([1, 1], [0.5, -0.5], 1e-8), {1, 2}, {0}),
-        ("two coincide all along", oscillators([1, 1, 2], [0.5, 0.5, 0.1]), {1, 2}, {0}),
+        ("two coincide all along", oscillators([1, 1, 2], [0.5, 0.5, 0.1]), {1}, {0}),
         ("a mode passes through infinity", THROUGH_INFINITY_ONCE, {1, 2}, {0, 1}),
         ("two modes pass through infinity", THROUGH_INFINITY_TWICE, {1, 2}, {0, 1}),
         ("the path turns back", PUSHED_PENDULUM, {1, 2}, {0}),

@@ -21,11 +21,13 @@ def _rotation(n):
     return np.linalg.qr(np.random.default_rng(3).normal(size=(n, n)))[0]
 
 
-def oscillators(start, slope, coupling=0.0):
-    """Oscillators s^2 = -(start + p slope), which cross, in a random basis; `coupling` between all turns it into veering."""
+def oscillators(start, slope, coupling=0.0, curvature=0.0):
+    """Oscillators s^2 = -(start + p slope), which cross, in a random basis; `coupling` between all turns it into veering,
+    and coupling by curvature p^2 only makes them depend on each other."""
     n, Q = len(start), _rotation(len(start))
-    stiffness = np.diag(start) + coupling * (1.0 - np.eye(n))
-    return family(-1, 1.1, M=[np.eye(n)], K=[Q @ stiffness @ Q.T, Q @ np.diag(slope) @ Q.T])
+    others = 1.0 - np.eye(n)
+    K = [np.diag(start) + coupling * others, np.diag(slope)] + ([curvature * others] if curvature else [])
+    return family(-1, 1.1, M=[np.eye(n)], K=[Q @ coefficient @ Q.T for coefficient in K])
 
 
 def random_family(n, seed):

@@ -16,6 +16,10 @@ namespace {
 
 constexpr double rounding = 1e-11;
 
+std::shared_ptr<const IndependentParts> parts_of(const std::vector<Matrix>& all) {
+  return find_independent_parts({{all}, {}, {}});
+}
+
 Matrix random_matrix(Eigen::Index n, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
@@ -49,7 +53,7 @@ using Sizes = std::vector<Eigen::Index>;
 
 /// Expects that the matrices are block diagonal in the new coordinates, and that these are coordinates.
 void expect_parts(const std::vector<Matrix>& all, const Sizes& sizes) {
-  const auto parts = find_independent_parts(all);
+  const auto parts = parts_of(all);
   ASSERT_NE(parts, nullptr);
   EXPECT_EQ(sizes_of(*parts), sizes);
   const Eigen::Index n = all[0].rows();
@@ -120,7 +124,7 @@ TEST(IndependentParts, KeepSymmetryAndSkewSymmetry) {
   const Matrix G = side_by_side(skew(random_matrix(3, 5)), skew(random_matrix(3, 6)));
   const std::vector<Matrix> all{Q.transpose() * M * Q, Q.transpose() * K * Q, Q.transpose() * G * Q};
   expect_parts(all, {3, 3});
-  const auto parts = find_independent_parts(all);
+  const auto parts = parts_of(all);
   EXPECT_EQ(parts->left, parts->right);
 }
 
@@ -130,25 +134,42 @@ std::vector<Matrix> nearly_equal(double c, double m) {
 }
 
 TEST(IndependentParts, AreNotSeparatedWhereACouplingIsAboveRounding) {
-  EXPECT_EQ(find_independent_parts(nearly_equal(0.1, 0.0)), nullptr);
-  EXPECT_EQ(find_independent_parts(nearly_equal(1e-9, 1e-10)), nullptr);
+  EXPECT_EQ(parts_of(nearly_equal(0.1, 0.0)), nullptr);
+  EXPECT_EQ(parts_of(nearly_equal(1e-9, 1e-10)), nullptr);
   expect_parts(nearly_equal(0.0, 1e-10), {1, 1});  // mistuned, but not coupled
   // A coupling that is given is no rounding, however weak: it makes a veering, and no crossing.
-  EXPECT_EQ(find_independent_parts(nearly_equal(1e-12, 0.0)), nullptr);
-  EXPECT_EQ(find_independent_parts(nearly_equal(1e-15, 0.0)), nullptr);
+  EXPECT_EQ(parts_of(nearly_equal(1e-12, 0.0)), nullptr);
+  EXPECT_EQ(parts_of(nearly_equal(1e-15, 0.0)), nullptr);
 }
 
 TEST(IndependentParts, OfAFamilyThatIsCoupledAreNone) {
-  EXPECT_EQ(find_independent_parts({random_matrix(5, 1), random_matrix(5, 2), random_matrix(5, 3)}), nullptr);
-  EXPECT_EQ(find_independent_parts({ziegler_M, ziegler_K, ziegler_P}), nullptr);
-  EXPECT_EQ(find_independent_parts({}), nullptr);
-  EXPECT_EQ(find_independent_parts({Matrix::Identity(1, 1)}), nullptr);
+  EXPECT_EQ(parts_of({random_matrix(5, 1), random_matrix(5, 2), random_matrix(5, 3)}), nullptr);
+  EXPECT_EQ(parts_of({ziegler_M, ziegler_K, ziegler_P}), nullptr);
+  EXPECT_EQ(parts_of({}), nullptr);
+  EXPECT_EQ(parts_of({Matrix::Identity(1, 1)}), nullptr);
 }
 
 /// A Jordan block beside another freedom: its eigenvectors are no basis, and nothing must be invented.
 TEST(IndependentParts, OfADefectiveFamilyAreNone) {
   const Matrix J{{1.0, 1.0, 0.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}};
-  EXPECT_EQ(find_independent_parts({Matrix::Identity(3, 3), J}), nullptr);
+  EXPECT_EQ(parts_of({Matrix::Identity(3, 3), J}), nullptr);
+}
+
+/// Three masses on two springs, one of which changes: their common motion is a part without stiffness.
+TEST(IndependentParts, HaveZerosWhereEntriesAreRoundingThroughout) {
+  const Matrix a{{1.0, -1.0, 0.0}, {-1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
+  const Matrix b{{0.0, 0.0, 0.0}, {0.0, 1.0, -1.0}, {0.0, -1.0, 1.0}};
+  const auto parts = find_independent_parts({{Matrix::Identity(3, 3)}, {}, {a, b}});
+  ASSERT_NE(parts, nullptr);
+  EXPECT_EQ(sizes_of(*parts), (Sizes{1, 2}));
+  Linearization linearization;
+  linearization.M = {Matrix(Matrix::Identity(3, 3))};
+  linearization.C = {Matrix(Matrix::Zero(3, 3))};
+  linearization.K = {Matrix(a + 0.7 * b), b};
+  const ReducedPencil pencil = reduce(linearization, basis_of(parts), 1);
+  const int rigid = parts->ranges[0].size == 1 ? 0 : 1;
+  EXPECT_EQ(pencil.of(rigid).K[0](0, 0), 0.0);
+  EXPECT_GT(pencil.of(rigid).M[0](0, 0), 0.0);
 }
 
 TEST(IndependentParts, BalanceUnits) {
@@ -156,10 +177,10 @@ TEST(IndependentParts, BalanceUnits) {
   const Matrix M{{2.0, 0.3}, {0.3, 1.0}};
   const Matrix K{{5.0, -2.0}, {-2.0, 7.0}};
   const Matrix C{{0.1, 0.4}, {-0.2, 0.3}};
-  EXPECT_EQ(find_independent_parts({M, K, C}), nullptr) << "in like units nothing is to be done";
+  EXPECT_EQ(parts_of({M, K, C}), nullptr) << "in like units nothing is to be done";
   const Vector units{{1.0, 1e6}};
   const auto in = [&](const Matrix& A) { return Matrix(units.asDiagonal() * A * units.asDiagonal()); };
-  const auto parts = find_independent_parts({in(M), in(K), in(C)});
+  const auto parts = parts_of({in(M), in(K), in(C)});
   ASSERT_NE(parts, nullptr);
   EXPECT_TRUE(parts->is_diagonal);
   EXPECT_EQ(parts->count(), 1U);
@@ -176,9 +197,8 @@ TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {
   linearization.M = {Matrix(Q.transpose() * all[0] * Q)};
   linearization.C = {Matrix(Matrix::Zero(6, 6))};
   linearization.K = {Matrix(Q.transpose() * (all[1] + 0.7 * all[2]) * Q), Matrix(Q.transpose() * all[2] * Q)};
-  std::vector<Matrix> coefficients;
-  for (const Matrix& A : all) coefficients.emplace_back(Q.transpose() * A * Q);
-  const auto parts = find_independent_parts(coefficients);
+  const auto mixed = [&](const Matrix& A) { return Matrix(Q.transpose() * A * Q); };
+  const auto parts = find_independent_parts({{mixed(all[0])}, {}, {mixed(all[1]), mixed(all[2])}});
   ASSERT_NE(parts, nullptr);
   const ReducedPencil pencil = reduce(linearization, basis_of(parts), 3);
   ASSERT_EQ(pencil.parts.size(), 3U);

@@ -16,7 +16,10 @@ struct VerifyOptions {
 
 /// The sample with the largest discrepancy.
 struct Discrepancy {
-  double relative = 0.0;  ///< |s_dense - s| / max(|s|, reference)
+  /// |s_dense - s| / max(|s|, reference). For eigenvalues that are followed as a block, this divided by the
+  /// bound of their error in units of the tolerance: beside an exceptional point a small error of the block
+  /// moves its eigenvalues by the root of it.
+  double relative = 0.0;
   double parameter = 0.0;
   int mode = -1;  ///< from 0; -1: none was found
 };
@@ -25,10 +28,12 @@ struct [[nodiscard]] VerifyReport {
   int samples = 0;
   int unsolved = 0;  ///< samples without an equilibrium or a spectrum
   Discrepancy worst;
-  double tolerance = 0.0;  ///< of the file
+  int missing = 0;          ///< largest number of eigenvalues that no mode has, where all modes are followed
+  double missing_at = 0.0;  ///< the parameter there
+  double tolerance = 0.0;   ///< of the file
 
-  /// Every sample was solved and no value is further off than the tolerance.
-  bool passed() const { return unsolved == 0 && samples > 0 && worst.relative <= tolerance; }
+  /// Every sample was solved, no value is further off than the tolerance, and no eigenvalue is missing.
+  bool passed() const { return unsolved == 0 && samples > 0 && worst.relative <= tolerance && missing == 0; }
 };
 
 /// Throws InputError when the file holds no points or its scene cannot be rebuilt.

@@ -94,6 +94,11 @@ struct BasicLinearization {
 };
 using Linearization = BasicLinearization<double>;
 
+/// Constant matrices, n x n, of which M, C and K are linear combinations.
+struct CoefficientMatrices {
+  std::vector<Matrix> M, C, K;
+};
+
 /// Number of evaluations of each effect (index as in ModelDescription::effects), summed over a run.
 struct EvaluationCounts {
   std::vector<std::uint64_t> residual;
@@ -136,9 +141,9 @@ class Model {
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
 
-  /// Constant matrices of which M, C and K are linear combinations, whatever the parameters; empty if they
-  /// are not known or there are constraints. Common structure of these matrices holds on every path.
-  virtual std::vector<Matrix> coefficient_matrices() const { return {}; }
+  /// Constant matrices of which M, C and K are linear combinations, whatever the parameters; none if they are
+  /// not known or there are constraints. Common structure of these matrices holds on every path.
+  virtual CoefficientMatrices coefficient_matrices() const { return {}; }
 
   /// The same two at a point (order 0) with 113 bits, for reference solutions. A model that does not support
   /// them returns a fault.

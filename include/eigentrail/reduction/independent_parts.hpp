@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/model/model.hpp"
 
 namespace eigentrail {
 
@@ -30,6 +30,9 @@ struct IndependentParts {
   Matrix right;    ///< n x n
   Matrix left;     ///< n x n
   Matrix inverse;  ///< of `right`
+  /// n x n, one where an entry of M, C or K may differ from zero, else zero: between the parts, and where
+  /// the entry is rounding throughout, as in the stiffness of a rigid-body motion.
+  Matrix pattern_M, pattern_C, pattern_K;
   std::vector<Range> ranges;
   bool is_diagonal = false;  ///< `right` and `left` only scale coordinates and equations
 
@@ -42,9 +45,9 @@ struct IndependentParts {
   }
 };
 
-/// The independent parts of matrices of equal size n x n, of which M, C and K are linear combinations. Null
+/// The independent parts of M, C and K that are linear combinations of these matrices, all n x n. Null
 /// where they neither fall apart nor need balancing. Parts whose coupling is not zero up to rounding are not
 /// separated. Cost: a few eigenproblems of size n.
-std::shared_ptr<const IndependentParts> find_independent_parts(const std::vector<Matrix>& coefficients);
+std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients);
 
 }  // namespace eigentrail

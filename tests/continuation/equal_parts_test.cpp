@@ -1,0 +1,203 @@
+// Structures with equal parts: the same oscillator or column several times, in coordinates of their own or
+// mixed, and rings of equal blades. Their events are those of one part, as often as there are parts.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "eigentrail/core/text.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+std::string text(const std::vector<Matrix>& coefficients) {
+  std::string all;
+  for (const Matrix& A : coefficients) {
+    std::string rows;
+    for (const auto& row : A.rowwise()) {
+      std::string entries;
+      for (const double x : row) entries += (entries.empty() ? "" : ", ") + exact_text(x);
+      rows += (rows.empty() ? "[" : ", [") + entries + "]";
+    }
+    all += (all.empty() ? "[" : ", [") + rows + "]";
+  }
+  return "[" + all + "]";
+}
+
+struct EqualParts {
+  std::string name;
+  std::vector<Matrix> M, C, K;
+  double from = 0.0, to = 1.0;
+  EventKind kind = EventKind::collision;
+  std::vector<double> places;  ///< of the events of that kind, ascending
+};
+
+void PrintTo(const EqualParts& parts, std::ostream* out) {
+  *out << parts.name;
+}
+
+Matrix kronecker(Eigen::Index count, const Matrix& A) {
+  Matrix all = Matrix::Zero(count * A.rows(), count * A.cols());
+  for (Eigen::Index i = 0; i < count; ++i) all.block(i * A.rows(), i * A.cols(), A.rows(), A.cols()) = A;
+  return all;
+}
+
+/// s^2 + p s + 1, `count` times: the pairs meet at p = 2.
+EqualParts overdamped(Eigen::Index count) {
+  const Matrix I = Matrix::Identity(count, count);
+  return {"overdamped_" + std::to_string(count),
+          {I},
+          {Matrix::Zero(count, count), I},
+          {I},
+          1.0,
+          3.0,
+          EventKind::collision,
+          std::vector<double>(static_cast<std::size_t>(count), 2.0)};
+}
+
+/// Ziegler's column under a follower load, `count` times: flutter at 7/2 - sqrt(2), and with the damping c I
+/// at the load where the third Hurwitz determinant of its characteristic polynomial vanishes.
+EqualParts columns(Eigen::Index count, double c, bool mixed) {
+  const Matrix M{{3.0, 1.0}, {1.0, 1.0}};
+  const Matrix K{{2.0, -1.0}, {-1.0, 1.0}};
+  const Matrix P{{-1.0, 1.0}, {0.0, 0.0}};
+  // det = 2 s^4 + 4 c s^3 + (c^2 + 7 - 2 p) s^2 + c (3 - p) s + 1; the third Hurwitz determinant is
+  // proportional to 3 p^2 - (20 + 2 c^2) p + 25 + 6 c^2.
+  const double b = 20.0 + 2.0 * c * c;
+  const double critical =
+      c > 0.0 ? (b - std::sqrt(b * b - 12.0 * (25.0 + 6.0 * c * c))) / 6.0 : 3.5 - std::sqrt(2.0);
+  EqualParts parts{"columns_" + std::to_string(count) + (c > 0.0 ? "_damped" : "") + (mixed ? "_mixed" : ""),
+                   {kronecker(count, M)},
+                   {},
+                   {kronecker(count, K), kronecker(count, P)},
+                   0.0,
+                   4.0,
+                   c > 0.0 ? EventKind::flutter : EventKind::collision,
+                   std::vector<double>(static_cast<std::size_t>(count), critical)};
+  if (c > 0.0) parts.C = {c * Matrix::Identity(2 * count, 2 * count)};
+  if (!mixed) return parts;
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> normal;
+  const Matrix random = Matrix::NullaryExpr(2 * count, 2 * count, [&] { return normal(engine); });
+  const Matrix Q = random.householderQr().householderQ();
+  for (auto* matrices : {&parts.M, &parts.K}) {
+    for (Matrix& A : *matrices) A = (Q.transpose() * A * Q).eval();
+  }
+  return parts;
+}
+
+/// Equal blades coupled to their neighbours, with drag p: harmonic k has the stiffness 1 + 0.6 (1 - cos
+/// (2 pi k / n)), and its pair meets where p is twice the root of that.
+EqualParts ring(Eigen::Index n) {
+  const Matrix I = Matrix::Identity(n, n);
+  Matrix coupling = 2.0 * I;
+  EqualParts parts{"ring_" + std::to_string(n), {I}, {Matrix::Zero(n, n), I}, {}, 0.1, 4.0,
+                   EventKind::collision,        {}};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    coupling(k, (k + 1) % n) -= 1.0;
+    coupling((k + 1) % n, k) -= 1.0;
+    const double angle = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(n);
+    parts.places.push_back(2.0 * std::sqrt(1.0 + 0.6 * (1.0 - std::cos(angle))));
+  }
+  parts.K = {I + 0.3 * coupling};
+  std::sort(parts.places.begin(), parts.places.end());
+  return parts;
+}
+
+class Traced : public testing::TestWithParam<EqualParts> {
+ protected:
+  RecordedTrace trace(const std::string& tolerance, bool backward) const {
+    const EqualParts& c = GetParam();
+    const std::string C = c.C.empty() ? "" : "C = " + text(c.C) + "\n";
+    return record_trace(
+        make_setting("[trace]\nparameter = \"p\"\nfrom = " + exact_text(backward ? c.to : c.from) +
+                     "\nto = " + exact_text(backward ? c.from : c.to) + "\ntolerance = " + tolerance +
+                     "\n[matrix_family]\nM = " + text(c.M) + "\n" + C + "K = " + text(c.K) + "\n"));
+  }
+};
+
+TEST_P(Traced, HaveTheEventsOfOnePartAsOftenAsThereAreParts) {
+  for (const std::string tolerance : {"1e-6", "1e-9"}) {
+    for (const bool backward : {false, true}) {
+      SCOPED_TRACE(tolerance + (backward ? " backward" : " forward"));
+      const RecordedTrace found = trace(tolerance, backward);
+      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
+      EXPECT_TRUE(found.result.notes.empty());
+      std::vector<double> places;
+      for (const Event& event : found.result.events) {
+        if (event.kind == GetParam().kind) places.push_back(event.p);
+      }
+      std::sort(places.begin(), places.end());
+      ASSERT_EQ(places.size(), GetParam().places.size());
+      for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], GetParam().places[i], 1e-9);
+    }
+  }
+}
+
+/// All eigenvalues are there: their sum and the sum of their squares are the traces.
+TEST_P(Traced, HaveAllEigenvaluesEverywhere) {
+  const RecordedTrace found = trace("1e-9", false);
+  const EqualParts& c = GetParam();
+  for (int i = 1; i < 20; ++i) {
+    const double p = c.from + (c.to - c.from) * i / 20.0;
+    const auto at = [p, &c](const std::vector<Matrix>& coefficients) {
+      Matrix sum = Matrix::Zero(c.M[0].rows(), c.M[0].cols());
+      for (std::size_t k = 0; k < coefficients.size(); ++k)
+        sum += std::pow(p, static_cast<double>(k)) * coefficients[k];
+      return sum;
+    };
+    const Matrix G = at(c.M).inverse() * at(c.C);
+    const Matrix H = at(c.M).inverse() * at(c.K);
+    Complex sum = 0.0;
+    Complex squares = 0.0;
+    for (const Complex s : found.eigenvalues_at(p)) {
+      if (!std::isfinite(s.real())) continue;
+      sum += s.imag() > 0.0 ? 2.0 * s.real() : s;
+      squares += s.imag() > 0.0 ? 2.0 * (s * s).real() : s * s;
+    }
+    EXPECT_LT(std::abs(sum + G.trace()), 1e-6);
+    EXPECT_LT(std::abs(squares - (G * G).trace() + 2.0 * H.trace()), 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EqualParts, Traced,
+                         testing::Values(overdamped(2), overdamped(3), overdamped(6), columns(2, 0.0, false),
+                                         columns(3, 0.0, true), columns(6, 0.0, false),
+                                         columns(2, 0.05, true), columns(3, 0.05, false),
+                                         columns(6, 0.05, true), ring(3), ring(6), ring(12), ring(24)),
+                         [](const auto& test) { return test.param.name; });
+
+/// Two harmonics of a ring pass each other, and all of them meet where the blades are uncoupled.
+TEST(PartCrossings, OfAllPartsAtOncePlaceAreOneEvent) {
+  const RecordedTrace trace = record_trace(make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = -0.2\nto = 0.4\n[matrix_family]\n"
+      "M = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]\nC = [[[0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]]]\n"
+      "K = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, -1, 0], [-1, 2, -1], [0, -1, 1]]]\n"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  ASSERT_EQ(trace.result.events.size(), 1U);
+  const Event& crossing = trace.result.events.front();
+  EXPECT_EQ(crossing.kind, EventKind::crossing);
+  EXPECT_NEAR(crossing.p, 0.0, 1e-11);
+  EXPECT_EQ(crossing.modes, (std::vector<int>{0, 1, 2}));
+  EXPECT_NEAR(crossing.s.imag(), std::sqrt(1.0 - 1e-4), 1e-10);
+}
+
+/// With different damping the frequencies are equal at p = 1/2, but the eigenvalues are not.
+TEST(PartCrossings, NeedEqualRealParts) {
+  for (const std::string c : {"0.1", "0.2"}) {
+    const RecordedTrace trace =
+        record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\n"
+                                  "M = [[[1, 0], [0, 1]]]\nC = [[[0.1, 0], [0, " +
+                                  c + "]]]\nK = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]\n"));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    EXPECT_EQ(trace.result.events.size(), c == "0.1" ? 1U : 0U);
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test
