@@ -216,7 +216,7 @@ void BoundarySearch::finish() {
   FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
   result_.corners = std::move(found.corners);
   for (const Place& place : found.apart)
-    note({"crossings of curves that belong to different equilibria, which are no corners",
+    note({"intersections of curves that belong to different equilibria, which are no corners",
           window_.text(place)});
   result_.notes = told(findings_);
   for (const FollowedCurve& followed : curves_) {
@@ -288,7 +288,7 @@ std::string curve_end_name(CurveEnd end) {
 }
 
 std::string corner_name(CornerKind kind) {
-  return kind == CornerKind::crossing ? "crossing" : "takens_bogdanov";
+  return kind == CornerKind::intersection ? "intersection" : "takens_bogdanov";
 }
 
 }  // namespace eigentrail

@@ -45,7 +45,7 @@ bool apart(const Place& low_a, const Place& high_a, const Place& low_b, const Pl
 }
 
 /// The intersection of two straight pieces, as fractions of the length of each; empty if there is none.
-std::optional<Place> crossing(const Place& a0, const Place& a1, const Place& b0, const Place& b1) {
+std::optional<Place> intersection(const Place& a0, const Place& a1, const Place& b0, const Place& b1) {
   if (apart(a0.cwiseMin(a1), a0.cwiseMax(a1), b0.cwiseMin(b1), b0.cwiseMax(b1))) return std::nullopt;
   Eigen::Matrix2d sides;
   sides << a1 - a0, b0 - b1;
@@ -76,7 +76,7 @@ class CornerFinder {
   }
 
   void add_ends(double tolerance);
-  void add_crossings();
+  void add_intersections();
   FoundCorners found() &&;
 
  private:
@@ -134,7 +134,7 @@ bool CornerFinder::are_neighbours(At a, At b) const {
   return b.step <= a.step + 1 || (closed && a.step == 0 && b.step + 1 == count);
 }
 
-void CornerFinder::add_crossings() {
+void CornerFinder::add_intersections() {
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     for (std::size_t j = i; j < curves_.size(); ++j) {
       for (std::size_t a = 0; a < chains_[i].size(); ++a) {
@@ -153,7 +153,7 @@ void CornerFinder::look_at(At a, At b) {
   for (std::size_t k = 0; k < pieces; ++k) {
     for (std::size_t l = 0; l < pieces; ++l) {
       const auto shares =
-          crossing(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
+          intersection(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
       if (!shares) continue;
       const Place t = (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces;
       const PlaceGuess first_guess = guess_at(a, t[0]);
@@ -208,8 +208,8 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
     if (!((there[0].place + move - start).norm() <= reach)) return false;
     if (size <= settled || (size > 0.5 * last && last <= stagnated)) {
       if (Window::contains(there[0].place))
-        add(CornerKind::crossing, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])}, a.curve,
-            b.curve);
+        add(CornerKind::intersection, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])},
+            a.curve, b.curve);
       return true;
     }
     last = size;
@@ -230,7 +230,8 @@ void CornerFinder::locate_on_dense(At a, At b, Place t) {
     if (move.norm() > stagnated) continue;
     if ((second.place(t[1]) - first.place(t[0])).norm() > same_corner) return;
     const auto root = [](const Eigen::Vector4d& at) { return at[2] + std::sqrt(Complex(at[3])); };
-    add(CornerKind::crossing, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve, b.curve);
+    add(CornerKind::intersection, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve,
+        b.curve);
     return;
   }
 }
@@ -241,7 +242,7 @@ FoundCorners CornerFinder::found() && {
   FoundCorners result{{}, std::move(apart_)};
   for (const Corner& corner : corners_) {
     const bool touches =
-        corner.kind == CornerKind::crossing &&
+        corner.kind == CornerKind::intersection &&
         std::any_of(corners_.begin(), corners_.end(), [&](const Corner& other) {
           constexpr double near = 1e-4;  // of the window
           return other.kind == CornerKind::takens_bogdanov && (other.place - corner.place).norm() < near &&
@@ -259,7 +260,7 @@ FoundCorners find_corners(const Window& window, const std::vector<FollowedCurve>
                           RunCounts& counts) {
   CornerFinder finder(window, curves, counts);
   finder.add_ends(tolerance);
-  finder.add_crossings();
+  finder.add_intersections();
   return std::move(finder).found();
 }
 

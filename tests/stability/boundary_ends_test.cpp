@@ -107,7 +107,7 @@ TEST(BoundaryEnds, InAnExceptionalPointBehindACrossingOfOneMode) {
   EXPECT_EQ(without_damping, 2);
   ASSERT_EQ(result.corners.size(), 2U);
   for (const Corner& corner : result.corners) {
-    EXPECT_EQ(corner.kind, CornerKind::crossing);
+    EXPECT_EQ(corner.kind, CornerKind::intersection);
     EXPECT_NEAR(corner.place[0], 41.0 / 28.0, 1e-8);
     EXPECT_NEAR(corner.place[1], 0.0, 1e-8);
   }

@@ -53,7 +53,7 @@ TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
   EXPECT_GE(result.curves.size(), 2U);
   EXPECT_TRUE(result.corners.empty());
   const auto told = [](const std::string& note) {
-    return note.starts_with("crossings of curves that belong");
+    return note.starts_with("intersections of curves that belong");
   };
   EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), told));
 }

@@ -81,14 +81,14 @@ struct BoundaryCurve {
 };
 
 enum class CornerKind {
-  crossing,        ///< two curves cross: beyond it another mode is the first to become unstable
+  intersection,    ///< of two curves: beyond it another mode is the first to become unstable
   takens_bogdanov  ///< a curve of complex pairs ends on one of divergence
 };
 std::string corner_name(CornerKind kind);
 
 /// A point that belongs to two curves, or at which a curve intersects itself.
 struct Corner {
-  CornerKind kind = CornerKind::crossing;
+  CornerKind kind = CornerKind::intersection;
   Place place;                ///< P, Q in their units
   std::array<Complex, 2> s;   ///< eigenvalues of the two curves, 1/s; Im s >= 0
   std::array<int, 2> curves;  ///< numbers of the curves, from 0
