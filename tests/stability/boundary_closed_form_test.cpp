@@ -1,4 +1,4 @@
-// Boundaries with closed forms, held by the dense output all along.
+// The dense output of boundaries compared with closed forms along the whole curve.
 #include <gtest/gtest.h>
 
 #include <cmath>
