@@ -17,15 +17,15 @@ namespace {
 
 struct AccuracyArguments {
   std::string scene;
-  std::optional<std::string> output;  ///< absent: nothing is written
+  std::optional<std::string> output;  ///< absent: no file is written
   bool force = false;
   bool quiet = false;
-  std::map<std::string, std::string> lists;  ///< by flag, as given
+  std::map<std::string, std::string> lists;  ///< per flag: the list of numbers as text
   StudyOptions options;
   std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
 };
 
-/// Numbers separated by commas; "none" is no number at all. Leaves `numbers` alone when the flag was not
+/// Reads numbers separated by commas; "none" is the empty list. `numbers` keeps its value if the flag was not
 /// given.
 template <class Number>
 void read_list(const AccuracyArguments& arguments, const std::string& flag, std::vector<Number>& numbers) {

@@ -35,7 +35,8 @@ std::string remark(const MeasuredRun& run, bool own) {
 }
 
 void print_traces(const std::vector<MeasuredRun>& runs) {
-  // The last of the certified ones; the one without certificate follows.
+  // The run with the scene's own options is the last one with certificate. The run without certificate is
+  // after it.
   const MeasuredRun* own = nullptr;
   for (const MeasuredRun& run : runs) own = run.method == Method::trace ? &run : own;
   std::vector<std::vector<std::string>> rows{
@@ -51,7 +52,8 @@ void print_traces(const std::vector<MeasuredRun>& runs) {
   print_table(rows);
 }
 
-/// One row per grid: its two runs stand side by side, straight lines first.
+/// Prints one row per grid, with the errors of both interpolations. The run with the spline follows the one
+/// with linear interpolation in the list.
 void print_rivals(const std::vector<MeasuredRun>& runs) {
   std::vector<std::vector<std::string>> rows{
       {"instead, on a grid", "points", "error, linear", "spline", "LU", "QZ", "evaluations", "time"}};
@@ -69,7 +71,7 @@ void print_rivals(const std::vector<MeasuredRun>& runs) {
   print_table(rows);
 }
 
-/// The fastest of the runs that `choose` admits and whose error is within the bound.
+/// The fastest of the runs that `choose` accepts and whose error is at most `bound`; null if there is none.
 template <class Choose>
 const MeasuredRun* fastest(const std::vector<MeasuredRun>& runs, double bound, Choose choose) {
   const MeasuredRun* best = nullptr;
@@ -88,7 +90,8 @@ std::string cost_text(const MeasuredRun* run) {
   return setting + ": " + std::to_string(run->points) + " points, " + milliseconds(run->seconds);
 }
 
-/// For each error: the fastest trace that promised and kept it, and the fastest rival that happened to.
+/// Prints for each tolerance the fastest trace that had this tolerance or a smaller one and achieved it, and
+/// the fastest run on a grid that achieved it.
 void print_advice(const std::vector<MeasuredRun>& runs) {
   std::set<double, std::greater<>> bounds;
   for (const MeasuredRun& run : runs) {
@@ -108,7 +111,7 @@ void print_advice(const std::vector<MeasuredRun>& runs) {
   print_table(rows);
 }
 
-/// The order that was the fastest most often.
+/// The order that was the fastest at the largest number of tolerances; 0 if there are no measured traces.
 int best_order(const std::vector<MeasuredRun>& runs) {
   std::vector<int> wins(8, 0);
   std::set<double> tolerances;
@@ -124,7 +127,8 @@ int best_order(const std::vector<MeasuredRun>& runs) {
   return static_cast<int>(std::max_element(wins.begin(), wins.end()) - wins.begin());
 }
 
-/// What the certificate costs: the scene's own run with it and the one without, which follows.
+/// Prints the cost of the certificate: the run with the scene's own options compared with the next one in the
+/// list, which has the same options without certificate.
 void print_cost_of_certificate(const std::vector<MeasuredRun>& runs) {
   const auto without = std::find_if(runs.begin(), runs.end(), [](const MeasuredRun& run) {
     return run.method == Method::trace_uncertified;

@@ -1,11 +1,11 @@
-// A work-precision study for people.
+// Prints a work-precision study as text.
 #pragma once
 
 #include "eigentrail/accuracy/study.hpp"
 
 namespace eigentrail::app {
 
-/// Prints what errors were measured against, a table of all runs, and what follows from them.
+/// Prints the number and the error of the references, tables of all runs, and conclusions.
 void print_study(const TraceSetup& setup, const Study& study);
 
 }  // namespace eigentrail::app

@@ -32,7 +32,7 @@ std::string ends_text(const BoundaryCurve& curve) {
   return curve_end_name(curve.begin) + ", " + curve_end_name(curve.end);
 }
 
-/// Whether a curve bounds the stable region: everywhere, in parts, or nowhere.
+/// Whether a curve bounds the stable region at all its points, at some or at none, in words.
 std::string bounds_text(const BoundaryCurve& curve) {
   std::size_t free = 0;
   for (const BoundaryPoint& point : curve.points) free += point.others == 0 ? 1 : 0;

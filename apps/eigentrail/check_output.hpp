@@ -1,4 +1,4 @@
-// Whether a command may write to the file that it was given.
+// Checks whether a command may write its output file.
 #pragma once
 
 #include <functional>
@@ -6,20 +6,21 @@
 
 namespace eigentrail::app {
 
-/// What a command writes.
+/// The format of an HDF5 output file.
 struct OutputFormat {
   std::string attribute;  ///< the HDF5 attribute "format"
   std::string name;       ///< for messages: "loci file"
 };
 
-/// What a command writes when it is no HDF5 file.
+/// The format of an output file that is not HDF5.
 struct OtherOutput {
   std::function<bool(const std::string& path)> replaces;  ///< whether it may replace an existing file
   std::string name;                                       ///< for messages: "report"
 };
 
-/// Refuses folders, names in folders that do not exist, and existing files unless `force` is given and they
-/// are of the format that replaces them. Throws InputError.
+/// Throws InputError if `path` is empty, is a folder, lies in a folder that does not exist, or is an existing
+/// file that may not be replaced. An existing file may be replaced only with `force`, and only if it has the
+/// same format.
 void check_output(const std::string& path, bool force, const OutputFormat& format);
 void check_output(const std::string& path, bool force, const OtherOutput& output);
 

@@ -1,11 +1,13 @@
-// The subcommands: each adds itself to the command line and, when chosen, runs and returns the exit code.
+// The commands of the program. Each function adds its command to the command line. When the command line is
+// parsed, the command that was given runs and sets `exit_code`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace eigentrail::app {
 
-/// Exit codes of the program.
+/// Exit codes of the program: success; numerical failure, after which what was computed is kept; invalid
+/// input or usage.
 enum ExitCode { done = 0, numbers_failed = 1, bad_input = 2 };
 
 void add_new(CLI::App& program, int& exit_code);

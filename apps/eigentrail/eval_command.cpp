@@ -18,7 +18,8 @@ struct EvalArguments {
   bool json = false;
 };
 
-/// Calls visit(p, mode, s) for every mode that exists where the path passes one of the values.
+/// Calls visit(p, mode, s) for each value p in `at`, each passage of the path there, and each mode that
+/// exists.
 template <class Visit>
 void for_each_value(const LociFile& loci, const std::vector<double>& at, Visit&& visit) {
   for (const double p : at) {
@@ -57,7 +58,7 @@ void print_for_people(const LociFile& loci, const std::vector<double>& at) {
 
 int run_eval(const EvalArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
-  for (const double p : arguments.at) (void)loci.eigenvalues_at(p);  // refuse before anything is printed
+  for (const double p : arguments.at) (void)loci.eigenvalues_at(p);  // throw before anything is printed
   if (arguments.csv) {
     print_csv(loci, arguments.at);
   } else if (arguments.json) {

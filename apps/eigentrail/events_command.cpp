@@ -51,7 +51,7 @@ void print_events_json(const LociFile& loci) {
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
-/// A file may be from a version of the program with other kinds.
+/// The remark on an event; empty if this version of the program does not know its kind.
 std::string remark_on(const LociEvent& event) {
   const EventKindInfo* kind = find_event_kind(event.kind);
   if (kind == nullptr) return "";
@@ -72,7 +72,7 @@ void print_events_table(const LociFile& loci) {
   print_table(rows);
 }
 
-/// How every event depends on every parameter.
+/// Prints the sensitivities of all events to all parameters.
 void print_sensitivities(const LociFile& loci) {
   const auto text = [](double value) { return std::isfinite(value) ? rounded(value, 8) : "-"; };
   std::vector<std::vector<std::string>> rows{

@@ -64,7 +64,7 @@ void print_effects(const Model& model) {
   if (!absent.empty()) std::printf("    absent, never evaluated: %s\n", absent.c_str());
 }
 
-/// Ranks the effects by what they do to each mode.
+/// Prints the effects for each mode, ordered by their influence on its eigenvalue.
 void print_influences(const Influences& influences, const std::string& at) {
   std::printf(
       "influence of each effect on each mode at %s\n"
@@ -141,7 +141,7 @@ void print_structure(const Structure& structure, bool has_constraints, const std
   print_table(rows);
 }
 
-/// The route of the modes, and what it costs beside one LU per mode.
+/// The method that computes the modes, and its cost relative to one LU per mode.
 std::string describe_route(const Structure& structure, const ModeWork& work) {
   const ModeRoute route = cheapest_route(structure, work);
   if (route == ModeRoute::one_by_one)
@@ -215,7 +215,8 @@ int run_explain(const ExplainArguments& arguments) {
   const auto parts = find_independent_parts(model->coefficient_matrices());
   print_structure(structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
-  // Infinite eigenvalues show at the start of a trace only; its modes are then corrected one by one.
+  // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,
+  // which is not known here.
   const auto modes =
       std::min<Eigen::Index>(options.modes.value_or(static_cast<int>(sizes.freedoms)), 2 * sizes.freedoms);
   // Independent parts are followed one by one, each with matrices of its own size.

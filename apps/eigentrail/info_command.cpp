@@ -19,7 +19,7 @@ struct InfoArguments {
   bool scene = false;
 };
 
-/// Largest value of one mode's column of a node x mode array.
+/// Largest value for one mode in a row-major node x mode array.
 double column_maximum(const std::vector<double>& values, std::size_t mode, std::size_t n_modes) {
   double maximum = 0.0;
   for (std::size_t i = mode; i < values.size(); i += n_modes) maximum = std::max(maximum, values[i]);
@@ -31,7 +31,7 @@ std::string attribute(const LociFile& loci, const std::string& name) {
   return found == loci.attributes.end() ? "?" : found->second;
 }
 
-/// Stretches of the parameter on which the identity of a mode is not certified.
+/// Prints the parameter ranges on which the identity of a mode is not certified.
 void print_uncertified(const LociFile& loci) {
   constexpr std::size_t most_lines = 20;
   std::size_t lines = 0;
@@ -57,7 +57,7 @@ void print_uncertified(const LociFile& loci) {
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
 }
 
-/// Of which modes the stable ranges speak, when not of all.
+/// To which modes the stable ranges refer, in words; empty if to all.
 std::string followed_modes(const LociFile& loci) {
   const std::string wanted = attribute(loci, "option_modes");
   const std::string available = attribute(loci, "count_modes_available");
@@ -66,13 +66,13 @@ std::string followed_modes(const LociFile& loci) {
   return some ? wanted + " of " + available + " modes followed" : "";
 }
 
-/// ", order 3 (auto)"; nothing for files that do not tell.
+/// The order of the series as text, for example ", order 3 (auto)"; empty if the file does not contain it.
 std::string order_of_series(const LociFile& loci) {
   const std::string order = attribute(loci, "series_order");
   return order == "?" ? "" : ", " + order_text(std::stoi(order), attribute(loci, "option_order") == "auto");
 }
 
-/// Of a file whose trace has not come to its end; empty for others.
+/// A hint on --resume for a file whose trace has not ended; empty for others.
 std::string how_to_go_on(const std::string& status) {
   if (status == "running")
     return "  the trace is still running, or was killed: its command with --resume goes on\n";

@@ -5,7 +5,7 @@
 namespace eigentrail::app {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;  // the only thing that a handler may write to
+volatile std::sig_atomic_t noted = 0;  // a signal handler may write only to a variable of this type
 
 extern "C" void note_signal(int signal) {
   noted = signal;

@@ -1,9 +1,10 @@
-// SIGINT and SIGTERM as a wish that long work asks for between its steps.
+// Handles SIGINT and SIGTERM: a long computation checks between its steps whether one has arrived, and ends
+// in order.
 #pragma once
 
 namespace eigentrail::app {
 
-/// While one of these lives the first signal is noted; a second one ends the program at once.
+/// During the lifetime of an object the first signal is recorded. A second one ends the program at once.
 class Interruption {
  public:
   Interruption();
@@ -11,11 +12,11 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// The signal that came; 0: none.
+  /// Number of the signal that has arrived; 0: none.
   int signal() const;
   explicit operator bool() const { return signal() != 0; }
 
-  /// What a program that was ended by the signal exits with.
+  /// The conventional exit code of a program that was ended by the signal.
   int exit_code() const { return 128 + signal(); }
 };
 

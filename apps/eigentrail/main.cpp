@@ -8,18 +8,19 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // there where LAPACK is OpenBLAS
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // defined only if LAPACK is OpenBLAS
 
 namespace eigentrail::app {
 namespace {
 
-/// Work is shared by modes and by traces; threads within BLAS would compete with those, and change the last
-/// bits with their number.
+/// The program uses its own threads, for modes and for traces. Threads of BLAS would compete with these, and
+/// results would differ in the last bits with their number.
 void use_one_thread_within_blas() {
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
 }
 
-/// CLI11 would only say that a command is required.
+/// Throws InputError with a suggestion for an unknown command. The message of CLI11 would only be that a
+/// command is required.
 void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> commands;
@@ -32,7 +33,7 @@ void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
   }
 }
 
-/// CLI11 takes an empty text for zero.
+/// Rejects empty texts for numbers, which CLI11 reads as zero.
 void reject_empty_numbers(CLI::App& program) {
   const auto check = [](const std::string& text) {
     return text.empty() ? std::string("expected a number, found an empty text") : std::string();

@@ -29,7 +29,7 @@ struct MapArguments {
   std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
 };
 
-/// "N", or "NxM" for N values of the second parameter by M of the first.
+/// Reads "N", or "NxM" for N values of the second parameter and M of the first.
 void read_grid(const std::string& text, MapOptions& options) {
   const auto number = [&text](std::size_t begin, std::size_t end) {
     int value = 0;
@@ -46,7 +46,7 @@ void read_grid(const std::string& text, MapOptions& options) {
   options.n_first = cross == std::string::npos ? options.n_second : number(cross + 1, text.size());
 }
 
-/// What the user should know about lines, with the first of each kind.
+/// Notes for the user on lines that are incomplete: for each kind the number of lines and the first one.
 std::vector<std::string> notes_about(const StabilityMap& map, const MapSetup& setup) {
   std::vector<std::string> notes;
   const auto note = [&](const std::string& what, auto&& applies, bool with_reason) {
@@ -97,8 +97,8 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
     std::printf("  margin from %s to %s 1/s\n", rounded(least).c_str(), rounded(largest).c_str());
 }
 
-/// A complex LU of size n + 1 takes 8/3 n^3 operations, QZ without vectors on the companion form 30 (2n)^3
-/// (Golub and Van Loan, section 7.7).
+/// Cost of a QZ in units of one complex LU. A complex LU of size n + 1 takes 8/3 n^3 operations, QZ without
+/// vectors on the companion form of size 2n takes 30 (2n)^3 (Golub and Van Loan, section 7.7).
 constexpr int lu_per_qz = 90;
 
 void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
@@ -137,7 +137,7 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, const std::ve
   print_work(map, totals, seconds);
 }
 
-/// Why no cell of a map is known.
+/// The error message for a map in which all cells are unknown.
 std::string failure(const StabilityMap& map) {
   const std::string& message = map.lines.front().message;
   return "no cell of the window is known, nothing is written; its first line: " +

@@ -16,7 +16,8 @@ char symbol(int unstable) {
   return unstable <= 9 ? static_cast<char>('0' + unstable) : '+';
 }
 
-/// The cells to show of n in ascending order of their values, both ends among them.
+/// The cells to show of n, at most `most` and including both ends, in ascending order of their values.
+/// `ascending`: whether the values of the cells ascend.
 std::vector<std::size_t> shown(std::size_t n, std::size_t most, bool ascending) {
   const std::size_t count = std::min(n, most);
   std::vector<std::size_t> cells;

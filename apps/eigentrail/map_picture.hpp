@@ -1,4 +1,4 @@
-// A stability map as characters.
+// Draws a stability map with characters.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace eigentrail::app {
 
-/// Lines of text: the second parameter upwards, the first to the right, with their names and values on the
-/// axes. '.' no mode grows, digits the number of growing modes ('+' above nine), '?' unknown. Large maps show
-/// every so many cells only.
+/// The map as lines of text: the second parameter increases upwards, the first to the right, with names and
+/// values on the axes. '.': no mode grows; digit: number of growing modes, '+' if more than nine; '?':
+/// unknown. Of a large map only some of the cells are shown, at equal distances.
 std::vector<std::string> map_picture(const StabilityMap& map, const std::string& first,
                                      const std::string& second);
 

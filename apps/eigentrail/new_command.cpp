@@ -17,7 +17,7 @@ struct NewArguments {
   std::string starter = "blade";
 };
 
-/// The text with the name of the file in the commands that it shows.
+/// The text of a starter scene, with the name of the file inserted into the commands in its comments.
 std::string text_for(const Starter& starter, const std::string& file) {
   const std::string mark = "@file@";
   std::string text(starter.text);

@@ -34,7 +34,7 @@ std::vector<std::string> event_row(const Event& event, const std::string& parame
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows) {
-  // Width in characters: continuation bytes of UTF-8 take no column.
+  // Width in characters: continuation bytes of UTF-8 do not count.
   const auto width = [](const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

@@ -1,4 +1,4 @@
-// Numbers and small tables for people and scripts.
+// Formats numbers and prints small tables.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace eigentrail::app {
 
-/// Text with `digits` significant digits.
+/// A number as text with `digits` significant digits.
 std::string rounded(double value, int digits = 6);
 
-/// "order 3", or "order 3 (auto)" where the program chose it.
+/// "order 3", or "order 3 (auto)" if the program has chosen the order (`chosen`).
 std::string order_text(int order, bool chosen);
 
-/// "-0.01994 + 17.88j"
+/// A complex number as text, for example "-0.01994 + 17.88j".
 std::string complex_text(double real, double imag, int digits = 6);
 
-/// Cells that describe a special point to people.
+/// The cells of a table row that describe an event.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 
 /// Prints rows with aligned columns, two spaces apart, indented by two.

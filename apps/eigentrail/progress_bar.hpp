@@ -1,4 +1,4 @@
-// A progress bar with the remaining time, on a terminal only.
+// A progress bar with the estimated remaining time, for terminals only.
 #pragma once
 
 #include <chrono>
@@ -7,16 +7,16 @@ namespace eigentrail::app {
 
 class ProgressBar {
  public:
-  /// Draws on stderr when that is a terminal and `quiet` is false.
+  /// Draws on stderr if that is a terminal and `quiet` is false.
   explicit ProgressBar(bool quiet);
   ~ProgressBar() { finish(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `fraction` done, 0 to 1, and how many `what` there are so far.
+  /// Draws the bar. `fraction`: share of the work that is done, 0 to 1; `count`: number of finished `what`.
   void update(double fraction, int count, const char* what = "points");
 
-  /// Wipes the bar, so that what is printed next begins on a clean line.
+  /// Erases the bar, so that further output begins on an empty line.
   void finish();
 
  private:

@@ -17,7 +17,7 @@ struct ReferenceArguments {
   bool markdown = false;
 };
 
-/// Tables that a scene has once at most.
+/// The heading of a table in TOML: [name] for tables that a scene may have only once, otherwise [[name]].
 std::string heading(const std::string& name) {
   static const std::set<std::string> single = {"trace", "events", "frame", "gravity"};
   return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";

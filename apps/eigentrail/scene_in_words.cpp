@@ -18,7 +18,7 @@ std::string freedoms(const Sizes& sizes) {
   return text + ".";
 }
 
-/// What the structure of the pencil lets eigenvalues do.
+/// The instabilities that are possible with this structure of the pencil.
 std::string prospects(const Structure& structure) {
   if (structure.circulatory) {
     return "Forces without a potential (unsymmetric K): flutter is possible, with and without damping.";

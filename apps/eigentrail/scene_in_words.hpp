@@ -1,4 +1,4 @@
-// What a scene asks for, in sentences.
+// Describes a scene in sentences.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace eigentrail::app {
 
-/// Sizes of a system at the beginning of its trace.
+/// Numbers of coordinates, constraints, redundant constraints and freedoms at the start of a trace.
 struct Sizes {
   long long coordinates = 0, constraints = 0, redundant = 0, freedoms = 0;
 };
 
-/// What moves, what can happen to its eigenvalues, what is followed.
+/// Sentences on the freedoms, the instabilities that are possible, the equilibrium, and the trace.
 std::vector<std::string> in_words(const TraceSetup& setup, const Structure& structure, const Sizes& sizes);
 
 }  // namespace eigentrail::app

@@ -86,7 +86,7 @@ void print_work(const TraceResult& result) {
       percent(counts.output_seconds, result.seconds).c_str());
 }
 
-/// How much of the loci is certified, special points, and what else the user should know.
+/// Prints how much of the loci is certified, the events, and the notes of the trace.
 void print_findings(const TraceOptions& options, const TraceResult& result) {
   if (!options.certify) {
     std::printf("  identity  not certified (--no-certify)\n");
@@ -114,7 +114,7 @@ void print_effects(const Model& model, const EvaluationCounts& counts) {
   std::printf("  evaluations  %s\n", line.c_str());
 }
 
-/// Of which modes the stable ranges speak, when not of all.
+/// To which modes the stable ranges refer, in words; empty if to all.
 std::string followed_modes(const TraceResult& result) {
   if (result.n_modes == result.n_available) return "";
   return std::to_string(result.n_modes) + " of " + std::to_string(result.n_available) + " modes followed";
@@ -151,7 +151,7 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   print_effects(model, result.counts.evaluations);
 }
 
-/// A trace with its file: begun, or gone on with.
+/// A trace and its loci file, from the start or resumed.
 class TraceRun {
  public:
   TraceRun(const TraceArguments& arguments, TraceSetup setup)
@@ -172,7 +172,8 @@ class TraceRun {
   }
 
  private:
-  /// Runs the trace to its end; where the file cannot be written on, says what it holds.
+  /// Runs the trace to its end. If the file cannot be written, throws an error that says how many points are
+  /// saved.
   template <class Run>
   int guarded(Run&& run) {
     try {
@@ -248,7 +249,7 @@ class TraceRun {
   ProgressBar progress_;
   Interruption interruption_;
   bool interrupted_ = false;
-  int saved_points_ = 0;  ///< in the file that stands under the name
+  int saved_points_ = 0;  ///< number of points in the saved file
   TraceStart started_;
   std::optional<LociWriter> writer_;
   PathRecorder recorder_;
@@ -274,7 +275,7 @@ int run_trace(const TraceArguments& arguments) {
   return done;
 }
 
-/// An option of the trace as a flag: "max_step" becomes --max-step.
+/// The command line flag of an option of the trace: "max_step" becomes --max-step.
 std::string flag(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
   return "--" + key;

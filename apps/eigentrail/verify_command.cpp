@@ -15,7 +15,8 @@ struct VerifyArguments {
   VerifyOptions options;
 };
 
-/// CLI11 would take what is below zero or beyond the largest number for others.
+/// An error message if the text is no valid seed, otherwise empty. CLI11 would convert negative numbers and
+/// numbers that are too large to other ones without an error.
 std::string seed_fault(const std::string& text) {
   std::uint64_t seed = 0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), seed);

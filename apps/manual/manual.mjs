@@ -1,4 +1,4 @@
-// Writes the manual page from what the program's own --help says: node manual.mjs PROGRAM VERSION OUTPUT.gz
+// Writes the manual page from the output of the program's --help: node manual.mjs PROGRAM VERSION OUTPUT.gz
 import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
@@ -6,10 +6,10 @@ import { gzipSync } from "node:zlib";
 const [program, version, output] = process.argv.slice(2);
 const help = (...words) => execFileSync(program, [...words, "--help"], { encoding: "utf8" }).trimEnd().split("\n");
 
-/// Text as troff prints it unchanged.
+/// The text with escapes, so that troff prints it unchanged.
 const plain = (text) => text.replace(/\\/g, "\\e").replace(/-/g, "\\-").replace(/^([.'])/, "\\&$1");
 
-/// Lines of a help text as { heading, lines }; what stands before the first heading has none.
+/// The sections of a help text as { heading, lines }. Lines that do not belong to a heading have an empty one.
 function sections(lines) {
   const result = [{ heading: "", lines: [] }];
   for (const line of lines) {
@@ -21,7 +21,7 @@ function sections(lines) {
   return result.filter((section) => section.heading || section.lines.some((line) => line !== ""));
 }
 
-/// "  name   text" and, of long names, the text on a line of its own, as tagged paragraphs.
+/// Converts lines "  name   text" to tagged paragraphs. After a long name the text is on the next line.
 function tagged(lines) {
   const items = [];
   for (const line of lines) {
@@ -32,7 +32,7 @@ function tagged(lines) {
   return items.flatMap(({ name, text }) => [".TP", `.B ${plain(name)}`, plain(text.join(" "))]);
 }
 
-/// Indented lines as they are, others as paragraphs.
+/// Converts indented lines to preformatted ones and all others to paragraphs.
 function paragraphs(lines) {
   const result = [];
   for (const line of lines.filter((text) => text !== "")) {

@@ -6,7 +6,7 @@
 namespace eigentrail {
 namespace {
 
-/// All modes at a place, Z in physical coordinates.
+/// The followed modes at one point, Z in physical coordinates.
 struct Modes {
   std::vector<ComplexMatrix> Z;
   std::vector<ComplexMatrix> Lambda;
@@ -21,7 +21,7 @@ Modes modes_of(const PathPoint& point) {
   return modes;
 }
 
-/// a + factor (b - a) of vectors and eigenvalues.
+/// a + factor (b - a) for vectors and eigenvalues: the line through a (factor 0) and b (factor 1).
 Modes along_line(const Modes& a, const Modes& b, double factor) {
   Modes result = a;
   for (std::size_t i = 0; i < a.Z.size(); ++i) {
@@ -31,10 +31,10 @@ Modes along_line(const Modes& a, const Modes& b, double factor) {
   return result;
 }
 
-/// Moves modes and equilibrium along their first derivatives by h. False when these are not finite.
+/// Moves modes and equilibrium along their first derivatives by h. Returns false if these are not finite.
 bool follow_tangent(PathProblem problem, const PathPoint& point, double h, Modes& modes,
                     EquilibriumGuess& guess, RunCounts& counts) {
-  problem.order = 0;  // one more is computed
+  problem.order = 0;  // differentiate_point computes order + 1 derivatives
   const std::optional<PathNode> node = differentiate_point(problem, point, counts);
   if (!node) return false;
   for (std::size_t i = 0; i < node->tracks.size(); ++i) {
@@ -56,7 +56,7 @@ std::vector<InvariantPair> as_pairs(const Modes& modes, const std::vector<Invari
   return pairs;
 }
 
-/// The first point, from the full spectrum; empty when there is none.
+/// The first point, with modes from the full spectrum; empty if there is no equilibrium or spectrum.
 std::optional<PathPoint> first_point(const PathProblem& problem, double p, std::optional<int> modes,
                                      RunCounts& counts) {
   const EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p)), {}, false};

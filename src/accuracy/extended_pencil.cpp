@@ -16,13 +16,14 @@ double relative(double change, double whole) {
   return whole > 0.0 ? change / whole : change;
 }
 
-/// Newton corrections of (x, lambda). Multipliers are judged by the reaction A^T lambda, which is all that
-/// the equations see of them. Returns the last correction, not a number when a residual is not finite.
+/// Newton corrections of (x, lambda). The correction of the multipliers is measured by that of the reaction
+/// A^T lambda, because lambda itself is not unique if constraints are redundant. Returns the last relative
+/// correction; NaN if a residual cannot be evaluated.
 double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, ExtendedPath& path) {
-  if (!equilibrium.kkt.can_solve()) return 0.0;  // the guess is the equilibrium, exactly
+  if (!equilibrium.kkt.can_solve()) return 0.0;  // the equilibrium is known exactly
   const SystemMatrix& A = equilibrium.linearization.A[0];
   const double length = largest(equilibrium.x);
-  // Where constraints carry no load, what the stiffness makes of the length is the scale of forces.
+  // The scale of forces is the reaction, or stiffness times length if the constraints carry no load.
   const double force = std::max(largest(A.transposed_times(equilibrium.lambda)),
                                 equilibrium.linearization.K[0].largest_entry() * length);
   return refine_to_rounding([&]() -> double {
@@ -36,7 +37,8 @@ double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, Ex
   });
 }
 
-/// T - A+ (A T) until A T vanishes: a null-space basis, orthonormal to double precision.
+/// Repeats T <- T - A+ (A T), with the pseudo-inverse A+, until A T vanishes within rounding of 113 bits. T
+/// is then a null-space basis that is orthonormal to double precision. Returns the last correction.
 double refine_basis(const ConstraintFactorization& constraints, const BasicSystemMatrix<Extended>& A,
                     ExtendedMatrix& T) {
   if (constraints.rank() == 0 || T.size() == 0) return 0.0;

@@ -1,4 +1,4 @@
-// The reduced pencil at one point with 113 bits: the first two stages of a reference.
+// The reduced pencil at one point with 113 bits: the first two stages of a reference (reference.hpp).
 #pragma once
 
 #include <cmath>
@@ -9,14 +9,14 @@
 
 namespace eigentrail {
 
-/// s^2 M + s C + K, all (n - rank A) x (n - rank A).
+/// The pencil s^2 M + s C + K; all matrices are (n - rank A) x (n - rank A).
 struct ExtendedPencil {
   ExtendedMatrix M, C, K;
   double correction = 0.0;  ///< largest last correction of the equilibrium and the basis, relative
 };
 
-/// Calls correct() until the relative size that it returns no longer halves, or is that of rounding with 113
-/// bits. Returns the last size.
+/// Calls correct(), which applies a correction and returns its relative size, until the size no longer halves
+/// or is at the rounding level of 113 bits (2^-113 = 1e-34). Returns the last size.
 template <class Correct>
 double refine_to_rounding(Correct&& correct) {
   constexpr int most_corrections = 60;
@@ -30,8 +30,8 @@ double refine_to_rounding(Correct&& correct) {
   return last;
 }
 
-/// Refines the equilibrium and the tangent basis of a point and projects. Empty when the model has no
-/// extended precision or numbers are not finite.
+/// Refines the equilibrium and the tangent basis of a point, and projects the linearization onto the basis.
+/// Empty if the model cannot be evaluated in extended precision or a correction is not finite.
 std::optional<ExtendedPencil> extended_pencil(const PathProblem& problem, const PathPoint& point);
 
 }  // namespace eigentrail

@@ -7,15 +7,16 @@
 namespace eigentrail {
 namespace {
 
-/// Curvatures m of a cubic spline: m_{i-1} + 4 m_i + m_{i+1} = d_i, the second differences. Not-a-knot means
-/// m_0 - 2 m_1 + m_2 = 0, so that m_1 = d_1 / 6; likewise at the other end.
+/// Second derivatives times step^2 / 6 of a cubic spline, m. They solve m_{i-1} + 4 m_i + m_{i+1} = d_i with
+/// the second differences d_i of the values. The not-a-knot condition is m_0 - 2 m_1 + m_2 = 0. It gives
+/// m_1 = d_1 / 6, and likewise at the other end.
 std::vector<ComplexVector> spline_curvatures(const std::vector<ComplexVector>& values) {
   const std::size_t last = values.size() - 1;
   std::vector<ComplexVector> m(values.size());
   for (std::size_t i = 1; i < last; ++i) m[i] = values[i - 1] - 2.0 * values[i] + values[i + 1];
   m[1] /= 6.0;
   m[last - 1] /= 6.0;
-  // Elimination of the tridiagonal equations between the two.
+  // Gaussian elimination of the tridiagonal equations for m_2 ... m_{last - 2}.
   std::vector<double> pivot(values.size(), 4.0);
   m[2] -= m[1];
   m[last - 2] -= m[last - 1];

@@ -1,4 +1,4 @@
-// Eigenvalues on an equidistant grid of the parameter: what the rivals of a trace produce.
+// Eigenvalues on an equidistant grid of the parameter, by the methods with which a trace is compared.
 #pragma once
 
 #include <optional>
@@ -11,21 +11,21 @@ namespace eigentrail {
 
 struct GridLoci {
   bool completed = false;
-  std::string message;           ///< why not
+  std::string message;           ///< reason if not completed
   std::vector<double> p;         ///< equidistant
-  std::vector<ComplexVector> s;  ///< per point, by label; followed modes only
-  bool both_members = false;     ///< labels hold both members of complex pairs
+  std::vector<ComplexVector> s;  ///< per point: eigenvalues of the followed modes, in the order of the modes
+  bool both_members = false;     ///< whether both members of complex pairs are modes of their own
   RunCounts counts;
 };
 
-// `modes` are followed, those of least |s| at the first point, as a trace does; absent: all.
+// `modes`: number of modes to follow, those of least |s| at the first point, as in a trace; absent: all.
 
-/// QZ at every point; labels of all modes carried by modal assurance and optimal assignment. Cost per point
-/// one spectrum and one O(n^3) assignment.
+/// Computes the spectrum by QZ at every point. Modes are matched with those of the last point by modal
+/// assurance and optimal assignment. Cost per point: one spectrum and one O(n^3) assignment.
 GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes);
 
-/// Modes corrected from point to point, each by itself, predicted as `method` says (zero_order, secant,
-/// tangent). Ends where the corrector does.
+/// Corrects each mode separately from point to point, from the prediction of `method` (zero_order, secant or
+/// tangent). Ends at the first point where the corrector does not converge.
 GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes,
                         Method method);
 

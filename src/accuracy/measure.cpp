@@ -34,7 +34,7 @@ void take_counts(const RunCounts& counts, MeasuredRun& run) {
   run.evaluations = sum(counts.evaluations.residual) + sum(counts.evaluations.linearization);
 }
 
-/// Takes the error at one sample into the run.
+/// Updates the largest error of the run with the errors of all modes at one sample.
 void take_error(const Vector& distances, double p, MeasuredRun& run) {
   const double worst = distances.size() > 0 ? distances.maxCoeff() : 0.0;
   if (run.measured == 0 || worst > run.error) {
@@ -43,8 +43,8 @@ void take_error(const Vector& distances, double p, MeasuredRun& run) {
   }
 }
 
-/// Largest error of the dense output. A sample that the path passes more or less often than the reference is
-/// left out: it lies between two answers to where a fold is.
+/// Measures the largest error of the dense output. A sample with another number of passages than in the
+/// reference is left out: it lies between the computed parameter value of a fold and the true one.
 void measure_path(const RecordedPath& path, const ReferenceSet& reference, MeasuredRun& run) {
   for (const ReferenceSample& sample : reference.samples) {
     const std::vector<PathPosition> positions = path.positions(sample.p);
@@ -60,7 +60,7 @@ void measure_path(const RecordedPath& path, const ReferenceSet& reference, Measu
   }
 }
 
-/// The run with its errors. Grids see the first passage only.
+/// The run with its errors. Samples with several passages are left out, because a grid computes only one.
 MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const ReferenceSet& reference,
                                 MeasuredRun run) {
   run.interpolation = kind;
@@ -79,7 +79,7 @@ MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const 
   return run;
 }
 
-/// A name in the folder for temporary files, removed at the end.
+/// The name of a temporary file, which the destructor removes.
 class TemporaryFile {
  public:
   TemporaryFile()
@@ -98,7 +98,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// Traces once and records, with a loci file as a user would have it; not timed.
+/// Traces once, not timed: records the path and writes a loci file, of which it returns the size in bytes.
 std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
   const TemporaryFile file;
   std::optional<TraceStart> started;

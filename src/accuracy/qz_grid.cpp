@@ -9,11 +9,11 @@
 namespace eigentrail {
 namespace {
 
-/// A whole spectrum, both members of complex pairs.
+/// The whole spectrum at a point, with both members of complex pairs.
 struct GridPoint {
   ComplexVector s;
-  ComplexMatrix shapes;  ///< columns: v = T z
-  SystemMatrix mass;     ///< weight of the modal assurance criterion
+  ComplexMatrix shapes;  ///< columns: mode shapes in physical coordinates, v = T z
+  SystemMatrix mass;     ///< mass matrix, the weight of the modal assurance criterion
 };
 
 GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
@@ -37,7 +37,8 @@ GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
   return result;
 }
 
-/// Both members of complex pairs counted, those of the first modes come first.
+/// Number of eigenvalues of the first `modes` modes, both members of complex pairs counted. members_of puts
+/// them first.
 Eigen::Index count_members(const Spectrum& spectrum, std::optional<int> modes) {
   const auto all = static_cast<int>(spectrum.modes.size());
   const auto end = spectrum.modes.begin() + std::min(modes.value_or(all), all);
@@ -46,20 +47,20 @@ Eigen::Index count_members(const Spectrum& spectrum, std::optional<int> modes) {
       [](Eigen::Index count, const StartingMode& mode) { return count + (mode.s.imag() == 0.0 ? 1 : 2); });
 }
 
-/// 1 - MAC; members above and below the real axis are not matched with each other, or whirl forwards would be
-/// taken for the conjugate of whirl backwards, which has the same shape.
+/// Cost of matching modes: 1 - MAC, with the modal assurance criterion MAC. An eigenvalue above the real axis
+/// is not matched with one below: the conjugate of backward whirl has the same shape as forward whirl.
 Matrix disagreement(const GridPoint& last, const GridPoint& next) {
   Matrix cost = 1.0 - modal_assurance(last.shapes, next.shapes, next.mass).array();
   for (Eigen::Index i = 0; i < cost.rows(); ++i) {
     for (Eigen::Index j = 0; j < cost.cols(); ++j) {
-      if (last.s[i].imag() * next.s[j].imag() < 0.0) cost(i, j) += 10.0;
+      if (last.s[i].imag() * next.s[j].imag() < 0.0) cost(i, j) += 10.0;  // 1 - MAC is at most 1
       if (!std::isfinite(cost(i, j))) cost(i, j) = 1.0;
     }
   }
   return cost;
 }
 
-/// The point with its eigenvalues in the order of those of the last one.
+/// The point `next` with its modes in the order of those of `last`.
 GridPoint in_order(const GridPoint& last, const GridPoint& next) {
   const std::vector<int> successor = optimal_assignment(disagreement(last, next));
   GridPoint result = next;

@@ -10,7 +10,7 @@
 namespace eigentrail {
 namespace {
 
-/// Eigenvalues closer than this share of their size are refined together.
+/// Eigenvalues that differ by less than this, relative to their magnitude, are refined together as one block.
 constexpr double close = 1e-3;
 
 ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
@@ -30,7 +30,8 @@ ComplexMatrix rounded(const ExtendedComplexMatrix& values) {
   return values.unaryExpr([](const ExtendedComplex& c) { return to_double(c); });
 }
 
-/// Refines a pair that has converged in double precision; returns the last relative correction of Lambda.
+/// Refines an invariant pair that has converged in double precision. Sets Lambda and returns its last
+/// relative correction.
 double refine_pair(const ExtendedPencil& pencil, const InvariantPair& pair, double reference,
                    ExtendedComplexMatrix& Lambda) {
   const Eigen::Index n = pair.Z.rows();
@@ -51,7 +52,8 @@ double refine_pair(const ExtendedPencil& pencil, const InvariantPair& pair, doub
   });
 }
 
-/// Eigenvalues of a block. Of three and more: the mean, and the distances from it in double precision.
+/// Eigenvalues of a block. For three and more the mean is computed with 113 bits and the distances from it in
+/// double precision.
 std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bool real) {
   const Eigen::Index k = Lambda.rows();
   if (k == 1) return {Lambda(0, 0)};
@@ -72,7 +74,7 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
   return result;
 }
 
-/// Close eigenvalues, by index into a list that holds both members of complex pairs.
+/// Groups of close eigenvalues, as indices into `s`, which contains both members of complex pairs.
 std::vector<std::vector<std::size_t>> clusters(const std::vector<Complex>& s, double reference) {
   std::vector<std::size_t> label(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -91,7 +93,7 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<Complex>& s, do
   return groups;
 }
 
-/// Finite eigenvalues, both members of complex pairs, with the mode of each.
+/// The finite eigenvalues, with both members of complex pairs, and the index of the mode of each.
 struct Members {
   std::vector<Complex> s;
   std::vector<std::size_t> mode;
@@ -103,7 +105,7 @@ struct Members {
     }
   }
 
-  /// Whether the conjugates of a group are in it too.
+  /// Whether a group contains the conjugates of all its members, so that its block can be real.
   bool closed(const std::vector<std::size_t>& group) const {
     return std::all_of(group.begin(), group.end(), [&](std::size_t i) {
       return s[i].imag() == 0.0 || std::any_of(group.begin(), group.end(),
@@ -137,7 +139,7 @@ InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectru
   pair.is_real = real;
   pair.Z = mode.z;
   if (real) {
-    // The vector of a real eigenvalue is real up to a factor.
+    // The eigenvector of a real eigenvalue is real except for a complex factor.
     Eigen::Index largest = 0;
     mode.z.cwiseAbs().maxCoeff(&largest);
     pair.Z = (mode.z / mode.z[largest]).real().cast<Complex>();
@@ -146,7 +148,7 @@ InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectru
   return pair;
 }
 
-/// Refines all groups; adds their eigenvalues with Im s >= 0.
+/// Refines all groups of eigenvalues and adds those with Im s >= 0 to the result.
 void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpectrum& result) {
   const ReducedPencil pencil{{to_double(extended.M)}, {to_double(extended.C)}, {to_double(extended.K)}};
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);

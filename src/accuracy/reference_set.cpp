@@ -7,14 +7,14 @@
 namespace eigentrail {
 namespace {
 
-/// Tells where to look for equilibria; far better than that needs.
+/// Tolerance of the trace that gives starting values for the equilibria; tighter than these need.
 constexpr double guide_tolerance = 1e-10;
 
-/// Behind a fold an equilibrium looked for at p alone may be that of another passage; its eigenvalues are
-/// then further off than this.
+/// On a path with folds the equilibrium found at p may belong to another passage of the path. It is accepted
+/// if its eigenvalues differ by less than this from those of the trace, relatively.
 constexpr double same_passage = 1e-3;
 
-/// A trace with the equilibria at its nodes.
+/// A trace with the equilibria at its nodes, which are starting values for those of the references.
 struct Guide {
   RecordedPath path;
   std::vector<Vector> x, lambda;
@@ -54,7 +54,7 @@ std::vector<Complex> nearest_doubles(const ReferenceSpectrum& reference) {
   return s;
 }
 
-/// Whether the spectrum is that of the guide there.
+/// Whether the spectrum belongs to the passage of the guide at this position.
 bool same(const Guide& guide, const PathPosition& position, const std::vector<Complex>& spectrum) {
   const PathStep& step = guide.path.steps[position.step];
   if (follows_parameter(step)) return true;
@@ -79,7 +79,7 @@ std::vector<double> sample_parameters(const TraceOptions& options, int count) {
 ReferenceSet reference_set(const TraceSetup& setup, const std::vector<double>& parameters) {
   const Guide guide = trace_guide(setup);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
-  problem.steady.relax = false;  // another equilibrium than that of the path proves nothing
+  problem.steady.relax = false;  // relaxation may lead to an equilibrium that is not on the path
   problem.s_ref = guide.s_ref;
   ReferenceSet set;
   set.s_ref = guide.s_ref;

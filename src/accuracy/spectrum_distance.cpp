@@ -8,7 +8,8 @@
 namespace eigentrail {
 namespace {
 
-/// Weight of an error of the eigenvalue at index `own` of all members of a spectrum.
+/// Factor of the error of the eigenvalue `own`, an index into all eigenvalues `members`, of a mode in a
+/// block.
 double weight_in_block(const std::vector<Complex>& members, std::size_t own, double error, double scale) {
   double weight = 1.0;
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -18,7 +19,8 @@ double weight_in_block(const std::vector<Complex>& members, std::size_t own, dou
   return weight;
 }
 
-/// A pair may be given by its upper or its lower member: on the real axis rounding decides.
+/// The smaller distance of a value from s and from its conjugate: a pair may be given by either member, and
+/// close to the real axis rounding decides by which.
 double distance_of_modes(Complex value, Complex s) {
   return std::min(std::abs(value - s), std::abs(value - std::conj(s)));
 }
@@ -37,7 +39,7 @@ Vector distances(const ComplexVector& values, const std::vector<bool>& in_block,
   constexpr double nowhere = 1e30;
   Matrix cost = Matrix::Constant(n, n, nowhere);
   const auto count = static_cast<Eigen::Index>(present.size());
-  cost.bottomRows(n - count).setZero();  // eigenvalues that nobody followed
+  cost.bottomRows(n - count).setZero();  // additional rows for eigenvalues that are not followed
   for (Eigen::Index i = 0; i < count; ++i) {
     const Complex value = values[present[static_cast<std::size_t>(i)]];
     for (std::size_t j = 0; j < targets.size(); ++j) {

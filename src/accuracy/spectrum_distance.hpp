@@ -1,4 +1,4 @@
-// How far eigenvalues are from those of a spectrum, as the tolerance of a trace counts it.
+// Distances of eigenvalues from those of a spectrum, in the measure to which the tolerance of a trace refers.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,23 @@ namespace eigentrail {
 /// Whether each mode is part of a block of several on the step.
 std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes);
 
-/// A spectrum given by one member of each complex pair with the other members added.
+/// The spectrum with both members of complex pairs, from one with one member of each.
 std::vector<Complex> with_conjugates(const std::vector<Complex>& spectrum);
 
-/// Distance of every value from the eigenvalue assigned to it, one to one, relative to max(|s|, reference);
-/// zero for values that are NaN (modes that do not exist). More values than eigenvalues: those left over are
-/// infinitely far. `spectrum` and the values hold one member of each complex pair, either of them.
+/// Distance of every value from the eigenvalue s that is assigned to it, one to one with the least total
+/// distance, relative to max(|s|, reference). Zero for values that are NaN (modes that do not exist).
+/// Infinite for values without an eigenvalue, if there are more values than eigenvalues. `values` and
+/// `spectrum` contain one member of each complex pair, either of them. Cost O(n^3).
 ///
-/// Near a meeting single eigenvalues are as uncertain as roots of a polynomial there, and what a trace
-/// promises are the functions of the block. An error of a mode `in_block` (one entry per value) counts as the
-/// error of those: weighed by its distance to the others, where that is below a tenth of abs(s). O(n^3).
+/// `in_block` has one entry per value: whether the mode is in a block of several. Where eigenvalues of a
+/// block almost coincide, they are ill-conditioned, and the tolerance of a trace refers to the functions of
+/// the block (invariants.hpp). The error of such a mode is therefore multiplied by d / (0.1 max(|s|,
+/// reference)) for every other eigenvalue at a distance d for which this factor is below 1. If the error
+/// exceeds d, it takes the place of d.
 Vector distances_from_spectrum(const ComplexVector& values, const std::vector<bool>& in_block,
                                const std::vector<Complex>& spectrum, double reference);
 
-/// The same for values that hold both members of complex pairs, all as in blocks.
+/// The same for values that contain both members of complex pairs, with all modes taken as in blocks.
 Vector distances_from_members(const ComplexVector& values, const std::vector<Complex>& spectrum,
                               double reference);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Method grid_methods[] = {Method::qz, Method::zero_order, Method::secant, Method::tangent};
 
-/// Sets options of a trace for a while.
+/// Restores the options of a trace at the end of its lifetime.
 class OptionsGuard {
  public:
   explicit OptionsGuard(TraceOptions& options) : options_(options), kept_(options) {}

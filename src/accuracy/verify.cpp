@@ -14,8 +14,9 @@
 namespace eigentrail {
 namespace {
 
-/// Matrices in a file of their own are read again. Where they lie only the loci file says, and it may come
-/// from anywhere: it is believed where the scene lies beside them.
+/// If the scene has its matrices in a separate file, that file is read again. Its place is given only by the
+/// loci file, which may come from an untrusted source. It is therefore read only if the scene file beside it
+/// exists and has the text stored in the loci file. Throws InputError otherwise.
 void check_place_of_matrices(const Scene& scene, const std::string& path) {
   const Value* family = scene.root.find("matrix_family");
   const auto* table = family != nullptr ? std::get_if<Table>(&family->data) : nullptr;
@@ -26,7 +27,7 @@ void check_place_of_matrices(const Scene& scene, const std::string& path) {
   }
 }
 
-/// The scene and the options that the file was made from.
+/// The scene and the options of the trace in the file.
 TraceSetup rebuild(const LociFile& loci) {
   OptionTexts options;
   for (const auto& [name, text] : loci.attributes) {
@@ -47,8 +48,10 @@ TraceSetup rebuild(const LociFile& loci) {
   return setup;
 }
 
-/// Where the path turns back, an equilibrium looked for at p alone may be that of another passage. Between
-/// the two points of a step it is met on planes across their chord, from the one that lies on p.
+/// Starting value for the equilibrium at p on a step where the path may turn back. Newton's method at
+/// constant p could converge to another passage of the path. Here equilibria are computed on planes
+/// perpendicular to the chord between the two points of the step, and the plane on which the equilibrium has
+/// the parameter value p is found by bisection.
 EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci, std::size_t step,
                                 double p) {
   constexpr int most_planes = 60;
@@ -74,14 +77,14 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
                              begin + t * chord, multipliers, problem.steady, p_there, counts);
     if (there.status != SteadyStatus::converged) break;
     guess = {there.x, there.lambda, false};
-    // p is monotonic on a step: points of the trace lie on its folds.
+    // p is monotonic on a step, because the trace stores a point at every fold.
     ((p_there - p) * p_chord < 0.0 ? low : high) = t;
   }
   return guess;
 }
 
-/// The whole spectrum where the path passes p. What the file stores of the equilibrium is a guess, not a
-/// fact: it is part of what is checked.
+/// The whole spectrum at a place of the path; empty if it cannot be computed. The stored equilibria are only
+/// starting values, because they are checked as well.
 std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci,
                                        const LociFile::Position& position, double p) {
   RunCounts counts;
@@ -102,8 +105,8 @@ std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFil
   return spectrum;
 }
 
-/// What is wrong with the scene and the options is a fault of the file, whatever the scene's own file says
-/// now.
+/// rebuild(), with messages that name the loci file: errors in the scene and the options are those of the
+/// stored text, not of a scene file that may have changed since.
 TraceSetup setup_of(const LociFile& loci) {
   try {
     return rebuild(loci);
@@ -164,7 +167,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   if (loci.n_nodes() == 0) throw InputError(loci.path + ": holds no points");
   const TraceSetup setup = setup_of(loci);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
-  problem.steady.relax = false;  // another equilibrium than the stored one proves nothing
+  problem.steady.relax = false;  // relaxation may lead to another equilibrium than the stored one
   const double reference = std::stod(loci.attribute("reference"));
   const bool follows_all = !setup.options.modes;
   const double largest_finite = largest_of(loci);

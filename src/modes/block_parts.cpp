@@ -78,12 +78,12 @@ ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eige
   std::vector<ComplexMatrix> N = Lambda;
   // Subtracts the mean of the eigenvalues; the weighted trace of the square is then ((s_a - s_b) / 2)^2.
   for (ComplexMatrix& n : N) n.diagonal().array() -= n.trace() / size;
-  ComplexVector gap = ComplexVector::Zero(static_cast<Eigen::Index>(N.size()));
+  ComplexVector discriminant = ComplexVector::Zero(static_cast<Eigen::Index>(N.size()));
   for (std::size_t i = 0; i < N.size(); ++i) {
     for (std::size_t j = 0; i + j < N.size(); ++j)
-      gap[static_cast<Eigen::Index>(i + j)] += weight * N[i].cwiseProduct(N[j].transpose()).sum();
+      discriminant[static_cast<Eigen::Index>(i + j)] += weight * N[i].cwiseProduct(N[j].transpose()).sum();
   }
-  return gap;
+  return discriminant;
 }
 
 ComplexVector discriminant_series(const ComplexVector& a, const ComplexVector& b) {

@@ -212,11 +212,10 @@ Spectrum compute_eigenvalues(const ReducedPencil& pencil) {
   return solve_parts(pencil, false);
 }
 
-ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,
-                               double reference) {
+ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double s_ref) {
   constexpr int iterations = 4;
-  constexpr double offset = 1e-9;  // relative to |s|: the shift must not equal the eigenvalue
-  const Complex sigma = s + offset * std::max(std::abs(s), reference);
+  constexpr double offset = 1e-9;  // relative to max(|s|, s_ref): the shift must not equal the eigenvalue
+  const Complex sigma = s + offset * std::max(std::abs(s), s_ref);
   const Eigen::PartialPivLU<ComplexMatrix> lu((sigma * sigma) * M.cast<Complex>() +
                                               sigma * C.cast<Complex>() + K.cast<Complex>());
   // Start vectors without special structure, equal in every run.

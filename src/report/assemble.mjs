@@ -1,5 +1,5 @@
-// Puts styles and scripts into the page: node assemble.mjs PAGE OUTPUT FILE...
-// Where the page says <!-- insert NAME --> it gets the FILE of that name.
+// Inserts styles and scripts into the page: node assemble.mjs PAGE OUTPUT FILE...
+// Each <!-- insert NAME --> in the page is replaced by the contents of the FILE of that name.
 import { basename } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
 

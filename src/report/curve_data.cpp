@@ -14,25 +14,28 @@
 namespace eigentrail {
 namespace {
 
-/// What exceeds the usual size of the largest eigenvalue by this much is on its way to infinity.
+/// An eigenvalue is not shown if it exceeds this multiple of the median, over all points, of the largest
+/// eigenvalue: it goes to infinity.
 constexpr double beyond = 100.0;
-/// No eigenvalue is known better than to this share of itself.
+/// Least tolerance of the curves, relative to the largest eigenvalue of a mode: they are not more accurate.
 constexpr double known_share = 1e-12;
 
-/// How closely the curves are met, as a share of the range of their real and imaginary parts: as well as it
-/// can be, and what still is enough to read numbers off where that takes too much room.
+/// Accuracy of the curves in the page: `share` is the tolerance relative to the range of the real and
+/// imaginary parts, `degree` that of the polynomials. The first entry whose curves fit the budget is used,
+/// otherwise the last one, which is still accurate enough to read numbers from the page.
 struct Closeness {
   double share;
   std::size_t degree;
 };
 constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}};
 
-/// Every mode of a block on a step adds this share to the budget of roots. Where modes only come close some
-/// hundred roots are computed, where they meet a quarter of a million; where a damaged file makes them change
-/// places all along no number is enough.
+/// For each step and each mode in a block of several, the number of eigenvalues that may be computed grows by
+/// ReportBudget::roots divided by this: by 10,000 with the usual budget. Where modes are close, some hundred
+/// are computed on a step, where modes meet, a quarter of a million. In a damaged file, where modes change
+/// places all the time, no number would be enough.
 constexpr std::size_t share_of_step = 1000;
 
-/// What is left of them.
+/// Counts the eigenvalues that are computed from the functions of blocks, and limits their number.
 class RootBudget {
  public:
   RootBudget(const LociFile& loci, std::size_t besides) : path_(loci.path), most_(besides) {
@@ -56,7 +59,7 @@ class RootBudget {
   std::size_t used_ = 0;
 };
 
-/// Distance along the path at every point of the trace.
+/// The distance along the path from its beginning, at every point of the trace.
 std::vector<double> distances(const LociFile& loci) {
   std::vector<double> list{0.0};
   for (const PathStep& step : loci.steps) list.push_back(list.back() + std::abs(step.length));
@@ -70,7 +73,7 @@ const DenseBlock* block_of(const PathStep& step, int mode) {
   return nullptr;
 }
 
-/// One mode on the steps from `first` on, as long as it exists.
+/// The dense output of one mode on the steps from `first` to the last one before the mode ceases to exist.
 class ModeStretch {
  public:
   ModeStretch(const LociFile& loci, int mode, std::size_t first, RootBudget& budget)
@@ -90,7 +93,7 @@ class ModeStretch {
   std::size_t first() const { return first_; }
   std::size_t n_steps() const { return blocks_.size(); }
 
-  /// As `eval` tells it.
+  /// The eigenvalue at t in [0, 1] on step i of the stretch, equal to the output of `eigentrail eval`.
   Complex operator()(std::size_t i, double t) const {
     const auto node = static_cast<Eigen::Index>(first_ + i);
     if (t == 0.0) return loci_.eigenvalues(node, mode_);
@@ -125,7 +128,7 @@ struct Extent {
   double range() const { return high > low ? high - low : 0.0; }
 };
 
-/// What is left out as too large: see `beyond`.
+/// The largest magnitude of an eigenvalue that is shown: see `beyond`.
 double largest_shown(const LociFile& loci) {
   std::vector<double> sizes;
   for (Eigen::Index i = 0; i < loci.eigenvalues.rows(); ++i) {
@@ -155,15 +158,15 @@ PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, do
           std::max(close.share * imag.range(), least), largest};
 }
 
-/// Whole numbers of 32 bits and what turns them into values: middle + unit * number. Zero is among the
-/// values.
+/// The values as integers of 32 bits: value = middle + unit * integer, for real and imaginary parts
+/// separately. The middle is a multiple of the unit, so zero is represented exactly.
 Json fixed_point(const std::vector<Complex>& values) {
   Extent real, imag;
   for (const Complex s : values) {
     real.add(s.real());
     imag.add(s.imag());
   }
-  constexpr double numbers_in_range = 4294967290.0;
+  constexpr double numbers_in_range = 4294967290.0;  // a little less than 2^32, for rounding at the ends
   const auto unit = [](const Extent& extent) { return extent.range() / numbers_in_range; };
   const auto middle = [&](const Extent& extent) {
     const double plain = 0.5 * (extent.low + extent.high);

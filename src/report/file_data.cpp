@@ -54,7 +54,7 @@ Json attributes_data(const Hdf5File& file) {
       try {
         attributes[name] = exact_text(file.real_attribute(name));
       } catch (const Hdf5Error&) {
-        continue;  // somebody added it in a type of their own
+        continue;  // of another type: not written by eigentrail
       }
     }
   }

@@ -1,4 +1,4 @@
-// What the page holds of one file, by kind.
+// The data of one file that the page contains, for each kind of file.
 #pragma once
 
 #include <string>
@@ -9,15 +9,17 @@
 
 namespace eigentrail {
 
-/// Shares of the page's size, in bytes before base64. What does not fit is made coarser or thinned out, and
-/// the page says so.
+/// Limits of the size of a page and of the time to make it. If the data are larger, curves become less
+/// accurate, and shapes are given at fewer points, which the page says.
 struct ReportBudget {
-  std::size_t curves = 5'000'000;
-  std::size_t shapes = 2'500'000;
-  std::size_t roots = 10'000'000;  ///< of blocks: not bytes but time, about a second
+  std::size_t curves = 5'000'000;  ///< bytes of curves before base64
+  std::size_t shapes = 2'500'000;  ///< bytes of mode shapes before base64
+  /// Number of eigenvalues that may be computed from the functions of blocks of several modes (ten million
+  /// take about a second). It grows with the file; exceeding it is an error (curve_data.cpp).
+  std::size_t roots = 10'000'000;
 };
 
-/// Reads a file of any kind. Throws InputError when it cannot be read, or holds nothing to show.
+/// Reads a file of any kind. Throws InputError if it cannot be read or contains nothing to show.
 Json file_data(const std::string& path, const ReportBudget& budget);
 
 /// Root attributes as text, in alphabetical order.
@@ -29,13 +31,14 @@ Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& b
 /// Eigenvalues of every mode, and the parameter, along the path (curve_data.cpp).
 Json curves_data(const LociFile& loci, const ReportBudget& budget);
 
-/// Mode shapes at as many points as the budget has room for, all of them where it has (shape_data.cpp).
+/// Mode shapes at all points, or at as many as the budget allows (shape_data.cpp).
 Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget);
 
-/// Places on points and bodies, and what connects them, as the scene says; nothing for families of matrices
-/// (geometry_data.cpp).
+/// Points, bodies, places on them and the links between these, from the scene; null for matrix families
+/// (geometry_data.cpp). `nodes`: points of the trace at which the parameters are evaluated.
 Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes);
 
+// Boundaries, stability maps (both plane_data.cpp) and accuracy studies.
 Json boundary_data(const Hdf5File& file);
 Json map_data(const Hdf5File& file);
 Json accuracy_data(const Hdf5File& file);

@@ -1,6 +1,6 @@
-// A stick figure of the scene: the origins of points and bodies, the places on them that the scene names, and
-// lines between the two sides of rods, springs, dampers and joints. The scene is read leniently: what is not
-// understood is left out of the figure.
+// A stick figure of the scene: the origins of points and bodies, the named places on them, and lines between
+// the two ends of rods, springs, dampers and joints. Tables of the scene with unknown or unexpected contents
+// are left out of the figure without an error.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -17,7 +17,8 @@ namespace {
 using Triple = std::array<double, 3>;
 using PlaceExpressions = std::array<Expression, 3>;
 
-/// A point (three coordinates) or a body (twelve), and where its coordinates begin.
+/// A point (3 coordinates) or a body (12 coordinates: origin and three axes). `first`: index of its first
+/// coordinate.
 struct Carrier {
   std::string name;
   std::size_t first = 0;
@@ -112,7 +113,7 @@ class Figure {
     if (const auto place = triple(at)) markers_[body + "." + marker] = add_place(*carrier(body), *place);
   }
 
-  /// Coordinates at all nodes, or once where they are the same at all.
+  /// The coordinates of a place at all nodes; a single triple if they are the same at all.
   Json coordinates(const PlaceExpressions& place) const {
     std::vector<Triple> list;
     for (const Vector& values : values_) {
@@ -123,7 +124,8 @@ class Figure {
     return same ? std::vector<Triple>{list[0]} : list;
   }
 
-  /// A place in the axes of a carrier, or in the frame.
+  /// Adds a place with coordinates in the axes of a carrier, or in the frame if there is none. Returns its
+  /// index.
   std::size_t add_place(std::optional<std::size_t> carrier, const PlaceExpressions& at) {
     places_.push_back({{"carrier", carrier ? Json(*carrier) : Json()}, {"at", coordinates(at)}});
     return places_.size() - 1;
@@ -149,7 +151,8 @@ class Figure {
     return fixed ? std::optional(add_place(std::nullopt, *fixed)) : std::nullopt;
   }
 
-  /// Tables with two sides; the line of action of a follower force connects nothing.
+  /// Adds a line for a table with two ends. A follower force is left out: its two places give only its
+  /// direction.
   void read_link(const std::string& kind, const Table& table) {
     if (kind == "follower_force") return;
     const bool bearing = kind == "bearing" || kind == "internal_damping";
@@ -172,7 +175,7 @@ Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes) 
   try {
     return Figure(loci, nodes).data();
   } catch (const InputError&) {
-    return nullptr;  // a scene of a program with other rules: shapes are shown as numbers
+    return nullptr;  // a scene that this version cannot read: the page shows shapes without a figure
   } catch (const ExpressionError&) {
     return nullptr;
   }

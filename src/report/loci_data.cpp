@@ -14,7 +14,7 @@
 namespace eigentrail {
 namespace {
 
-/// Steps from .. to on which a mode is not certified, as points of the trace.
+/// Ranges of steps on which a mode is not certified: pairs of the first and last point of the trace.
 Json uncertified(const LociFile& loci, int mode) {
   Json list = Json::array();
   for (std::size_t i = 0; i < loci.steps.size(); ++i) {
@@ -42,7 +42,8 @@ Json modes_data(const LociFile& loci) {
   return list;
 }
 
-/// Numbers from 0, of modes that the file has.
+/// Mode numbers, counted from 0, from a text such as "1;3", which counts from 1. Numbers of modes that the
+/// file does not have are left out.
 Json mode_numbers(const std::string& text, std::size_t n_modes) {
   Json list = Json::array();
   for (std::size_t at = 0; at < text.size();) {
@@ -59,7 +60,7 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
   Json list = Json::array();
   for (std::size_t i = 0; i < loci.events.size(); ++i) {
     const LociEvent& event = loci.events[i];
-    // A file may be from a version of the program with other kinds.
+    // A file may contain kinds of events that this version does not know.
     const EventKindInfo* kind = find_event_kind(event.kind);
     const EventFacts facts{event.half_width, event.puiseux, event.direction, event.value};
     Json item{{"kind", kind != nullptr ? std::string(kind->long_name) : event.kind},
@@ -94,8 +95,9 @@ Json ranges_data(const LociFile& loci) {
   return list;
 }
 
-/// The frequency whose harmonics the page draws, in rad/s at places of the parameter's range, and the
-/// harmonics that the scene asks for. Null where the parameter is no frequency and the scene gives none.
+/// The excitation frequency (rad/s) at equidistant parameter values, whose harmonics the page draws, and the
+/// harmonics named in the scene. It is the excitation of the scene, or the traced parameter if that has a
+/// unit of frequency; otherwise the result is null.
 Json excitation_data(const LociFile& loci) {
   constexpr int places = 64;
   try {
@@ -123,7 +125,7 @@ Json excitation_data(const LociFile& loci) {
             {"frequency", frequencies},
             {"harmonics", events.values(EventKind::resonance)}};
   } catch (const InputError&) {
-    return nullptr;  // a scene of a program with other rules; the page goes without rays
+    return nullptr;  // a scene that this version cannot read: the page has no lines of harmonics
   }
 }
 

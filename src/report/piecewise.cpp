@@ -7,16 +7,20 @@
 namespace eigentrail {
 namespace {
 
-constexpr double shortest_piece = 1e-13;  ///< of the whole; shorter ones are taken as they are
-constexpr double shortest_at_gap = 1e-6;  ///< of the whole; beside a part that is left out
-/// Pieces of a curve, for every step and besides; near a place where modes meet some forty become ever
-/// shorter. What is so rough that more are needed is taken as it is: it is noise.
+// Lengths are relative to that of the whole range.
+constexpr double shortest_piece = 1e-13;  ///< shorter pieces are accepted without a test of the error
+constexpr double shortest_at_gap = 1e-6;  ///< shorter pieces with values that are left out are not divided
+/// The number of divisions is limited to pieces_besides + pieces_per_step * steps. Towards a place where
+/// modes meet, about forty pieces of decreasing length are needed. If a function needs more pieces than the
+/// limit, it is noise; its pieces are then accepted without a test of the error.
 constexpr std::size_t pieces_per_step = 100;
 constexpr std::size_t pieces_besides = 400;
-constexpr double shortest_in_gap = 1e-3;  ///< of the whole; where nothing seen of the piece may stay
+/// Shorter pieces are not divided if all their values are left out.
+constexpr double shortest_in_gap = 1e-3;
 
 using PieceValues = std::vector<Complex>;
 
+/// The Chebyshev-Lobatto points on [0, 1].
 std::vector<double> places(std::size_t degree) {
   std::vector<double> u;
   for (std::size_t j = 0; j <= degree; ++j) {
@@ -26,8 +30,8 @@ std::vector<double> places(std::size_t degree) {
   return u;
 }
 
-/// The polynomial through values at Chebyshev-Lobatto places; their barycentric weights are (-1)^j, halved at
-/// the ends.
+/// The polynomial through values at the Chebyshev-Lobatto points, by the barycentric formula. The weights are
+/// (-1)^j, halved at the ends.
 Complex interpolated(const std::vector<double>& places, const PieceValues& values, double u) {
   Complex above = 0.0;
   double below = 0.0;
@@ -58,23 +62,26 @@ class Approximation {
   }
 
  private:
-  /// [from, to], between nodes `first` and `last`, which need not be its ends.
+  /// The interval [from, to], which lies between the nodes `first` and `last`.
   struct Range {
     double from, to;
     std::size_t first, last;
   };
 
+  /// The function at a place of the range.
   Complex at(const Range& range, double place) const {
     const auto begin = nodes_.begin() + static_cast<std::ptrdiff_t>(range.first);
     const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(range.last);
     const auto behind = std::upper_bound(begin + 1, end, place);
     const auto i = static_cast<std::size_t>(behind - nodes_.begin()) - 1;
-    const double width = nodes_[i + 1] - nodes_[i];  // zero where a step is lost in the length of the path
+    const double width = nodes_[i + 1] - nodes_[i];  // zero if a step is below rounding of the path length
     return value_(i, width > 0.0 ? std::clamp((place - nodes_[i]) / width, 0.0, 1.0) : 1.0);
   }
 
-  bool fits(Complex value) const { return std::abs(value) <= options_.largest; }  // not where it is no number
+  /// Whether a value is to be shown; false for NaN.
+  bool fits(Complex value) const { return std::abs(value) <= options_.largest; }
 
+  /// Whether the polynomial through `values` is accurate at a place of the range.
   bool meets(const Range& range, const PieceValues& values, double place) const {
     const Complex exact = at(range, place);
     const Complex error =
@@ -83,6 +90,7 @@ class Approximation {
            std::abs(error.imag()) <= options_.imag_tolerance;
   }
 
+  /// Whether it is accurate between its points, and on every step if the range covers several.
   bool meets_everywhere(const Range& range, const PieceValues& values) const {
     for (std::size_t j = 0; j < options_.degree; ++j) {
       const double u = 0.5 * (places_[j] + places_[j + 1]);
@@ -98,6 +106,7 @@ class Approximation {
     return true;
   }
 
+  /// Adds the range as one piece if it is accurate or may not be divided, otherwise its two parts.
   void halve(const Range& range) {
     const bool last = ++halved_ > pieces_besides + pieces_per_step * (nodes_.size() - 1);
     PieceValues values;
@@ -116,7 +125,8 @@ class Approximation {
     }
   }
 
-  /// Cut at the middle one of the nodes within, in the middle where there is none.
+  /// The two parts of a range: divided at the middle one of the nodes inside, or in the middle if there is
+  /// none.
   std::pair<Range, Range> halves(const Range& range) const {
     if (range.last - range.first > 1) {
       const std::size_t cut = (range.first + range.last) / 2;

@@ -1,10 +1,9 @@
-// A function along the path as polynomials on pieces of it: small enough for a page, and accurate enough to
-// read numbers off.
+// Approximates a function along the path by piecewise polynomials, with less data than its dense output.
 //
-// Each piece is the polynomial of degree d through its values at the Chebyshev-Lobatto places
-// (1 - cos(pi j / d)) / 2, j = 0..d. Pieces are halved until the function is met between those places too;
-// they end at points of the trace where they cover more than one step, since the function is smooth between
-// those only.
+// Each piece is the polynomial of degree d through the values at the Chebyshev-Lobatto points
+// (1 - cos(pi j / d)) / 2, j = 0..d. A piece is divided until the error between these points is within the
+// tolerance. A piece that covers several steps is divided at a point of the trace, because the function is
+// smooth only between those.
 #pragma once
 
 #include <functional>
@@ -14,22 +13,22 @@
 
 namespace eigentrail {
 
-/// A stretch without gaps.
+/// A continuous part of the approximation.
 struct PiecewiseCurve {
   std::vector<double> knots;    ///< ends of the pieces, ascending; one more than pieces
-  std::vector<Complex> values;  ///< d per piece and one behind them: neighbours share their ends
+  std::vector<Complex> values;  ///< d * pieces + 1: neighbouring pieces share the value at their common end
 };
 
 struct PiecewiseOptions {
   std::size_t degree = 6;       ///< d >= 2
-  double real_tolerance = 0.0;  ///< of the real part, > 0
-  double imag_tolerance = 0.0;  ///< of the imaginary part, > 0
-  double largest = 0.0;  ///< what exceeds this in absolute value is left out: the curve has a gap there
+  double real_tolerance = 0.0;  ///< absolute error of the real part, > 0
+  double imag_tolerance = 0.0;  ///< absolute error of the imaginary part, > 0
+  double largest = 0.0;  ///< values with a larger magnitude are left out: the approximation has a gap there
 };
 
-/// Approximates a function on [nodes.front(), nodes.back()]; it is smooth between neighbouring nodes, which
-/// ascend. `value(i, t)` is the function at t in [0, 1] between nodes i and i + 1. Several curves where parts
-/// are left out, none where nothing remains.
+/// Approximates a function on [nodes.front(), nodes.back()]. `nodes` ascend; the function is smooth between
+/// neighbouring ones. `value(i, t)` is the function at t in [0, 1] between nodes i and i + 1. Returns several
+/// curves if parts are left out, none if everything is.
 std::vector<PiecewiseCurve> approximate(const std::vector<double>& nodes,
                                         const std::function<Complex(std::size_t, double)>& value,
                                         const PiecewiseOptions& options);

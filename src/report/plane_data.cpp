@@ -1,4 +1,4 @@
-// Boundaries and maps: data over two parameters.
+// The data of boundary files, stability maps and accuracy studies.
 #include <map>
 
 #include "eigentrail/continuation/dense_output.hpp"
@@ -18,7 +18,7 @@ Json axis(const Hdf5File& file, const std::string& name) {
   return {{"name", name}, {"unit", file.text_attribute(name, "units")}};
 }
 
-/// Curves of a boundary file as points of its dense output.
+/// The curves of a boundary file, sampled from its dense output.
 class BoundaryCurves {
  public:
   explicit BoundaryCurves(const Hdf5File& file)
@@ -34,8 +34,8 @@ class BoundaryCurves {
     for (std::size_t i = 0; i < length_.size(); ++i) steps_[step_curve_[i]].push_back(i);
   }
 
-  /// Steps of one curve: `first`, `second`, `real`, `imag` at places along it, and whether it bounds the
-  /// stable region there.
+  /// The steps of one curve. Each has samples of both parameters (`first`, `second`) and of the eigenvalue
+  /// (`real`, `imag`), and says whether it bounds the stable region (`bounds`).
   Json steps(std::size_t curve) const {
     Json list = Json::array();
     const auto found = steps_.find(static_cast<std::int64_t>(curve));
@@ -77,7 +77,7 @@ class BoundaryCurves {
   Shape shape_;
   std::vector<double> dense_, length_;
   std::vector<std::int64_t> step_curve_, step_point_, others_;
-  std::map<std::int64_t, std::vector<std::size_t>> steps_;  ///< by curve
+  std::map<std::int64_t, std::vector<std::size_t>> steps_;  ///< the steps of every curve
 };
 
 Json corners(const Hdf5File& file) {

@@ -9,7 +9,7 @@
 #include "eigentrail/store/output_file.hpp"
 #include "report/file_data.hpp"
 
-// The page without data, scripts and styles in it (page.S.in).
+// The page with its scripts and styles but without data (page.S.in).
 extern "C" const char eigentrail_report_page[];      // NOLINT: named by the assembler
 extern "C" const char eigentrail_report_page_end[];  // NOLINT
 
@@ -21,7 +21,7 @@ constexpr std::string_view signature = "<!DOCTYPE html>\n<!-- eigentrail report 
 
 std::string_view page() {
   return {eigentrail_report_page,
-          // cppcheck-suppress comparePointers ; both belong to one piece of the program
+          // cppcheck-suppress comparePointers ; both point into the same array
           static_cast<std::size_t>(eigentrail_report_page_end - eigentrail_report_page)};
 }
 

@@ -7,15 +7,15 @@
 namespace eigentrail {
 namespace {
 
-constexpr double whole = 32767.0;  ///< largest component of a shape as a whole number of 16 bits
+constexpr double whole = 32767.0;  ///< the integer of 16 bits that represents the largest component
 
 std::size_t bytes_per_node(const LociFile& loci) {
   const std::size_t n = loci.coordinates.size();
   return loci.modes.size() * (2 * n * sizeof(std::int16_t)) + n * sizeof(float);
 }
 
-/// Points of the trace that the page shows shapes at: both ends, those of events, and as many others as there
-/// is room for.
+/// The points of the trace at which the page shows shapes: all of them if there are at most `room`. Otherwise
+/// those of events (at most room / 2 of them) and others spread evenly from the first point to the last.
 std::vector<std::size_t> chosen_nodes(const LociFile& loci, const Hdf5File& file, std::size_t room) {
   const std::size_t n = loci.n_nodes();
   std::set<std::size_t> chosen;
@@ -32,7 +32,8 @@ std::vector<std::size_t> chosen_nodes(const LociFile& loci, const Hdf5File& file
   return {chosen.begin(), chosen.end()};
 }
 
-/// Appends one mode's shape, its largest component being `whole`. A mode that does not exist is zero.
+/// Appends the shape of one mode, scaled so that its largest component has the magnitude `whole`. All zeros
+/// if the mode does not exist.
 void append_shape(const Complex* shape, std::size_t n, std::vector<std::int16_t>& numbers) {
   double size = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

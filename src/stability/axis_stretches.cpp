@@ -11,28 +11,28 @@
 namespace eigentrail {
 namespace {
 
-/// Real parts of stored points below this, relatively, are zero: an undamped system does not grow by
-/// rounding.
+/// At stored points |Re s| below this multiple of max(|s|, reference) counts as zero. Without this, rounding
+/// would make undamped systems alternate between stable and unstable.
 constexpr double vanishing_damping = 1e-9;
-/// A double eigenvalue zero, a rigid-body motion, is known to the root of rounding only, relative to the
-/// largest one of the system.
+/// A defective double eigenvalue zero (a rigid-body motion) is known only to the square root of rounding,
+/// 1.5e-8, relative to the largest eigenvalue of the system. This is twice that.
 constexpr double double_zero = 3e-8;
-/// An event with a real part below this, relatively, lies on the imaginary axis.
+/// An event with |Re s| below this multiple of max(|s|, reference) lies on the imaginary axis.
 constexpr double axis_width = 1e-6;
 constexpr int samples_per_step = 8;
-/// Events closer together than this, relative to the range, are one cut.
+/// Events closer together than this, relative to the parameter range, form one cut.
 constexpr double same_place = 1e-9;
-/// An event closer to a stored point than this, relative to the range, is there.
+/// An event closer to a stored point than this, relative to the parameter range, is at that point.
 constexpr double on_node = 1e-8;
-/// Beyond this multiple of the reference an eigenvalue is about to pass through infinity.
+/// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
 constexpr double infinite_size = 1e9;
 
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
 }
 
-/// How far the eigenvalues of the modes of a block may be off at a place, 1/s, in the order of its modes.
-/// `s`: of all modes there.
+/// Error bounds of the eigenvalues of a block at t on a step of this length, 1/s, in the order of the block's
+/// modes. `s`: the eigenvalues of all modes at t. `exact`: t is a stored point.
 Vector uncertainty(const DenseBlock& block, double length, double t, const ComplexVector& s, bool exact,
                    const EigenvalueAccuracy& accuracy) {
   const double level = exact ? vanishing_damping : accuracy.tolerance;
@@ -81,7 +81,7 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Eigenv
   return result;
 }
 
-/// What a single sample tells, if anything.
+/// The stability at a single sample; empty if the errors leave it open.
 std::optional<Stability> verdict(const AxisSample& sample) {
   if (sample.critical < 0) return std::nullopt;
   if (!sample.unstable.empty()) return Stability::unstable;
@@ -89,26 +89,28 @@ std::optional<Stability> verdict(const AxisSample& sample) {
   return sample.exact ? std::optional(Stability::marginal) : std::nullopt;
 }
 
-/// The end of a step is the beginning of the next.
+/// The same position with the end of a step written as the beginning of the next step.
 PathPosition normalized(const RecordedPath& path, PathPosition at) {
   return at.t >= 1.0 && at.step + 1 < path.steps.size() ? PathPosition{at.step + 1, 0.0} : at;
 }
 
+/// Position of an event on the step that ends at node `event.node`.
 PathPosition position_of(const RecordedPath& path, const Event& event) {
   const std::size_t last = path.steps.size() - 1;
   const std::size_t step = std::min(static_cast<std::size_t>(std::max(event.node - 1, 0)), last);
   const double from_left = std::abs(event.p - path.p[step]);
   const double from_right = std::abs(event.p - path.p[step + 1]);
   const std::vector<double> found = step_positions(path.steps[step], event.p);
-  // The trace puts points on meetings and folds: they are the event. Rounding may also have moved it off the
-  // step.
+  // Where eigenvalues meet and at folds the trace stores a point, so the event is at that point. The nearer
+  // end is also taken if rounding has moved the event off the step.
   const double near = on_node * (path.highest() - path.lowest());
   if (found.empty() || std::min(from_left, from_right) <= near)
     return normalized(path, {step, from_left < from_right ? 0.0 : 1.0});
   return normalized(path, {step, found.front()});
 }
 
-/// Ends of the trace, and every event on the imaginary axis; sorted.
+/// The ends of the trace, its folds and branch points, and all other events on the imaginary axis except
+/// veerings; sorted along the trace.
 std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Event>& events,
                                 const EigenvalueAccuracy& accuracy) {
   std::vector<AxisCut> cuts;
@@ -126,7 +128,7 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
   return cuts;
 }
 
-/// Cuts at one place become one. An event says more than an end of the trace.
+/// Merges cuts at the same place. An event takes precedence over an end of the trace.
 std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> cuts) {
   const double near = same_place * (path.highest() - path.lowest());
   std::vector<AxisCut> result;
@@ -149,6 +151,8 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
   return result;
 }
 
+/// Samples the stretch: all stored points inside, samples_per_step places of every step or part of a step,
+/// and its ends where they are not on the axis.
 void add_samples(const RecordedPath& path, const EigenvalueAccuracy& accuracy, AxisStretch& stretch) {
   const PathPosition from = stretch.from.at;
   const PathPosition to = stretch.to.at;
@@ -165,10 +169,11 @@ void add_samples(const RecordedPath& path, const EigenvalueAccuracy& accuracy, A
   if (!stretch.to.on_axis) add(to.step, to.t);
 }
 
-/// Where the dense output changes between two samples of different verdict.
+/// The place between two samples, one growing and one not, at which the dense output changes from growing to
+/// not growing, by bisection.
 AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const AxisSample& second,
                     const EigenvalueAccuracy& accuracy) {
-  constexpr int halvings = 60;
+  constexpr int halvings = 60;  // more than the 53 bits of a double: the loop ends before
   const AxisSample& growing = first.unstable.empty() ? second : first;
   const AxisSample& other = first.unstable.empty() ? first : second;
   const auto grows = [&](const AxisSample& s) {
@@ -198,7 +203,8 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   return cut;
 }
 
-/// The first two neighbouring samples of which one grows and the other does not.
+/// A cut between the first two neighbouring samples of which one is unstable and the other is not; empty if
+/// there are none. Samples without a verdict are passed over.
 std::optional<AxisCut> missing_cut(const RecordedPath& path, const AxisStretch& stretch,
                                    const EigenvalueAccuracy& accuracy) {
   const AxisSample* before = nullptr;
@@ -212,25 +218,26 @@ std::optional<AxisCut> missing_cut(const RecordedPath& path, const AxisStretch& 
   return std::nullopt;
 }
 
-/// What the samples of a stretch tell together.
+/// The stability of a stretch from all its samples; empty if no sample has a verdict.
 std::optional<Stability> verdict(const AxisStretch& stretch) {
   std::optional<Stability> result;
   for (const AxisSample& here : stretch.samples) {
     const auto told = verdict(here);
     if (told == Stability::unstable) return told;
-    // A real part that touches the axis at a stored point only does not make the stretch marginal.
+    // One stable sample makes the stretch stable, also if some real part is zero at a stored point.
     if (told && result != Stability::stable) result = told;
   }
   return result;
 }
 
-/// Appends the stretch between two cuts, or its parts where the samples show that a cut is missing.
+/// Appends the stretch between two cuts. Where the samples show that a cut is missing, the stretch is split
+/// there and both parts are treated likewise.
 void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut& to,
                    const EigenvalueAccuracy& accuracy, int depth, std::vector<AxisStretch>& stretches) {
-  constexpr int deepest = 12;
+  constexpr int deepest = 12;  // limits the recursion where noise makes signs alternate
   AxisStretch stretch{from, to};
   add_samples(path, accuracy, stretch);
-  if (stretch.samples.empty()) return;  // a sign seems to change where a cut is already
+  if (stretch.samples.empty()) return;  // the sign change lies at a cut that exists already
   if (const auto cut = depth < deepest ? missing_cut(path, stretch, accuracy) : std::nullopt) {
     add_stretches(path, from, *cut, accuracy, depth + 1, stretches);
     add_stretches(path, *cut, to, accuracy, depth + 1, stretches);
@@ -242,7 +249,8 @@ void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut&
   stretches.push_back(std::move(stretch));
 }
 
-/// The modes that grow on the other side of a cut: those that pass the axis there change, the others do not.
+/// The modes that grow on the other side of a cut, given those that grow on this side. The modes of the cut
+/// change from growing to decaying or the reverse; all others stay as they are.
 std::vector<int> passed(const std::vector<int>& unstable, const AxisCut& cut) {
   std::vector<int> result;
   std::set_symmetric_difference(unstable.begin(), unstable.end(), cut.modes.begin(), cut.modes.end(),
@@ -250,7 +258,7 @@ std::vector<int> passed(const std::vector<int>& unstable, const AxisCut& cut) {
   return result;
 }
 
-/// Modes that grow at the first, or last, sample that tells.
+/// Modes that grow at the first (or last) sample with a verdict.
 std::vector<int> unstable_at_end(const AxisStretch& stretch, bool first) {
   const auto tells = [](const AxisSample& s) { return verdict(s).has_value(); };
   const auto& samples = stretch.samples;
@@ -259,7 +267,8 @@ std::vector<int> unstable_at_end(const AxisStretch& stretch, bool first) {
                : std::find_if(samples.rbegin(), samples.rend(), tells)->unstable;
 }
 
-/// A stretch on which nothing was seen, told from a neighbour of known stability and the cut between.
+/// Sets the stability of a stretch without verdict from a neighbour and the cut between them. Returns false,
+/// and changes nothing, if modes do not pass the axis at the cut or the neighbour is marginal.
 bool settle(AxisStretch& stretch, const AxisStretch& neighbour, bool neighbour_is_next) {
   const AxisCut& cut = neighbour_is_next ? stretch.to : stretch.from;
   if (!cut.passes || neighbour.stability == Stability::marginal) return false;
@@ -269,6 +278,8 @@ bool settle(AxisStretch& stretch, const AxisStretch& neighbour, bool neighbour_i
   return true;
 }
 
+/// Sets the stability of all stretches without verdict, from the stretch before where possible, otherwise
+/// from the stretch behind.
 void settle_unseen(std::vector<AxisStretch>& stretches) {
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     if (stretches[i].seen) continue;

@@ -13,11 +13,14 @@
 namespace eigentrail {
 namespace {
 
-/// Shares of the progress bar.
+/// Progress reported after the scan of the lines, and after the walks.
 constexpr double scanned = 0.4;
 constexpr double walked = 0.5;
-constexpr double longest_correction = 0.03;  ///< of the window: a seed that moves by more was none
-/// A function whose change over the window is less than this share of |s| does not change.
+/// A seed is accurate to the trace's tolerance. One that Newton's method moves farther than this, in the
+/// scaled window, is rejected: Newton found another boundary.
+constexpr double longest_correction = 0.03;
+/// If |grad g| over the scaled window is less than this multiple of |s| (divergence: of the norm of K), g
+/// counts as constant: its zero set is no curve.
 constexpr double flat = 1e-8;
 
 class BoundarySearch {
@@ -56,12 +59,12 @@ class BoundarySearch {
   std::vector<BoundarySeed> seeds_;
   std::vector<LineExtremum> extrema_;
   std::vector<FollowedCurve> curves_;
-  std::map<std::string, std::vector<std::string>> findings_;  ///< where each holds
+  std::map<std::string, std::vector<std::string>> findings_;  ///< per finding: the places where it holds
   int points_ = 0;
-  double share_ = 0.0;  ///< of the work done
+  double share_ = 0.0;  ///< share of the work that is done, 0 to 1
 };
 
-/// The edges first, then the inner lines.
+/// The four edges of the window first, then the inner lines.
 std::vector<ScanLine> scan_lines(int inner) {
   std::vector<ScanLine> lines;
   for (const int along : {0, 1}) {
@@ -119,7 +122,8 @@ void BoundarySearch::walk() {
   report(walked);
 }
 
-/// On the boundary, first along the line it was found on: a seed on an edge stays there.
+/// The point of the boundary near a seed, by Newton's method. The first attempt moves along the line on which
+/// the seed was found, so a seed on an edge stays there. Further attempts move along grad g, P and Q.
 Situation BoundarySearch::correct_seed(const BoundarySeed& seed, const BoundaryFunction& function) {
   const PathProblem problem = window_.at(seed.place);
   const PathPoint point =
@@ -141,7 +145,7 @@ Situation BoundarySearch::correct_seed(const BoundarySeed& seed, const BoundaryF
   guess.equilibrium = {point.equilibrium.x, point.equilibrium.lambda, true};
   guess.block = starting_block(seed.kind, point, *nearest);
   guess.basis = point.basis.T[0];
-  const Place gradient_itself = Place::Zero();
+  const Place gradient_itself = Place::Zero();  // correct_along takes zero as the direction of grad g
   for (const Place& direction :
        {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
     const Situation there = correct_along(window_, function, guess, direction, result_.counts);
@@ -155,6 +159,7 @@ Situation BoundarySearch::correct_seed(const BoundarySeed& seed, const BoundaryF
   return failed;
 }
 
+/// The first point of a curve from a seed; empty if there is none. Notes the seed if Newton's method fails.
 std::optional<CurvePoint> BoundarySearch::start_on(const BoundarySeed& seed,
                                                    const BoundaryFunction& function) {
   const Situation there = correct_seed(seed, function);
@@ -166,7 +171,8 @@ std::optional<CurvePoint> BoundarySearch::start_on(const BoundarySeed& seed,
   }
   const double tau = there.functions(0, 0).real();
   const double delta = there.functions.rows() > 1 ? there.functions(1, 0).real() : 0.0;
-  if (function.passed_end(tau, delta)) return std::nullopt;  // two real roots of opposite sign
+  // tau = 0 with two real eigenvalues of opposite sign (flutter), or tau of the wrong sign (damping ratio).
+  if (function.passed_end(tau, delta)) return std::nullopt;
   const auto gradients = function_gradients(window_, there, result_.counts);
   const double size = seed.kind == BoundaryKind::divergence
                           ? there.pencil.K[0].norm()
@@ -193,10 +199,10 @@ void BoundarySearch::follow(const BoundarySeed& seed) {
   };
   curves_.push_back(follow_curve(window_, function, {tolerance, options_.trace.max_nodes}, *start, on_point,
                                  result_.rejected_steps, result_.counts));
-  if (curves_.back().steps.empty()) curves_.pop_back();  // it only touches a corner of the window
+  if (curves_.back().steps.empty()) curves_.pop_back();  // it touches the window in a single point
 }
 
-/// Each finding once, with the first of its places.
+/// One note per finding, with the number of its places and the first of them.
 std::vector<std::string> told(const std::map<std::string, std::vector<std::string>>& findings) {
   std::vector<std::string> notes;
   for (const auto& [what, places] : findings) {
@@ -210,7 +216,7 @@ void BoundarySearch::finish() {
   FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
   result_.corners = std::move(found.corners);
   for (const Place& place : found.apart)
-    note({"crossings of curves that belong to different equilibria, which are no corners",
+    note({"intersections of curves that belong to different equilibria, which are no corners",
           window_.text(place)});
   result_.notes = told(findings_);
   for (const FollowedCurve& followed : curves_) {
@@ -282,7 +288,7 @@ std::string curve_end_name(CurveEnd end) {
 }
 
 std::string corner_name(CornerKind kind) {
-  return kind == CornerKind::crossing ? "crossing" : "takens_bogdanov";
+  return kind == CornerKind::intersection ? "intersection" : "takens_bogdanov";
 }
 
 }  // namespace eigentrail

@@ -20,13 +20,15 @@ Matrix reduced(const TangentBasis& basis, const Matrix& physical) {
   return basis.is_identity ? physical : Matrix(basis.T[0].transpose() * physical);
 }
 
-/// -g b c' + K: its eigenvalue g vanishes where K is singular, and is simple there whatever K is.
+/// The linear pencil K + g B with B = `border`, of rank one. Its only finite eigenvalue g vanishes where K is
+/// singular, and is simple there.
 ReducedPencil bordered(const ReducedPencil& pencil, const Matrix& border) {
   const Eigen::Index n = pencil.size();
   return {{Matrix::Zero(n, n)}, {border}, pencil.K};
 }
 
-/// Magnitude below which the followed eigenvalue counts as zero.
+/// Reference of the relative error of the followed eigenvalue: that of the window, or the norm of K for
+/// divergence, where the eigenvalue is g.
 double reference(const Window& window, const BoundaryFunction& function, const ReducedPencil& pencil) {
   return function.kind == BoundaryKind::divergence ? std::max(pencil.K[0].norm(), 1e-300)
                                                    : window.reference();

@@ -1,4 +1,5 @@
-// The mode whose boundary is followed, at one place of the window, and the function g that vanishes on it.
+// The mode whose boundary is followed, at one place of the window, and the function g that vanishes on the
+// boundary (boundary.hpp).
 #pragma once
 
 #include <optional>
@@ -8,29 +9,32 @@
 
 namespace eigentrail {
 
-/// What is followed.
+/// The function g of one kind of boundary.
 struct BoundaryFunction {
   BoundaryKind kind = BoundaryKind::flutter;
-  double damping_ratio = 0.0;  ///< of kind damping_ratio
+  double damping_ratio = 0.0;  ///< the ratio asked for; used by kind damping_ratio only
 
-  /// g from the series of a block's functions; real.
+  /// Power series of g from those of the block's functions (row 0: tau, row 1: delta; divergence: g).
   Vector series(const ComplexMatrix& functions) const;
 
-  /// Whether the curve ends at or before a point with these values of tau and delta: a pair has become real.
+  /// Whether the curve ends at or before a point with these values of tau and delta: flutter ends where the
+  /// pair becomes real (delta = 0), a damping ratio where tau changes its sign.
   bool passed_end(double tau, double delta) const;
 
-  /// The distance to that end, negative beyond it.
+  /// A measure of the distance to that end, negative beyond it: -delta or -tau * damping_ratio; infinite for
+  /// divergence.
   double distance_to_end(double tau, double delta) const;
 };
 
-/// The followed block at a place, as it is expected or as it is.
+/// The followed block (the mode and its conjugate, or the null vector of K) at a place, predicted or
+/// computed.
 struct BoundaryBlock {
   ComplexMatrix Z;       ///< n x k, physical coordinates; k = 2 for a pair, 1 for divergence
   ComplexMatrix Lambda;  ///< k x k, real
-  Vector left;           ///< n, physical: left null vector of the stiffness, about; divergence only
+  Vector left;           ///< n, physical: approximate left null vector of the stiffness; divergence only
 };
 
-/// Where a point is looked for.
+/// A place and starting values for the equilibrium and the block there.
 struct PlaceGuess {
   Place place;
   EquilibriumGuess equilibrium;
@@ -38,48 +42,51 @@ struct PlaceGuess {
   Matrix basis;  ///< tangent basis of a neighbouring point
 };
 
-/// A place with the equilibrium and the mode there.
+/// A place with the computed equilibrium and block.
 struct Situation {
   PointStatus status = PointStatus::computed;
   std::string message;  ///< reason when not computed
   Place place;
-  PathPoint point;          ///< without pairs
-  ReducedPencil pencil;     ///< order 0: that of the point, or for divergence -g b c' + K
-  bool bordered = false;    ///< the latter
+  PathPoint point;          ///< its invariant pairs are not computed
+  ReducedPencil pencil;     ///< order 0: that of the point, or K - g b c' for divergence
+  bool bordered = false;    ///< whether it is K - g b c'
   InvariantPair pair;       ///< of `pencil`, in reduced coordinates
   ComplexMatrix functions;  ///< of the block, order 0
 };
 
+/// Solves the equilibrium and corrects the block at the place of a guess. A failure is reported in `status`
+/// and `message`.
 Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
                             RunCounts& counts);
 
 /// The same situation as a guess for another place.
 PlaceGuess as_guess(const Situation& situation, const Place& place);
 
-/// Left null vector of the stiffness, bordered as the pencil of the situation; physical coordinates. Empty
-/// when it is not bordered.
+/// Left null vector of K from the transposed bordered system; physical coordinates, unit norm in reduced
+/// ones. Exact where g = 0. Empty if the situation is not bordered.
 Vector left_vector(const Situation& situation);
 
-/// Everything at a place as series along a curve through it.
+/// Equilibrium, block and its functions as power series along a curve through a place.
 struct SituationSeries {
-  PathNode node;            ///< without tracks
+  PathNode node;            ///< without the tracks of modes
   PairSeries mode;          ///< Z in physical coordinates
   ComplexMatrix functions;  ///< of the block
 };
 
-/// `places` (2 x <= order + 1) is the curve, scaled; column 0 the place itself. Empty when a coefficient is
-/// not finite.
+/// `places`: series of the curve in scaled coordinates, 2 x m with m <= order + 1; column 0 is the place
+/// itself. Empty if a coefficient is not finite.
 std::optional<SituationSeries> differentiate_situation(const Window& window, const Situation& situation,
                                                        const Matrix& places, int order, RunCounts& counts);
 
-/// Derivatives of the block's functions along P and Q: k x 2.
+/// Derivatives of the block's k functions with respect to the scaled P and Q: k x 2. Empty if one is not
+/// finite.
 std::optional<Matrix> function_gradients(const Window& window, const Situation& situation, RunCounts& counts);
 
-/// Gradient of g at a place with these functions (order 0) and their gradients.
+/// Gradient of g with respect to the scaled P and Q, from the functions (order 0) and their gradients.
 Place gradient(const BoundaryFunction& function, const ComplexMatrix& functions, const Matrix& gradients);
 
-/// The block of a mode of a spectrum at a reduced point; of kind divergence: of the smallest singular value
-/// of the stiffness.
+/// The block of a mode of a spectrum at a reduced point. For divergence: the singular vectors of the smallest
+/// singular value of K; `mode` is not used.
 BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const StartingMode& mode);
 
 }  // namespace eigentrail

@@ -9,11 +9,11 @@
 namespace eigentrail {
 namespace {
 
-/// Points in either direction at which masses, lengths and the direction of gravity are checked.
+/// Number of values of each parameter at which masses, lengths and the direction of gravity are checked.
 constexpr int checked_points = 9;
 
-/// The range of the first parameter must be given here when the scene's belongs to another one, or is
-/// missing.
+/// The range of the first parameter must be given in the request if the scene has no range, or if the
+/// request names another parameter than the scene. Throws InputError.
 void require_first_range(const Scene& scene, const BoundaryRequest& request) {
   if (request.first_from && request.first_to) return;
   const std::vector<const Table*> found = tables(scene, "trace");
@@ -60,7 +60,7 @@ void check_numbers(const BoundaryOptions& options) {
                      exact_text(*options.damping_ratio));
 }
 
-/// Declared values with both parameters at places all over the window, its corners first.
+/// Values of all declared parameters at points all over the window, its four corners first.
 std::vector<Vector> places_to_check(const Scene& scene, const BoundaryOptions& options) {
   const int first = scene.parameters.index(options.trace.parameter).value();
   const int second = scene.parameters.index(options.second).value();
@@ -98,12 +98,13 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
                      " damping ratios; choose one of them here, or 0 for the imaginary axis");
   options.damping_ratio = request.damping_ratio;
   if (!options.damping_ratio && !ratios.empty()) options.damping_ratio = ratios.front();
-  // Modes of damping ratio zero are those on the imaginary axis.
+  // A damping ratio of zero is the imaginary axis: flutter and divergence.
   if (options.damping_ratio == 0.0) options.damping_ratio.reset();
   options.lines = request.lines.value_or(options.lines);
   check_second_parameter(setup.scene.parameters, options.second, options.trace.parameter);
   check_numbers(options);
-  // Both must enter the model.
+  // build_model reports parameters on which the model does not depend, except those in `used`. Both
+  // parameters of the window must enter the model.
   used.erase(setup.scene.parameters.index(options.trace.parameter).value());
   used.erase(setup.scene.parameters.index(options.second).value());
   setup.model =

@@ -11,15 +11,18 @@
 namespace eigentrail {
 namespace {
 
-constexpr int pieces = 8;  ///< straight pieces that a step is looked at in
+// Lengths are in the scaled window.
+constexpr int pieces = 8;  ///< straight pieces that a step is divided into to find intersections
 constexpr int most_corrections = 10;
-constexpr double settled = 1e-14;
-constexpr double stagnated = 1e-10;
-constexpr double same_corner = 1e-7;       ///< of the window
-constexpr double same_coordinates = 1e-4;  ///< relative
-constexpr double least_sine = 1e-3;        ///< of the angle between curves that cross rather than touch
+constexpr double settled = 1e-14;     ///< smaller Newton corrections are rounding
+constexpr double stagnated = 1e-10;   ///< corrections below this that no longer halve are rounding
+constexpr double same_corner = 1e-7;  ///< corners of the same curves closer than this are one
+/// Largest relative difference of the predicted coordinates of one equilibrium: the error of predictions.
+constexpr double same_coordinates = 1e-4;
+/// Least sine of the angle between the two curves: below it they touch and do not intersect.
+constexpr double least_sine = 1e-3;
 
-/// A step as a chain of straight pieces.
+/// A step as a polygon with its bounding box.
 struct Chain {
   std::array<Place, pieces + 1> places;
   Place low, high;
@@ -41,19 +44,20 @@ bool apart(const Place& low_a, const Place& high_a, const Place& low_b, const Pl
   return (low_a.array() > high_b.array()).any() || (low_b.array() > high_a.array()).any();
 }
 
-/// Where two straight pieces cross: shares of each; empty when they do not.
-std::optional<Place> crossing(const Place& a0, const Place& a1, const Place& b0, const Place& b1) {
+/// The intersection of two straight pieces, as fractions of the length of each; empty if there is none.
+std::optional<Place> intersection(const Place& a0, const Place& a1, const Place& b0, const Place& b1) {
   if (apart(a0.cwiseMin(a1), a0.cwiseMax(a1), b0.cwiseMin(b1), b0.cwiseMax(b1))) return std::nullopt;
   Eigen::Matrix2d sides;
   sides << a1 - a0, b0 - b1;
   if (std::abs(sides.determinant()) <= 1e-12 * (a1 - a0).norm() * (b1 - b0).norm()) return std::nullopt;
   const Place shares = sides.inverse() * (b0 - a0);
-  constexpr double slack = 1e-3;  // pieces are straight, the curves are not
+  constexpr double slack = 1e-3;  // the curves deviate from the straight pieces
   const bool inside = shares.minCoeff() >= -slack && shares.maxCoeff() <= 1.0 + slack;
   return inside ? std::optional(shares) : std::nullopt;
 }
 
-/// Coordinates of the predicted equilibria differ by no more than the prediction's error.
+/// Whether two predicted equilibria are the same: their coordinates differ by no more than the error of the
+/// predictions.
 bool same_equilibrium(const PlaceGuess& a, const PlaceGuess& b) {
   constexpr double rounding = 1e-12;
   const Vector& x = a.equilibrium.x;
@@ -72,22 +76,23 @@ class CornerFinder {
   }
 
   void add_ends(double tolerance);
-  void add_crossings();
+  void add_intersections();
   FoundCorners found() &&;
 
  private:
-  /// A step of a curve.
+  /// A step of a curve, both numbered from 0.
   struct At {
     std::size_t curve, step;
   };
   bool are_neighbours(At a, At b) const;
   void look_at(At a, At b);
-  /// Newton for both functions; false where that has no solution nearby.
+  /// Newton's method for g = 0 of both modes from t on the two steps; false if it finds no solution nearby.
   bool locate(At a, At b, const Place& t);
-  /// Where the dense curves cross: for a function whose own curves cross, which Newton cannot find.
+  /// The intersection of the dense output of the two steps. Needed where a zero set of one function g
+  /// intersects itself: grad g vanishes there and Newton's method for g fails.
   void locate_on_dense(At a, At b, Place t);
   PlaceGuess guess_at(At at, double t) const;
-  /// The eigenvalue of a block with Im s >= 0.
+  /// The eigenvalue of the block with Im s >= 0; 0 for divergence.
   Complex eigenvalue(At at, const Situation& situation) const;
   void add(CornerKind kind, const Place& place, std::array<Complex, 2> s, std::size_t a, std::size_t b);
 
@@ -95,7 +100,7 @@ class CornerFinder {
   const std::vector<FollowedCurve>& curves_;
   RunCounts& counts_;
   std::vector<std::vector<Chain>> chains_;
-  std::vector<Corner> corners_;  ///< places still scaled
+  std::vector<Corner> corners_;  ///< with scaled places; found() converts them
   std::vector<Place> apart_;
 };
 
@@ -108,7 +113,7 @@ void CornerFinder::add(CornerKind kind, const Place& place, std::array<Complex, 
   if (!known) corners_.push_back({kind, place, s, curves});
 }
 
-/// Curves of pairs whose frequency reaches zero.
+/// Takens-Bogdanov points: ends of curves of complex pairs that lie on a curve of divergence.
 void CornerFinder::add_ends(double tolerance) {
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     for (const CurvePoint& point : curves_[i].points) {
@@ -129,7 +134,7 @@ bool CornerFinder::are_neighbours(At a, At b) const {
   return b.step <= a.step + 1 || (closed && a.step == 0 && b.step + 1 == count);
 }
 
-void CornerFinder::add_crossings() {
+void CornerFinder::add_intersections() {
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     for (std::size_t j = i; j < curves_.size(); ++j) {
       for (std::size_t a = 0; a < chains_[i].size(); ++a) {
@@ -148,7 +153,7 @@ void CornerFinder::look_at(At a, At b) {
   for (std::size_t k = 0; k < pieces; ++k) {
     for (std::size_t l = 0; l < pieces; ++l) {
       const auto shares =
-          crossing(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
+          intersection(first.places[k], first.places[k + 1], second.places[l], second.places[l + 1]);
       if (!shares) continue;
       const Place t = (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces;
       const PlaceGuess first_guess = guess_at(a, t[0]);
@@ -174,7 +179,7 @@ Complex CornerFinder::eigenvalue(At at, const Situation& situation) const {
   return roots[0].imag() >= 0.0 ? roots[0] : roots[1];
 }
 
-/// Newton for g = 0 of both modes, tracked anew at every guess.
+/// Equilibrium and both modes are computed again at every iterate.
 bool CornerFinder::locate(At a, At b, const Place& t) {
   const std::array<At, 2> at{a, b};
   std::array<PlaceGuess, 2> guess{guess_at(a, t[0]), guess_at(b, t[1])};
@@ -203,8 +208,8 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
     if (!((there[0].place + move - start).norm() <= reach)) return false;
     if (size <= settled || (size > 0.5 * last && last <= stagnated)) {
       if (Window::contains(there[0].place))
-        add(CornerKind::crossing, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])}, a.curve,
-            b.curve);
+        add(CornerKind::intersection, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])},
+            a.curve, b.curve);
       return true;
     }
     last = size;
@@ -225,19 +230,21 @@ void CornerFinder::locate_on_dense(At a, At b, Place t) {
     if (move.norm() > stagnated) continue;
     if ((second.place(t[1]) - first.place(t[0])).norm() > same_corner) return;
     const auto root = [](const Eigen::Vector4d& at) { return at[2] + std::sqrt(Complex(at[3])); };
-    add(CornerKind::crossing, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve, b.curve);
+    add(CornerKind::intersection, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve,
+        b.curve);
     return;
   }
 }
 
 FoundCorners CornerFinder::found() && {
-  // Where a curve of pairs ends on one of divergence they touch; they do not cross.
+  // At a Takens-Bogdanov point the curve of pairs touches the curve of divergence. An intersection of these
+  // two curves close to it is the same point.
   FoundCorners result{{}, std::move(apart_)};
   for (const Corner& corner : corners_) {
     const bool touches =
-        corner.kind == CornerKind::crossing &&
+        corner.kind == CornerKind::intersection &&
         std::any_of(corners_.begin(), corners_.end(), [&](const Corner& other) {
-          constexpr double near = 1e-4;
+          constexpr double near = 1e-4;  // of the window
           return other.kind == CornerKind::takens_bogdanov && (other.place - corner.place).norm() < near &&
                  std::is_permutation(other.curves.begin(), other.curves.end(), corner.curves.begin());
         });
@@ -253,7 +260,7 @@ FoundCorners find_corners(const Window& window, const std::vector<FollowedCurve>
                           RunCounts& counts) {
   CornerFinder finder(window, curves, counts);
   finder.add_ends(tolerance);
-  finder.add_crossings();
+  finder.add_intersections();
   return std::move(finder).found();
 }
 

@@ -1,4 +1,5 @@
-// Where boundaries meet.
+// Corners: points at which boundaries intersect, or at which a curve of complex pairs ends on a curve of
+// divergence.
 #pragma once
 
 #include "stability/curve_follower.hpp"
@@ -7,11 +8,11 @@ namespace eigentrail {
 
 struct FoundCorners {
   std::vector<Corner> corners;  ///< places in the parameters' units
-  std::vector<Place> apart;     ///< scaled places where curves cross that belong to different equilibria
+  std::vector<Place> apart;     ///< scaled places where curves of different equilibria intersect
 };
 
-/// Intersections of all curves with each other and with themselves, both modes tracked anew there; and the
-/// points where curves of pairs end on curves of divergence.
+/// All corners of the curves, intersections of a curve with itself included. Intersections are corrected by
+/// Newton's method for both modes.
 FoundCorners find_corners(const Window& window, const std::vector<FollowedCurve>& curves, double tolerance,
                           RunCounts& counts);
 

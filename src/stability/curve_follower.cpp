@@ -8,20 +8,27 @@
 namespace eigentrail {
 namespace {
 
-constexpr double accepted_share = 0.5;  ///< of the tolerance, as in a trace
-constexpr double first_step = 0.02;     ///< of the window; likewise below
+// Lengths are in the scaled window.
+constexpr double accepted_share = 0.5;  ///< largest accepted error estimate as a fraction of the tolerance
+constexpr double first_step = 0.02;
 constexpr double longest_step = 0.1;
 constexpr double shortest_step = 1e-9;
-constexpr double same_place = 1e-9;
-constexpr double bent_too_much = 30.0;  ///< a step whose ends look away from its chord counts as this error
+constexpr double same_place = 1e-9;  ///< places closer than this are one
+/// Error, relative to the allowed one, that the step control gets if a tangent at an end of the step deviates
+/// too much from the chord.
+constexpr double bent_too_much = 30.0;
 constexpr int samples_per_step = 16;
-/// Of |s|: at the shortest step from an exceptional point two eigenvalues are closer than this.
+/// If the step becomes too short and another eigenvalue is closer than this multiple of |s|, the curve ends
+/// at an exceptional point.
 constexpr double coalescing = 1e-3;
-/// Steps shrink with the distance from a fold; below this they only fight the rounding that grows there.
+/// Steps shrink with the distance from a fold of the equilibrium. Shorter steps than this near a fold are
+/// useless, because rounding errors grow there; the curve ends.
 constexpr double shortest_beside_fold = 1e-6;
-constexpr double near_fold = 1e-3;  ///< reciprocal condition of the equilibrium's stiffness
+/// A reciprocal condition number of the equilibrium's stiffness below this means that a fold is near.
+constexpr double near_fold = 1e-3;
 
-/// Whether a step's dense curve passes a place with this eigenvalue.
+/// Whether the dense output of a step passes through a place with the eigenvalue `s` there. The tolerances
+/// exceed the sum of the errors of the two curves compared.
 bool step_passes(const ChordStep& step, const Place& place, Complex s, double tolerance, double s_ref) {
   const double reach = 3.0 * tolerance + same_place;
   const Place middle = 0.5 * (step.left.col(0) + step.right.col(0)).head<2>();
@@ -34,8 +41,8 @@ bool step_passes(const ChordStep& step, const Place& place, Complex s, double to
   return std::min(std::abs(root - s), std::abs(root - std::conj(s))) <= near;
 }
 
-/// The first t in [0, 1] beyond which `value` is negative, by bisection between samples; above 1 when there
-/// is none.
+/// The first t in [0, 1] at which `value` becomes negative, by bisection between samples; above 1 if there is
+/// none.
 template <class Value>
 double first_negative(Value&& value) {
   for (int k = 1; k <= samples_per_step; ++k) {
@@ -52,7 +59,7 @@ double first_negative(Value&& value) {
   return 2.0;
 }
 
-/// One direction of a curve.
+/// The part of a curve on one side of its seed.
 class Arm {
  public:
   Arm(const Window& window, const BoundaryFunction& function, const FollowOptions& options,
@@ -81,7 +88,9 @@ class Arm {
 
  public:
   std::vector<CurvePoint> points;  ///< from the seed on
-  std::vector<ChordStep> steps;    ///< in the direction of the curve, which may be against that of the arm
+  /// Each step points in the direction of the curve. If `sign_` is negative, that is from the end of the arm
+  /// towards the seed.
+  std::vector<ChordStep> steps;
   CurveEnd end = CurveEnd::lost;
   std::string reason;
   int rejected = 0;
@@ -89,18 +98,25 @@ class Arm {
  private:
   enum class Landing { nothing, landed, failed };
 
+  /// Tries one step. Returns whether the arm goes on.
   bool advance(StepControl& control);
-  /// Ends the arm on the first thing within the step that ends it.
+  /// If the arm ends within the step (edge of the window, end of the curve, return to the seed), computes the
+  /// first such end.
   Landing land(const ChordStep& step);
+  /// Ends on the edge of the window that the step crosses at t.
   Landing land_on_edge(const ChordStep& step, double t);
-  /// The same with the dense output of a step that reaches over the edge. Needed where the function followed
-  /// vanishes all along the edge, as in a system without damping: no Newton step leads there.
+  /// Ends on the edge with the dense output of the step instead of Newton's method. Needed where g vanishes
+  /// all along the edge, as for a system without damping: g = 0 then does not determine the place.
   Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess);
+  /// Ends at the Takens-Bogdanov point near t, where tau = delta = 0.
   Landing land_on_end(const ChordStep& step, double t);
+  /// Ends by joining the seed.
   Landing close();
+  /// Appends the last point, unless the arm is there already, and sets its flag and the kind of end.
   Landing finish(const Situation& there, PointFlag flag, CurveEnd how);
-  /// False when the step to the point is not accurate enough.
+  /// Appends a point and the step to it; false if the step is not accurate enough.
   bool append(CurvePoint next);
+  /// Shortens the step. Returns false, with the reason of the end set, if it is too short already.
   bool reject(StepControl& control, double h, double error, const std::string& why,
               PointStatus status = PointStatus::mode_lost);
 
@@ -122,7 +138,7 @@ class Arm {
   }
   /// The dense output of a step with t counted from the last point.
   Eigen::Vector4d at(const ChordStep& step, double t) const { return step(sign_ > 0.0 ? t : 1.0 - t); }
-  /// What is expected there.
+  /// The prediction from the last point at the place of t.
   PlaceGuess guess_at(const ChordStep& step, double t) const {
     const Place place = at(step, t).head<2>();
     return predict(last(), last().tangent.dot(place - last().place));
@@ -143,7 +159,7 @@ bool Arm::reject(StepControl& control, double h, double error, const std::string
 }
 
 bool Arm::advance(StepControl& control) {
-  const double h = control.propose(10.0);
+  const double h = control.propose(10.0);  // more than the diagonal of the window: no remaining range
   const Situation there =
       correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
   if (there.status != PointStatus::computed) return reject(control, h, INFINITY, there.message, there.status);
@@ -196,7 +212,8 @@ Arm::Landing Arm::finish(const Situation& there, PointFlag flag, CurveEnd how) {
     std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
     if (!next) return Landing::failed;
     if (flag == takens_bogdanov_flag) {
-      // The double root is zero; QZ knows it to half the digits only.
+      // The double eigenvalue is zero. QZ gives it to half the digits only, so |s| and the comparison with
+      // the other modes would be wrong.
       next->s = 0.0;
       next->others = last().others;
     }
@@ -217,7 +234,7 @@ bool Arm::append(CurvePoint next) {
 
 Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
   PlaceGuess guess = guess_at(step, t);
-  // The coordinate whose bound is met.
+  // `axis` is the coordinate that is at its bound; it is held there.
   const Place bound = guess.place.array().round().cwiseMax(0.0).cwiseMin(1.0);
   Eigen::Index axis = 0;
   (guess.place - bound).cwiseAbs().minCoeff(&axis);
@@ -246,7 +263,8 @@ Arm::Landing Arm::land_on_end(const ChordStep& step, double t) {
 }
 
 Arm::Landing Arm::close() {
-  // A point beside the seed gives way to it.
+  // If the last point is very close to the seed compared with the last step, it is removed: the step from it
+  // to the seed would be too short.
   if ((points.front().place - last().place).norm() < 1e-3 * steps.back().length && points.size() > 2) {
     points.pop_back();
     steps.pop_back();
@@ -287,7 +305,7 @@ FollowedCurve follow_curve(const Window& window, const BoundaryFunction& functio
   curve.begin_reason = back.reason;
   std::reverse(back.points.begin(), back.points.end());
   std::reverse(back.steps.begin(), back.steps.end());
-  curve.points.front().flags |= back.points.back().flags;  // both are the seed
+  curve.points.front().flags |= back.points.back().flags;  // both points are the seed
   back.points.pop_back();
   curve.points.insert(curve.points.begin(), back.points.begin(), back.points.end());
   curve.steps.insert(curve.steps.begin(), back.steps.begin(), back.steps.end());

@@ -1,4 +1,4 @@
-// Follows a boundary from a seed in both directions.
+// Follows a boundary from a starting point (seed) in both directions.
 #pragma once
 
 #include <functional>
@@ -8,24 +8,27 @@
 namespace eigentrail {
 
 struct FollowOptions {
-  double tolerance = 1e-6;  ///< as TraceOptions
-  int max_points = 100000;  ///< of one curve, in either direction
+  double tolerance = 1e-6;  ///< of the place in the scaled window, and of s as in TraceOptions
+  int max_points = 100000;  ///< largest number of points of a curve in each direction from the seed
 };
 
 struct FollowedCurve {
   BoundaryFunction function;
   std::vector<CurvePoint> points;
-  std::vector<ChordStep> steps;  ///< one less than points
+  std::vector<ChordStep> steps;  ///< between neighbouring points: one less than points
   CurveEnd begin = CurveEnd::lost, end = CurveEnd::lost;
   std::string begin_reason, end_reason;
 
-  /// Whether the dense curve passes the place with this eigenvalue.
+  /// Whether the dense output passes through a scaled place with the eigenvalue `s` there, within a small
+  /// multiple of the tolerance.
   bool passes(const Place& place, Complex s, double tolerance, double s_ref) const;
 };
 
-/// Called after every point; returns whether to go on.
+/// Called after every point.
 using OnPoint = std::function<void()>;
 
+/// Follows the curve through `seed` in both directions until it ends or closes. Adds the number of rejected
+/// steps to `rejected`.
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
                            const FollowOptions& options, CurvePoint seed, const OnPoint& on_point,
                            int& rejected, RunCounts& counts);

@@ -12,19 +12,21 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_corrections = 12;
-constexpr double settled = 1e-14;    ///< of the window: smaller corrections are rounding
-constexpr double stagnated = 1e-10;  ///< corrections below this that no longer shrink are rounding
-constexpr double longest = 0.5;      ///< of the window: corrections beyond it lead astray
-/// Real parts below this, relatively, are zero.
+// Lengths are in the scaled window.
+constexpr double settled = 1e-14;    ///< smaller Newton corrections are rounding
+constexpr double stagnated = 1e-10;  ///< corrections below this that no longer halve are rounding
+constexpr double longest = 0.5;      ///< Newton's method fails if it moves farther than this
+/// An instability below this multiple of max(|s|, reference) counts as zero.
 constexpr double vanishing = 1e-9;
 
-/// How far a mode is unstable: Re s, or what is left of it where a damping ratio is asked for.
+/// Measure of instability, positive for unstable modes: Re s, or Re s + ratio |s| if a damping ratio is asked
+/// for, which is positive for modes that are less damped.
 double instability(const BoundaryFunction& function, Complex s) {
   return s.real() +
          (function.kind == BoundaryKind::damping_ratio ? function.damping_ratio * std::abs(s) : 0.0);
 }
 
-/// Eigenvalue of the block with Im s >= 0 and its vector.
+/// Sets the eigenvalue of the block with Im s >= 0 and its normalized shape.
 void read_mode(const Situation& situation, CurvePoint& point) {
   const InvariantPair& pair = situation.pair;
   ComplexVector z = pair.Z.col(0);
@@ -40,7 +42,8 @@ void read_mode(const Situation& situation, CurvePoint& point) {
   point.shape = basis.is_identity ? z : ComplexVector(basis.T[0].cast<Complex>() * z);
 }
 
-/// The place of the mode among all others.
+/// Sets the number of the mode, its distance from the other eigenvalues and the number of other unstable
+/// modes, from the whole spectrum.
 void count_others(const Window& window, const BoundaryFunction& function, const ReducedPencil& pencil,
                   CurvePoint& point, RunCounts& counts) {
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
@@ -128,7 +131,8 @@ PlaceGuess predict(const CurvePoint& point, double h) {
 
 namespace {
 
-/// Newton with steps from `step(situation)`, until they are rounding. A step is empty when there is none.
+/// Newton's method: adds the corrections `step(situation)` until they are rounding. An empty correction means
+/// failure.
 template <class Step>
 Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
                   Step&& step) {

@@ -1,4 +1,5 @@
-// A point of a boundary with the power series of the curve through it, and the step to the next one.
+// A point of a boundary with the power series of the curve through it, and Newton's methods that find such
+// points.
 #pragma once
 
 #include <optional>
@@ -7,24 +8,25 @@
 
 namespace eigentrail {
 
-/// In the point's own coordinate u: place + u tangent + nu(u) normal, all scaled.
+/// A point with the power series of the curve in the distance u along the tangent: place + u tangent +
+/// nu(u) normal, in scaled coordinates.
 struct CurvePoint {
   Place place;
   Place tangent, normal;               ///< of unit length; the normal is the direction of grad g
   Matrix places;                       ///< 2 x (order + 2): series of the place in u
-  Path path;                           ///< equilibrium
-  PairSeries mode;                     ///< Z in physical coordinates
-  ComplexMatrix functions;             ///< k x (order + 2)
+  Path path;                           ///< series of the equilibrium in u
+  PairSeries mode;                     ///< series of the invariant pair in u; Z in physical coordinates
+  ComplexMatrix functions;             ///< k x (order + 2): series of the functions of the block in u
   Vector left;                         ///< left null vector of the stiffness (divergence)
-  Matrix basis;                        ///< tangent basis
-  double equilibrium_condition = 1.0;  ///< reciprocal, of the equilibrium's stiffness
-  bool solves_equilibrium = false;     ///< whether that says anything
-  Complex s;
-  ComplexVector shape;  ///< physical coordinates
-  int others = 0;       ///< other unstable modes
-  double gap = 0.0;     ///< distance of s from the nearest other eigenvalue with Im s >= 0
-  int number = 0;       ///< of the mode by ascending |s|, from 1
-  int flags = 0;
+  Matrix basis;                        ///< tangent basis at the point
+  double equilibrium_condition = 1.0;  ///< reciprocal condition number of the equilibrium's stiffness
+  bool solves_equilibrium = false;     ///< whether that stiffness was factorized, so that the number is valid
+  Complex s;                           ///< Im s >= 0
+  ComplexVector shape;                 ///< physical coordinates
+  int others = 0;                      ///< number of other modes that are unstable, or less damped than asked
+  double gap = 0.0;                    ///< distance of s from the nearest other eigenvalue with Im s >= 0
+  int number = 0;                      ///< number of the mode by ascending |s|, from 1
+  int flags = 0;                       ///< sum of PointFlag
 
   double tau() const { return functions(0, 0).real(); }
   double delta() const { return functions.rows() > 1 ? functions(1, 0).real() : 0.0; }
@@ -36,25 +38,27 @@ struct PointTrouble {
   std::string message;
 };
 
-/// The series of the curve through a situation on it, its tangent on the side of `along` (zero: with the
-/// region where g > 0 to its left).
+/// The point with the series of the curve through a situation on it. The tangent has a nonnegative product
+/// with `along`; if `along` is zero, the region g > 0 lies to its left. Empty if grad g vanishes or a
+/// coefficient is not finite.
 std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
                                        const Situation& situation, const Place& along, RunCounts& counts);
 
-/// The same where the gradient of g vanishes: with the series (4 x (order + 2): place, tau, delta; in any
-/// variable) that the dense curve has there. What only predictions need is that of the neighbour.
+/// The point at a situation where grad g may vanish. The curve is given by `series`, 4 x (order + 2), of
+/// place, tau and delta from the dense output, in any variable. Members that only predictions use are copied
+/// from `neighbour`; no prediction may start from the result.
 CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& function,
                                 const Situation& situation, const Matrix& series, const CurvePoint& neighbour,
                                 RunCounts& counts);
 
-/// Where the curve is expected at u = h.
+/// The prediction of the series at u = h.
 PlaceGuess predict(const CurvePoint& point, double h);
 
-/// Newton from a guess for g = 0 along a direction.
+/// Newton's method for g = 0 from a guess, moving along `direction` (zero: along grad g).
 Situation correct_along(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
                         const Place& direction, RunCounts& counts);
 
-/// Newton from a guess for the end of the curve where tau = delta = 0.
+/// Newton's method for tau = delta = 0, the end of a curve of complex pairs, from a guess.
 Situation correct_to_end(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
                          RunCounts& counts);
 

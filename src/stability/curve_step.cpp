@@ -11,19 +11,21 @@
 namespace eigentrail {
 namespace {
 
-/// The least cosine between the curve and the chord.
+/// Least cosine of the angle between the tangents at the ends and the chord.
 constexpr double least_cosine = 0.2;
-/// Where eigenvalues of a block meet their distance counts as no less than this share of |s|.
+/// The error of s counts for eigenvalues of a pair that differ by at least this multiple of |s|; closer ones
+/// are treated as if they differed by that much (root_error in invariants.hpp).
 constexpr double least_gap_share = 0.1;
 
-/// Series of a point in the distance along the chord, whose direction is `chord`.
+/// Series of place, tau and delta at a point in the distance along the chord, which has the unit direction
+/// `chord`: the series in u composed with the inverse of the series of that distance.
 Matrix in_chord(const CurvePoint& point, const Place& chord) {
   const Eigen::Index count = point.places.cols();
   Vector sigma = (chord.transpose() * point.places).transpose();
   sigma[0] = 0.0;
   Matrix series = Matrix::Zero(4, count);
   series.topRows(2) = point.places;
-  // Of divergence the block's function is g, which vanishes with s.
+  // For divergence the block's only function is g, and tau = delta = 0 along the curve.
   if (point.functions.rows() == 2) series.bottomRows(2) = point.functions.real();
   compose_columns(series, power_table(reversion(sigma)));
   return series;
@@ -98,7 +100,8 @@ Eigen::Vector4d evaluate_step(const BoundaryStep& step, double t) {
 
 namespace {
 
-/// Turning points of P (row 0) or Q (row 1) on a step, by bisection of the slope between samples.
+/// Values of t at which P (row 0) or Q (row 1) has a turning point, by bisection of the derivative between
+/// samples.
 std::vector<double> turning_points(const HermiteInterpolant& dense, Eigen::Index row) {
   constexpr int samples = 16;
   constexpr int halvings = 40;

@@ -9,17 +9,18 @@
 namespace eigentrail {
 namespace {
 
+// Lengths are in the scaled window.
 constexpr int most_steps = 40;
 constexpr double smallest_radius = 1e-7;
 constexpr int most_sections = 12;
-constexpr double close_enough = 1e-6;  ///< of the window: Newton takes over
+constexpr double close_enough = 1e-6;  ///< close enough to the boundary for Newton's method
 
-/// A quadratic model of a function about a place.
+/// The Taylor polynomial of degree two of a function about a place.
 template <class Value>
 struct Quadratic {
   Value value{};
   std::array<Value, 2> gradient{};
-  std::array<Value, 3> hessian{};  ///< PP, PQ, QQ
+  std::array<Value, 3> hessian{};  ///< second derivatives PP, PQ, QQ
 
   Value at(const Place& move) const {
     return value + gradient[0] * move[0] + gradient[1] * move[1] +
@@ -34,10 +35,10 @@ struct Probe {
   EquilibriumGuess equilibrium;
   Matrix basis;
   Quadratic<Complex> s;
-  Quadratic<double> w;  ///< instability
+  Quadratic<double> w;  ///< its instability (line_scan.hpp)
 };
 
-/// From series of second order along P, Q and their sum.
+/// The polynomial from series of second order along the directions (1, 0), (0, 1) and (1, 1).
 template <class Value>
 Quadratic<Value> quadratic(const std::array<Series<Value, 2>, 3>& along) {
   Quadratic<Value> model;
@@ -57,7 +58,7 @@ Series<double, 2> instability_series(const BoundaryOptions& options, const Serie
   return real + *options.damping_ratio * sqrt(real * real + imaginary * imaginary);
 }
 
-/// The mode nearest to `expected`.
+/// Computes the mode whose eigenvalue is nearest to `expected`, with its derivatives; empty if that fails.
 std::optional<Probe> probe(const Window& window, const BoundaryOptions& options, const Place& place,
                            Complex expected, const EquilibriumGuess& equilibrium, const Matrix& basis,
                            RunCounts& counts) {
@@ -102,7 +103,8 @@ std::optional<Probe> probe_from(const Window& window, const BoundaryOptions& opt
   return probe(window, options, place, base.s.at(place - base.place), base.equilibrium, base.basis, counts);
 }
 
-/// Uphill step of a quadratic model within the radius: Newton's with the magnitudes of the curvatures.
+/// Step of at most `radius` that increases sign * w: the Newton step with each eigenvalue of the Hessian
+/// replaced by its magnitude, but at least |slope| / radius.
 Place uphill(const Quadratic<double>& w, double sign, double radius) {
   Eigen::Matrix2d hessian;
   hessian << w.hessian[0], w.hessian[1], w.hessian[1], w.hessian[2];
@@ -125,11 +127,12 @@ std::optional<BoundarySeed> seed_at(const Window& window, const BoundaryOptions&
   return BoundarySeed{there.place, Place::Zero(), kind, s, there.equilibrium, true};
 }
 
-/// Between two probes with opposite signs; by sections until Newton can take over.
+/// A seed between two probes with instabilities of opposite sign. The interval is divided by the secant or in
+/// halves until it is short enough for Newton's method.
 std::optional<BoundarySeed> seed_between(const Window& window, const BoundaryOptions& options, Probe a,
                                          Probe b, RunCounts& counts) {
   for (int i = 0; i < most_sections && (b.place - a.place).norm() > close_enough; ++i) {
-    // Halving now and then keeps the secant from creeping.
+    // Every third division is a halving: the secant alone may move one end only and converge slowly.
     const double share = i % 3 == 2 ? 0.5 : std::clamp(a.w.value / (a.w.value - b.w.value), 0.02, 0.98);
     const auto middle = probe_from(window, options, a, a.place + share * (b.place - a.place), counts);
     if (!middle) break;

@@ -1,13 +1,15 @@
-// From an extremum of the damping along a line to that of the plane, or to the boundary on the way.
+// Follows an extremum of the instability along a line over the plane, to an extremum in both parameters or to
+// the boundary if it lies on the way.
 #pragma once
 
 #include "stability/line_scan.hpp"
 
 namespace eigentrail {
 
-/// Walks uphill (sign 1) or downhill in both parameters with the gradient and the Hessian of the mode, in
-/// steps of `radius` (scaled) at most. Returns a seed when stability changes on the way; none when an
-/// extremum or the edge of the window is reached without.
+/// Maximizes (start.sign = 1) or minimizes the instability of a mode over both parameters, by Newton's method
+/// with second derivatives in a trust region of at most `radius` (scaled). Returns a seed if the instability
+/// changes its sign on the way; empty if an extremum or the edge of the window is reached before, or the
+/// mode cannot be computed.
 std::optional<BoundarySeed> walk_to_boundary(const Window& window, const BoundaryOptions& options,
                                              const LineExtremum& start, double radius, RunCounts& counts);
 

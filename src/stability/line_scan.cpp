@@ -10,24 +10,26 @@ namespace eigentrail {
 namespace {
 
 constexpr double scan_tolerance = 1e-6;
-constexpr int steps_per_line = 16;  ///< at least
+constexpr int steps_per_line = 16;  ///< least number of steps of a trace
 constexpr int samples_per_step = 16;
-/// Values below this, relatively, have no sign: an undamped mode stays on the axis but for rounding.
+/// Instabilities below this multiple of max(|s|, reference) have no sign: in a system without damping their
+/// signs are rounding.
 constexpr double vanishing = 1e-9;
 constexpr int halvings = 40;
-constexpr double largest_jump = 1e-3;  ///< of |s|, where stability changes
-/// Of the window: a zero of the stiffness nearer to a fold is the fold itself.
+/// Largest instability, relative to max(|s|, reference), at a located sign change that counts as a zero.
+constexpr double largest_jump = 1e-3;
+/// A divergence seed closer to a fold than this, in the scaled window, is the fold itself.
 constexpr double beside_fold = 1e-4;
-/// Of the range: a trace that ends farther from its end did not get there.
+/// A trace is complete if it ends no farther from its end value than this multiple of the range.
 constexpr double arrived = 1e-9;
 
 struct Sample {
   Place place;
   EquilibriumGuess equilibrium;
-  ComplexVector s;  ///< by mode
+  ComplexVector s;  ///< of all modes; NaN where a mode does not exist
 };
 
-/// One step of a trace as a function of t in [0, 1].
+/// The dense output of one step of a trace as a function of t in [0, 1].
 class SampledStep {
  public:
   SampledStep(const Window& window, const ScanLine& line, const Path& left, const PathStep& step,
@@ -84,8 +86,8 @@ class Scanner {
   std::optional<Path> left_;
   ComplexVector at_left_;
   std::optional<Sample> before_, last_;
-  std::vector<double>
-      signs_;  ///< of every mode, where it last had one; 0: not yet, or it has ceased to exist
+  /// Per mode: the last sign of its instability; 0: none yet, or the mode does not exist.
+  std::vector<double> signs_;
 };
 
 ComplexVector by_mode(const std::vector<ModeState>& states, Eigen::Index count) {
@@ -116,7 +118,7 @@ LineScan Scanner::run() {
   const bool complete =
       result.status == TraceStatus::completed && std::abs(result.reached - end) <= arrived * range;
   if (complete) return std::move(scan_);
-  // What lies beyond the place where it stopped may be reached from the other end.
+  // The part of the line beyond the place where the trace ended may be reached from the other end.
   const TraceResult back = trace_line(1.0, 0.0);
   report(back);
   const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
@@ -137,7 +139,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.to = window_.declared(line_.at(to))[line_.along];
   options.tolerance = scan_tolerance;
   options.certify = false;
-  options.events = {.extrema = false};  // the scan looks for its own
+  options.events = {.extrema = false};  // the scan finds the extrema that it needs itself
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
   left_.reset();
@@ -206,7 +208,7 @@ void Scanner::add_seed(const SampledStep& step, Eigen::Index mode, double from, 
   const Complex s = there.s[mode];
   const bool pair = s.imag() != 0.0;
   if (!passes_zero(options_, s, scan_.s_ref)) return;
-  // A real root has no damping ratio but one.
+  // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
   if (!pair && options_.damping_ratio) return;
   const BoundaryKind kind = !pair                    ? BoundaryKind::divergence
                             : options_.damping_ratio ? BoundaryKind::damping_ratio
@@ -224,7 +226,8 @@ void Scanner::add_extremum(Eigen::Index mode, double before, double here, double
   scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
 }
 
-/// Boundaries of other kinds than those that are followed.
+/// Notes folds of the equilibrium and collisions on the imaginary axis, whose curves are not followed.
+/// Divergence seeds at a fold are removed.
 void Scanner::report(const TraceResult& result) {
   for (const Event& event : result.events) {
     const Place place = line_.at(window_.scaled(line_.along, event.p));

@@ -1,4 +1,5 @@
-// What the modes do along one line of the window: changes of stability, and extrema that nearly reach one.
+// Searches one line of the window for changes of stability, and for extrema of the instability from which a
+// change of stability beside the line may be reached.
 #pragma once
 
 #include <string>
@@ -8,38 +9,38 @@
 
 namespace eigentrail {
 
-/// A line of the window, P or Q constant.
+/// A line of the window, on which P or Q is constant.
 struct ScanLine {
-  int along = 0;      ///< the coordinate that changes: 0 for P, 1 for Q
-  double held = 0.0;  ///< the other one, scaled
+  int along = 0;      ///< the coordinate that varies: 0 for P, 1 for Q
+  double held = 0.0;  ///< scaled value of the other coordinate
   Place at(double u) const { return along == 0 ? Place(u, held) : Place(held, u); }
 };
 
-/// A place where stability changes, to the accuracy of a trace.
+/// A starting point for a boundary curve: a place where stability changes, to the accuracy of a trace.
 struct BoundarySeed {
   Place place;
-  Place direction;  ///< in which the boundary is crossed; zero: along the gradient
+  Place direction;  ///< direction in which Newton's method is to correct the place; zero: along grad g
   BoundaryKind kind = BoundaryKind::flutter;
   Complex s;
   EquilibriumGuess equilibrium;
-  bool walked = false;  ///< found beside the lines
+  bool walked = false;  ///< found by walk_to_boundary, not on a line
 };
 
-/// An extremum along a line, on the stable side of zero where it is a maximum.
+/// A local extremum of the instability of a mode along a line: a maximum below zero or a minimum above.
 struct LineExtremum {
   Place place;
   Complex s;
   EquilibriumGuess equilibrium;
-  double sign = 1.0;  ///< 1: a maximum below zero, to be climbed from; -1: a minimum above
+  double sign = 1.0;  ///< 1: maximum below zero; -1: minimum above zero
 };
 
-/// What else there is to say, and where it holds.
+/// An observation for the notes of the result, and the place where it was made.
 struct Finding {
   std::string what, where;
 };
 
 struct LineScan {
-  bool started = false;
+  bool started = false;  ///< whether a trace of the line could be started, from either end
   std::vector<BoundarySeed> seeds;
   std::vector<LineExtremum> extrema;
   std::vector<Finding> findings;
@@ -47,14 +48,16 @@ struct LineScan {
   RunCounts counts;
 };
 
-/// Traces a line and samples its dense output.
+/// Traces a line and samples its dense output. If the trace ends early, the line is traced from the other end
+/// as well.
 LineScan scan_line(const Window& window, const BoundaryOptions& options, const ScanLine& line);
 
-/// How far a mode is from the boundary, zero on it; positive where it is unstable, or less damped than asked.
+/// Instability of a mode: Re s, or Re s + ratio |s| if a damping ratio is asked for. Zero on the boundary,
+/// positive if the mode is unstable or less damped than asked.
 double instability(const BoundaryOptions& options, Complex s);
 
-/// Whether a mode whose instability changes sign here does so by passing zero, and not by a jump: through
-/// infinity, or from one mode to another.
+/// Whether the instability of a mode that changes its sign here passes through zero. If not, it jumps: the
+/// eigenvalue passes through infinity, or another mode has been taken for this one.
 bool passes_zero(const BoundaryOptions& options, Complex s, double s_ref);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// The cells of one line of a stability map.
+// Computes the cells of one line of a stability map.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,23 +10,25 @@ namespace eigentrail {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-/// A cell this close to a cut, relative to the range, is on it: no closer are events located.
+/// A cell closer to a cut than this, relative to the range, is on it: the accuracy of located events.
 constexpr double on_cut = 1e-9;
 
-/// The trace of a line, and what it tells.
+/// The trace of a line with its stretches of constant stability.
 struct LineTrace {
   RecordedPath path;
   std::vector<AxisStretch> stretches;
   EigenvalueAccuracy accuracy;
-  std::vector<bool> complete;  ///< per step: no mode is missing
+  std::vector<bool> complete;  ///< per step: whether all modes are followed
 };
 
+/// Bounds of a number of eigenvalues.
 struct EigenvalueCount {
   int least = 0, most = 0;
 };
 
-/// Number of eigenvalues that a step follows, both members of a pair; beside the real axis rounding may have
-/// made one of the other. Modes appear and vanish at nodes only.
+/// Bounds of the number of eigenvalues that a step follows, both members of complex pairs counted. Close to
+/// the real axis rounding may turn a pair into a real eigenvalue or the reverse, so a mode there counts as
+/// one or two. The middle of the step is representative: modes appear and vanish at nodes only.
 EigenvalueCount eigenvalues_on_step(const RecordedPath& path, std::size_t step, double reference) {
   constexpr double beside_real_axis = 1e-3;
   EigenvalueCount count;
@@ -38,15 +40,15 @@ EigenvalueCount eigenvalues_on_step(const RecordedPath& path, std::size_t step, 
   return count;
 }
 
-/// Number of eigenvalues that a point must have; 0 when a singular mass matrix does not tell.
+/// Number of eigenvalues of the pencil: twice its size; 0 (unknown) if the mass matrix is singular.
 int expected_eigenvalues(const ReducedPencil& pencil) {
   constexpr double singular = 1e-12;
   const Matrix& M = pencil.M[0];
   return reciprocal_condition(M.partialPivLu()) > singular ? 2 * static_cast<int>(M.rows()) : 0;
 }
 
-/// Whether steps have as many eigenvalues as their ends must have (`expected` per node), or, where that is
-/// not known, as other steps.
+/// Per step: whether it follows as many eigenvalues as its ends have (`expected`, per node). If that is
+/// unknown (0): whether it follows as many as any other step.
 std::vector<bool> complete_steps(const RecordedPath& path, const std::vector<int>& expected,
                                  double reference) {
   std::vector<EigenvalueCount> counts;
@@ -64,7 +66,7 @@ std::vector<bool> complete_steps(const RecordedPath& path, const std::vector<int
   return complete;
 }
 
-/// Least damping ratio of the complex pairs.
+/// Least damping ratio of the complex pairs; NaN if there are none.
 double least_damping_ratio(const ComplexVector& s) {
   double least = nan;
   for (const Complex value : s) {
@@ -76,7 +78,8 @@ double least_damping_ratio(const ComplexVector& s) {
   return least;
 }
 
-/// -max Re s with the sign that the stability says.
+/// -max Re s, set to zero where its sign contradicts the stability; zero if marginal, NaN without
+/// eigenvalues.
 double margin(const ComplexVector& s, Stability stability) {
   double fastest = -INFINITY;
   for (const Complex value : s) {
@@ -87,7 +90,8 @@ double margin(const ComplexVector& s, Stability stability) {
   return stability == Stability::stable ? std::max(0.0, -fastest) : std::min(0.0, -fastest);
 }
 
-/// The stretch of a place with `p`; on a cut that of its two with fewer growing modes.
+/// The stretch of a place with the parameter value `p`. On a cut: the one of its two stretches that has fewer
+/// growing modes.
 const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, double p,
                               const ComplexVector& s) {
   const auto here = std::find_if(line.stretches.begin(), line.stretches.end(),
@@ -109,6 +113,7 @@ const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, dou
   return best;
 }
 
+/// Evaluates the cell at `p`. It stays unknown if the path does not pass `p` or lacks a mode there.
 void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line) {
   const std::vector<PathPosition> places = trace.path.positions(p);
   if (places.empty()) return;
@@ -144,7 +149,7 @@ void add_axis_points(const std::vector<AxisStretch>& stretches, MapLine& line) {
 MapLine map_line(const MapSetup& setup, double second, const std::vector<double>& first) {
   TraceOptions options = setup.trace.options;
   options.values[setup.options.second] = second;
-  options.events = {.extrema = false};  // not needed for cells
+  options.events = {.extrema = false};  // cells do not need extrema
   PathRecorder recorder;
   std::vector<int> expected;
   TraceObserver observer;

@@ -1,12 +1,12 @@
-// What maps and boundaries ask of their second parameter.
+// Requirements on the second parameter of maps and boundaries.
 #pragma once
 
 #include "eigentrail/scene/parameters.hpp"
 
 namespace eigentrail {
 
-/// Throws InputError about --second unless `second` is a declared parameter that no expression defines, and
-/// not `first`.
+/// Throws InputError, with a message about --second, unless `second` is a declared parameter, is not defined
+/// by an expression, and differs from `first`.
 void check_second_parameter(const Parameters& parameters, const std::string& second,
                             const std::string& first);
 

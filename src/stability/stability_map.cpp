@@ -11,7 +11,7 @@
 namespace eigentrail {
 namespace {
 
-/// n >= 2 values from one end to the other; both ends are exact.
+/// n >= 2 equidistant values from `from` to `to`, both ends exact.
 std::vector<double> evenly(double from, double to, int n) {
   std::vector<double> values(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
@@ -39,7 +39,8 @@ void check_options(const MapOptions& options, const TraceOptions& trace, const P
       "--jobs: expected 0 to " + std::to_string(most_map_jobs) + ", found " + std::to_string(options.jobs));
 }
 
-/// Parameter values all over the window, the two ends of the first line before all others.
+/// Parameter values all over the window at which the model is checked. The two ends of the first line come
+/// first.
 std::vector<Vector> checked_points(const Parameters& parameters, int first, const TraceOptions& trace,
                                    const MapOptions& options) {
   constexpr int per_side = 17;
@@ -92,7 +93,8 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   trace.options = read_trace_options(trace.scene, overrides, used);
   const Parameters& parameters = trace.scene.parameters;
   check_options(options, trace.options, parameters);
-  // Both must enter the model.
+  // build_model reports parameters on which the model does not depend, except those in `used`. Both
+  // parameters of the window must enter the model.
   used.erase(trace.traced());
   used.erase(parameters.index(options.second).value());
   trace.model = build_model(trace.scene, {checked_points(parameters, trace.traced(), trace.options, options),

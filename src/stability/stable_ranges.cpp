@@ -6,7 +6,8 @@
 namespace eigentrail {
 namespace {
 
-/// Margin beside a cut at which other modes than those of the cut decide: where an eigenvalue is infinite.
+/// Margin at a cut without the modes of the cut: used where an eigenvalue passes through infinity and so has
+/// no finite margin.
 double margin_of_others(const RecordedPath& path, const AxisCut& cut) {
   const ComplexVector s = path.eigenvalues_at(cut.at);
   double fastest = -INFINITY;
@@ -17,7 +18,7 @@ double margin_of_others(const RecordedPath& path, const AxisCut& cut) {
   return -fastest;
 }
 
-/// `nearest` is the sample of the range next to this end.
+/// The end of a range at `cut`. `nearest`: the sample of the range next to this end.
 RangeEnd range_end(const RecordedPath& path, Stability kind, const AxisCut& cut, const AxisSample& nearest) {
   RangeEnd end{cut.p, cut.cause};
   if (cut.on_axis) {
@@ -30,7 +31,7 @@ RangeEnd range_end(const RecordedPath& path, Stability kind, const AxisCut& cut,
   return end;
 }
 
-/// A range of neighbouring stretches of one kind.
+/// The range that consists of the stretches `first` to `last`, all of the same stability.
 StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisStretch* last) {
   StableRange range;
   range.kind = first->stability;

@@ -15,7 +15,7 @@ PathProblem problem_of(const Model& model, const BoundaryOptions& options) {
   return problem_along(model, options.trace.parameter);
 }
 
-/// What holds while both parameters change.
+/// Properties that hold while both parameters change, from those for each parameter alone.
 Structure united(const Structure& a, const Structure& b) {
   Structure both = a;
   both.constant_mass = a.constant_mass && b.constant_mass;

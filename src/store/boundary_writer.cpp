@@ -257,7 +257,7 @@ void BoundaryFile::write_corners() {
     curves.insert(curves.end(), corner.curves.begin(), corner.curves.end());
   }
   dataset({"corner_kind", "1",
-           "crossing: two curves cross; takens_bogdanov: a curve of pairs ends on one of divergence"},
+           "intersection: two curves intersect; takens_bogdanov: a curve of pairs ends on one of divergence"},
           {"corner"}, kind);
   dataset({"corner_parameter", "1", "place, in the parameters' units"}, {"corner", "parameter"}, place);
   dataset({"corner_eigenvalue", "1/s", "eigenvalues of both curves"}, {"corner", "member"}, eigenvalue);

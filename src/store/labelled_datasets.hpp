@@ -1,5 +1,5 @@
-// Datasets that are written in one piece, labelled as all files of eigentrail are: units, a long name, and a
-// scale for every dimension.
+// Writes complete datasets with the labels that all files of eigentrail have: units, a long name, and a
+// dimension scale for every dimension.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace eigentrail {
 
 struct DatasetLabel {
   std::string name;
-  std::string units;  ///< "1" where there is none
+  std::string units;  ///< "1" if there is none
   std::string long_name;
 };
 
@@ -30,7 +30,7 @@ constexpr ElementType element_type() {
   }
 }
 
-/// Writes `data`, row-major, over dimensions that have been written already.
+/// Writes `data` (row-major) over dimensions that exist already; the shape follows from them.
 template <class Element>
 void write_dataset(Hdf5File& file, const DatasetLabel& label, const std::vector<std::string>& dimensions,
                    const std::vector<Element>& data, std::map<std::string, std::string> attributes = {}) {
@@ -44,7 +44,7 @@ void write_dataset(Hdf5File& file, const DatasetLabel& label, const std::vector<
     file.attach_scale(label.name, dimensions[d], static_cast<unsigned>(d));
 }
 
-/// Writes a dimension with the values along it.
+/// Writes a one-dimensional dataset and makes it the scale of a dimension of the same name.
 template <class Element>
 void write_dimension(Hdf5File& file, const DatasetLabel& label, const std::vector<Element>& values) {
   file.create_dataset({label.name,
@@ -56,7 +56,7 @@ void write_dimension(Hdf5File& file, const DatasetLabel& label, const std::vecto
   file.make_scale(label.name, label.name);
 }
 
-/// The declared unit of a parameter as a label gives it.
+/// The unit for labels from the declared unit of a parameter, which may be empty.
 inline std::string label_unit(const std::string& declared) {
   return declared.empty() ? "1" : declared;
 }

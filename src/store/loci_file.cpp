@@ -16,7 +16,8 @@
 namespace eigentrail {
 namespace {
 
-/// Root attributes as text; those that somebody added in a type of their own are left out.
+/// Reads the root attributes as text. Attributes of another type, which other programs may have added, are
+/// left out.
 void read_attributes(const Hdf5File& file, LociFile& loci) {
   for (const std::string& name : file.attribute_names()) {
     try {
@@ -70,7 +71,7 @@ void read_points(const Hdf5File& file, LociFile& loci) {
                                                        static_cast<Eigen::Index>(loci.modes.size()));
 }
 
-/// Raw arrays of the dense output.
+/// The datasets of the dense output as flat row-major arrays.
 struct DenseArrays {
   Shape shape;  ///< step, function, end, order
   std::vector<double> length, parameter;
@@ -108,7 +109,7 @@ DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
   return arrays;
 }
 
-/// Modes of every block of a step, by the function that it begins with.
+/// Modes of every block of a step; the index is that of the first function of the block.
 std::vector<std::vector<int>> modes_of_blocks(const DenseArrays& arrays, const LociFile& loci,
                                               std::size_t step) {
   const std::size_t n_modes = loci.modes.size();
@@ -121,7 +122,7 @@ std::vector<std::vector<int>> modes_of_blocks(const DenseArrays& arrays, const L
   return modes;
 }
 
-/// The block of a step that begins at function `first`.
+/// The block of a step whose first function is `first`.
 DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size_t step, std::size_t first,
                       std::vector<int> modes) {
   const std::size_t functions = arrays.shape[1];
@@ -220,7 +221,7 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   }
 }
 
-/// A node x column array; an empty one when there are no columns.
+/// A dataset with one row per node and this number of columns, which may be zero.
 Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& loci, std::size_t columns) {
   if (columns == 0) return Matrix(static_cast<Eigen::Index>(loci.n_nodes()), 0);
   const Shape shape = file.shape(name);

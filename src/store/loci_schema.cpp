@@ -51,7 +51,7 @@ const std::array<std::string, 42> loci_names = {"node",
                                                 "scene_parameter",
                                                 "scene_parameter_unit"};
 
-/// The unit of all coordinates; where they differ the dataset `coordinate_unit` has them.
+/// The unit of all coordinates; "coordinate_unit", the name of the dataset with the units, if they differ.
 std::string common_unit(const ModelDescription& description) {
   const auto& units = description.coordinate_units;
   const bool same =
@@ -59,7 +59,7 @@ std::string common_unit(const ModelDescription& description) {
   return same ? units[0] : "coordinate_unit";
 }
 
-/// What is known at every point.
+/// Datasets along the dimension `node`.
 void add_points(std::vector<GrowingDataset>& list, const Model& model, const std::string& parameter,
                 const std::string& unit) {
   const ModelDescription& description = model.description();
@@ -183,7 +183,7 @@ void add_events(std::vector<GrowingDataset>& list, const std::string& parameter,
                   "d" + parameter + "/dq: how the event moves"});
 }
 
-/// What moves in each mode.
+/// Datasets on the motions in each mode.
 void add_motions(std::vector<GrowingDataset>& list) {
   list.push_back({"kinetic_energy_share",
                   ElementType::real,

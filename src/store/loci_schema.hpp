@@ -1,4 +1,4 @@
-// The datasets of a loci file that grow while it is written, as a list: schema 1 (docs/loci-file.md).
+// List of the datasets of a loci file that grow during a trace: schema 1 (docs/loci-file.md).
 #pragma once
 
 #include <string>
@@ -17,10 +17,11 @@ struct GrowingDataset {
   std::string long_name;
 };
 
-/// Those of a trace of `model`, in the order of their creation.
+/// The growing datasets of a trace of `model`, in the order of their creation.
 std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOptions& options);
 
-/// Whether the loci file has a dataset of this name, which the traced parameter cannot have, then.
+/// Whether a loci file has a dataset of this name. The traced parameter cannot have such a name, because its
+/// values are a dataset named after it. Stable ranges: see is_range_dataset.
 bool is_loci_dataset(const std::string& name);
 
 }  // namespace eigentrail

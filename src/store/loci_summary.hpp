@@ -1,4 +1,4 @@
-// What a loci file is given when its trace has ended.
+// Writes the events and the summary of a trace to its loci file, at every save and at the end.
 #pragma once
 
 #include "core/hdf5_file.hpp"
@@ -6,10 +6,11 @@
 
 namespace eigentrail {
 
-/// Rows of the datasets along the dimension `event`, from number `first` on: those before are written.
+/// Writes the events from number `first` on to the datasets along the dimension `event`; those before have
+/// been written already.
 void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first);
 
-/// Attributes: how the trace ended, and what it cost.
+/// Writes the root attributes on the outcome and the work of the trace.
 void write_summary(Hdf5File& file, const TraceResult& result);
 
 }  // namespace eigentrail

@@ -20,7 +20,7 @@ std::vector<std::string> numbered_modes(std::size_t first, std::size_t end) {
   return names;
 }
 
-/// A dimension with its labels, which may grow.
+/// Creates a dimension with its labels. `growing`: it may be extended later.
 template <class Label>
 void create_dimension(Hdf5File& file, const std::string& name, ElementType type,
                       const std::vector<Label>& labels, const std::string& long_name, bool growing = false) {
@@ -55,7 +55,7 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
     Shape shape;
     for (const std::string& dimension : dataset.dimensions) shape.push_back(file_.shape(dimension)[0]);
     std::map<std::string, std::string> attributes{{"units", dataset.units}, {"long_name", dataset.long_name}};
-    // CF: the auxiliary coordinate along `node`.
+    // By the CF conventions this makes the parameter an auxiliary coordinate along `node`.
     if (dataset.dimensions[0] == "node" && dataset.name != parameter_) attributes["coordinates"] = parameter_;
     file_.create_dataset({dataset.name, dataset.type, shape, true, attributes});
     for (std::size_t d = 0; d < dataset.dimensions.size(); ++d)

@@ -1,4 +1,4 @@
-// The rows of a loci file: points and the steps between them, appended as they come.
+// Appends points and steps to the datasets of a loci file.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace eigentrail {
 
-/// Rows that wait to be written, row-major.
+/// Points and steps that are not written yet; every member is a flat row-major array of one dataset.
 struct LociRows {
   std::vector<double> parameter, frequency, damping_ratio, residual, condition, equilibrium, multiplier;
   std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
@@ -22,18 +22,19 @@ struct LociRows {
 
 class LociTables {
  public:
-  /// Creates all datasets in `file`, which has none, for `modes` modes, series of the given order, and the
-  /// motions of the model's masses.
+  /// Creates all datasets in `file`, which must be empty: for `modes` modes and power series of this order.
+  /// `motions`: labels of the motions of the model's masses.
   LociTables(Hdf5File file, const Model& model, const TraceOptions& options, int order, std::size_t modes,
              const std::vector<std::string>& motions);
 
-  /// Goes on with a file that has them, as far as it is written.
+  /// Continues a file that has the datasets, behind the rows that are written.
   LociTables(Hdf5File file, const Model& model, const TraceOptions& options);
 
   std::size_t modes() const { return modes_; }
   std::size_t functions() const { return functions_; }  ///< rows of dense output per step
 
-  /// Makes room for more; what is in the file stays, with NaN in the new places. All rows must be written.
+  /// Extends the datasets to more modes or functions. The new elements of existing rows read as NaN, or -1
+  /// for integers. Rows that are not written yet have the old width: they must be appended first.
   void grow_modes(std::size_t wanted);
   void grow_functions(std::size_t wanted);
 
@@ -49,8 +50,8 @@ class LociTables {
   std::string parameter_;
   bool has_constraints_ = false;
   std::size_t modes_ = 0, functions_ = 0;
-  std::uint64_t points_ = 0, steps_ = 0;  ///< written so far
-  /// Growing datasets by the dimension along which they may have to be extended.
+  std::uint64_t points_ = 0, steps_ = 0;  ///< numbers written so far
+  /// Per dimension: the growing datasets that have it, and its position among their dimensions.
   std::map<std::string, std::vector<std::pair<std::string, unsigned>>> extensible_;
 };
 

@@ -23,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_rows = 256;  ///< points that wait to be written
-constexpr double largest_share = 0.05;  ///< of the time that may go into saving
+constexpr std::size_t most_rows = 256;  ///< points that are collected before they are written to the tables
+constexpr double largest_share = 0.05;  ///< largest fraction of the time that may be spent on saving
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(Clock::time_point begin) {
@@ -53,11 +53,11 @@ struct LociWriter::Implementation {
   double save_every;
   ModeMotions motions;
   LociRows rows = {};
-  std::vector<ComplexVector> last_shapes = {};  ///< of every mode, where it was last
-  std::size_t events = 0;                       ///< written so far
-  bool is_saved = false;                        ///< by this run
+  std::vector<ComplexVector> last_shapes = {};  ///< per mode: its shape at the last point where it existed
+  std::size_t events = 0;                       ///< number of events written so far
+  bool is_saved = false;                        ///< whether this run has saved the file
   Clock::time_point last_saved = Clock::now();
-  double cost = 0.0;  ///< seconds of saving, of late
+  double cost = 0.0;  ///< seconds that the last save took
 
   void append_modes(const TracePoint& point);
   void append_step(const PathStep& step);
@@ -211,7 +211,7 @@ void LociWriter::Implementation::write_rows() {
   rows = {};
 }
 
-/// Brings the file in memory up to date with the trace.
+/// Writes all that is new since the last save to the file in memory.
 void LociWriter::Implementation::update(const TraceResult& result, const char* status) {
   write_rows();
   Hdf5File& file = tables.file();

@@ -16,7 +16,7 @@ const std::array<std::string, 11> map_names = {"unstable",       "margin",    "d
                                                "line_reached",   "line_work", "axis_point",    "axis_line",
                                                "axis_parameter", "axis_kind", "axis_frequency"};
 
-/// The names of the two parameters are those of the dimensions.
+/// Writes the file. Its two dimensions have the names of the two parameters.
 class MapFile {
  public:
   MapFile(const std::string& path, const MapSetup& setup, const StabilityMap& map)

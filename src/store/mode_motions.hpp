@@ -1,4 +1,5 @@
-// What moves in each mode, as the loci file has it.
+// Shares of the masses' motions in the kinetic energy of each mode, and names of modes from them, for the
+// loci file.
 #pragma once
 
 #include <map>
@@ -11,40 +12,41 @@
 
 namespace eigentrail {
 
-/// Collects the shares of kinetic energy of all modes where they first and where they last exist.
+/// Collects the shares of kinetic energy of every mode at the first and the last point where it exists.
 class ModeMotions {
  public:
   ModeMotions() = default;
 
-  /// Directions of motion are those at the point `first`.
+  /// The directions of motion ("flap", "lag") are defined at the point `first`.
   ModeMotions(const ModelDescription& description, const TracePoint& first);
 
   void append(const TracePoint& point);
 
-  /// "blade flap": the motions, in the order of the shares; empty for a model without masses.
+  /// Labels of the motions, for example "blade flap", in the order of the shares; empty for a model without
+  /// masses.
   std::vector<std::string> labels() const;
 
-  /// A name for each of `n_modes` modes that follows from where it first exists; empty where nothing is
-  /// known.
+  /// A name for each of `n_modes` modes, from its shares at the first point where it exists; empty where
+  /// unknown.
   std::vector<std::string> names(std::size_t n_modes) const;
 
-  /// Fills `kinetic_energy_share` and `mode_name`; nothing for a model without masses. HDF5 does not use the
-  /// room of texts again: they are written when they have changed only.
+  /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses. Names are written
+  /// only if they have changed, because HDF5 does not reuse the space of overwritten texts.
   void write(Hdf5File& file, std::size_t n_modes);
 
-  /// Its state, for files that a trace goes on from.
+  /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
     visit(self.shares_, self.modes_);
   }
 
-  /// Whether a state that was read is one of this model.
+  /// Whether a state that was read fits this model.
   bool fits(const ModelDescription& description) const;
 
  private:
   struct Ends {
     Vector first, last;      ///< by motion
-    double frequency = 0.0;  ///< abs(s) where the mode first exists: the order in which names are numbered
+    double frequency = 0.0;  ///< abs(s) where the mode first exists; equal names are numbered in its order
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit& visit) {

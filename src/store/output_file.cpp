@@ -14,7 +14,7 @@
 namespace eigentrail {
 namespace {
 
-/// A name of this process alone: nothing that stands there is touched.
+/// A name for the temporary file that no other process uses.
 std::string partial_name(const std::string& path) {
   return path + ".partial." + std::to_string(getpid());
 }
@@ -23,7 +23,7 @@ std::string partial_name(const std::string& path) {
   throw std::system_error(errno, std::generic_category(), path);
 }
 
-/// An open file that closes itself.
+/// A file descriptor that the destructor closes.
 class Descriptor {
  public:
   Descriptor(std::string path, int flags)
@@ -42,7 +42,7 @@ class Descriptor {
     }
   }
 
-  /// Hands what the system holds back to the disk. File systems that cannot are left alone.
+  /// Flushes the file to the disk. Does nothing on file systems that do not support this.
   void sync() {
     if (fsync(number_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(path_);
   }

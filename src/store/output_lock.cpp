@@ -15,7 +15,7 @@
 namespace eigentrail {
 namespace {
 
-/// Whether the descriptor is still what stands under the name.
+/// Whether the file of this name is still the one that the descriptor refers to.
 bool is_at(int descriptor, const std::string& name) {
   struct stat open_file {
   }, named{};
@@ -26,7 +26,8 @@ bool is_at(int descriptor, const std::string& name) {
 }  // namespace
 
 OutputLock::OutputLock(const std::string& path) : name_(path + ".lock") {
-  // A process that ends may remove the name between our opening it and our locking it.
+  // The holder of the lock removes the lock file when it ends. If that happens after this process opened the
+  // file and before it locked it, the locked file has no name any more: then try again.
   while (descriptor_ < 0) {
     descriptor_ = open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0)

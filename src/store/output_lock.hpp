@@ -1,14 +1,15 @@
-// One process at a time writes a file.
+// A lock that keeps two processes from writing the same file.
 #pragma once
 
 #include <string>
 
 namespace eigentrail {
 
-/// Holds `path`.lock while it lives. A process that is killed leaves the name, which nobody holds then.
+/// Holds an exclusive lock (flock) on the file `path`.lock during its lifetime. If a process is killed, the
+/// lock file remains but the system releases the lock, so the next process can take it.
 class OutputLock {
  public:
-  /// Throws InputError when another process writes the same file, and when the name cannot be created.
+  /// Throws InputError if another process holds the lock, or if the lock file cannot be created.
   explicit OutputLock(const std::string& path);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;

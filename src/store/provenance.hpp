@@ -1,4 +1,4 @@
-// Root attributes that tell how a file was made.
+// Root attributes on how a file was made.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace eigentrail {
 
-/// Format, schema and program version, the scene's text, the traced parameter, the tolerance, and one
-/// "option_..." per option of the trace.
+/// Writes format, schema version, program version, title, text and path of the scene, the traced parameter,
+/// the tolerance, and one attribute "option_..." per option of the trace.
 void write_provenance(Hdf5File& file, const std::string& format, int schema_version, const Scene& scene,
                       const TraceOptions& options);
 
-/// The attribute "notes": what the user should know, in words.
+/// Writes the attribute "notes": sentences for the user, joined by "; ".
 void write_notes(Hdf5File& file, const std::vector<std::string>& notes);
 
 }  // namespace eigentrail

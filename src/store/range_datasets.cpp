@@ -9,7 +9,7 @@ namespace {
 struct RangeDataset {
   const char* name;
   ElementType type;
-  bool per_end;  ///< range x end
+  bool per_end;  ///< two values per range, one for each end
   const char* units;
   const char* long_name;
 };

@@ -8,14 +8,15 @@
 
 namespace eigentrail {
 
-/// Creates and writes the datasets. Dimension `end` and the traced parameter's dataset exist.
+/// Creates and writes the datasets. The dimension `end` and the dataset of the traced parameter must exist.
 void write_stable_ranges(Hdf5File& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges);
 
-/// Reads them back; empty when the file has none. Throws Hdf5Error when they do not fit each other.
+/// Reads the stable ranges; empty if the file has no such datasets. Throws Hdf5Error if these are
+/// inconsistent.
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes);
 
-/// Whether a dataset of this name is one of them.
+/// Whether one of these datasets has this name.
 bool is_range_dataset(const std::string& name);
 
 }  // namespace eigentrail

@@ -17,15 +17,15 @@
 namespace eigentrail {
 namespace {
 
-/// The last bytes of a file with a state.
+/// The last bytes of a file that contains a state.
 struct Mark {
   static constexpr std::string_view text = "eigentrail-state";
   std::array<char, text.size()> name = {};
-  std::uint64_t size = 0;      ///< of the state before it, bytes
-  std::uint64_t checksum = 0;  ///< of the state
+  std::uint64_t size = 0;      ///< size of the state, which precedes the mark, in bytes
+  std::uint64_t checksum = 0;  ///< checksum of the state
 };
 
-/// FNV-1a (Fowler, Noll, Vo): tells damage, not malice.
+/// FNV-1a hash (Fowler, Noll, Vo): detects damage, not deliberate changes.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -43,7 +43,7 @@ std::string quoted(const std::string& text) {
   return "'" + printable(text) + "'";
 }
 
-/// The first line in which two texts differ; an empty text where one has ended.
+/// A message on the first line in which two texts differ. Where one text has ended, its line counts as empty.
 std::string first_difference(const std::string& before, const std::string& now) {
   std::istringstream a(before), b(now);
   for (int line = 1;; ++line) {
@@ -92,7 +92,7 @@ std::string saved_state(const std::string& trace, const std::string& writer) {
 
 namespace {
 
-/// Takes the states and the HDF5 data apart.
+/// Separates the states from the HDF5 data. Throws InputError if there is no state or it is damaged.
 SavedTrace split(const std::string& path, std::string_view bytes) {
   Mark mark;
   const bool has_mark = bytes.size() >= sizeof mark;

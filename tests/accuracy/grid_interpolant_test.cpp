@@ -18,7 +18,7 @@ std::vector<ComplexVector> sampled(double first, double step, int points, Comple
   return values;
 }
 
-/// Largest error on [0, 3].
+/// Largest error of the interpolant on [0, 3].
 double error_with(int points, Interpolation kind) {
   const double step = 3.0 / (points - 1);
   const GridInterpolant interpolant(0.0, step, sampled(0.0, step, points, function), kind);

@@ -1,4 +1,4 @@
-// References with 113 bits against closed forms evaluated with 113 bits.
+// References with 113 bits compared with closed forms that are evaluated with 113 bits.
 #include "eigentrail/accuracy/reference.hpp"
 
 #include <gtest/gtest.h>
@@ -128,7 +128,7 @@ Parameter parameter_p() {
   return p;
 }
 
-/// A model of somebody else: one mass on a spring, without extended precision.
+/// A user's own model without extended precision: one mass on a spring.
 class ForeignModel final : public Model {
  public:
   ForeignModel()

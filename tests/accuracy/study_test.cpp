@@ -42,7 +42,8 @@ INSTANTIATE_TEST_SUITE_P(Accuracy, ShippedScene,
                          testing::Values("pendulum", "spring_pendulum", "rotating_mass", "ziegler_column"),
                          [](const auto& name) { return std::string(name.param); });
 
-/// Orders of convergence seen between a grid and one with half the step, by straight lines and by splines.
+/// Observed orders of convergence from a grid and one with half the step, for linear interpolation and
+/// splines.
 struct Orders {
   double linear, spline;
 };
@@ -131,7 +132,8 @@ struct Meeting {
   const char* matrices;
 };
 
-/// Eigenvalues that meet or are born: errors count as those of the blocks' functions.
+/// Eigenvalues that meet, and a pair that becomes two real modes. Errors are those of the functions of the
+/// blocks.
 class MeetingModes : public testing::TestWithParam<Meeting> {};
 
 TEST_P(MeetingModes, AreMeasuredToTheirTolerance) {
@@ -153,8 +155,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& name) { return std::string(name.param.name); });
 
 TEST(Study, ToleranceHoldsBesideAnInfiniteEigenvalue) {
-  // A mass passes zero and s infinity. Relative to 1/s where it is smallest on a step, the error of 1/s is
-  // tens of times larger than relative to its size at the ends and in the middle.
+  // A mass passes through zero and so s through infinity. The error of 1/s relative to the least |1/s| on a
+  // step is tens of times larger than relative to |1/s| at its ends and in the middle.
   Setting setting = family(
       "M = [[[0, 0], [0, 1]], [[1, 0], [0, 0]]]\nC = [[[1, 0], [0, 0.1]]]\nK = [[[1, 0.1], [0.1, 4]]]\n");
   const ReferenceSet reference = references(setting);

@@ -1,4 +1,4 @@
-// What an effect costs that the scene does not name: nothing.
+// An effect that the scene does not name costs nothing.
 #include <algorithm>
 
 #include "bench/benchmarks.hpp"

@@ -1,4 +1,5 @@
-// What users do today, timed: eigenvalues on a grid, labels carried, a cubic spline through each track.
+// Time of the usual method, for comparison ("rival"): eigenvalues on a grid, modes matched from point to
+// point, and a cubic spline through each mode.
 #pragma once
 
 #include "bench/timed_trace.hpp"

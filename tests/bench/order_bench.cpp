@@ -1,4 +1,4 @@
-// Whether the order that a trace chooses for itself is the fastest one.
+// Time of a trace with the order that it chooses, compared with the fastest order.
 #include <algorithm>
 #include <cmath>
 

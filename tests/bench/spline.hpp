@@ -1,4 +1,4 @@
-// Cubic spline on equally spaced nodes: what users put through eigenvalues from a grid.
+// Cubic spline on equally spaced nodes, as used for eigenvalues on a grid.
 #pragma once
 
 #include "eigentrail/core/types.hpp"

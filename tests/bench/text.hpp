@@ -1,4 +1,4 @@
-// Numbers for people.
+// Numbers as text for tables.
 #pragma once
 
 #include <cmath>

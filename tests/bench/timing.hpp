@@ -1,5 +1,5 @@
-// Time of repeated work: CPU time of the process. All that is timed runs in one thread, where it is what a
-// clock on the wall shows on a machine with nothing else to do, and it stays so beside other programs.
+// CPU time of repeated work. All timed work runs in one thread. There CPU time equals wall time on an idle
+// machine, and it does not depend on other programs that run.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,8 @@ double median_seconds(int repeats, Work&& work) {
   return median(std::move(times));
 }
 
-/// Times of several works, taken in rounds of all of them: on a machine whose speed changes a ratio within a
-/// round says more than one of medians.
+/// Times of several works, measured in rounds that contain each of them. If the speed of the machine changes,
+/// the ratio of times within a round is more reliable than the ratio of medians.
 class Rounds {
  public:
   /// The works' times in one round, in the same order every time.

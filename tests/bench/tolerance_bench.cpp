@@ -1,4 +1,4 @@
-// What a tighter tolerance costs, and what the order of the series saves.
+// Cost of a tighter tolerance, and saving by a higher order of the series.
 #include <array>
 
 #include "bench/benchmarks.hpp"

@@ -127,7 +127,7 @@ class Curves(BoundaryTest):
 
     def test_a_corner_lies_where_another_mode_takes_over(self):
         data = self.square(CROSSING_LINES)
-        self.assertEqual(data["corner_kind"].tolist(), [b"crossing"])
+        self.assertEqual(data["corner_kind"].tolist(), [b"intersection"])
         np.testing.assert_allclose(data["corner_parameter"], [[0.1, 0.2]], atol=ROUNDING)
         np.testing.assert_allclose(sorted(data["corner_eigenvalue"][0].imag), [1, 2], atol=ROUNDING)
         self.assertEqual(sorted(data["corner_curve"][0]), [0, 1])
@@ -167,7 +167,7 @@ class Curves(BoundaryTest):
         text = self.run_well("boundary", "scene.toml", "--second", "Q", "--from", -1, "--to", 1, "-o", "x.h5")
         self.assertRegex(text, r"curve +kind +mode +points +P +Q +ends +bounds the stable region")
         self.assertRegex(text, r"1 +flutter +mode \d +\d+ .* edge, edge +in part")
-        self.assertRegex(text, r"crossing +0.1 +0.2 ")
+        self.assertRegex(text, r"intersection +0.1 +0.2 ")
         self.assertRegex(text, r"work +14 lines traced, \d+ changes of stability on them")
         self.assertTrue(text.endswith("wrote x.h5\n"))
 

@@ -1,5 +1,4 @@
-// Points where another equilibrium path crosses: passed on either path, from either side, and left on the
-// other.
+// Branch points: passed on both paths from both sides, and left on the other path.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -162,7 +161,7 @@ TEST(BranchPoint, MayBeWhereTheTraceBegins) {
   }
 }
 
-/// No force is left there: its only freedom has no stiffness.
+/// At the end of this path no force acts: the only freedom has no stiffness.
 TEST(BranchPoint, MayBeWhereAWhirlingPendulumBegins) {
   for (const std::string order : {"1", "2", "3", "4"}) {
     for (const std::string branch : {"1", "2", "3"}) {
@@ -181,7 +180,8 @@ TEST(BranchPoint, MayBeWhereAWhirlingPendulumBegins) {
   }
 }
 
-/// Where the only mode is slow at the start, next to nothing counts as zero.
+/// The reference magnitude comes from the only mode, which is slow at the start. So it is small, and hardly
+/// any value counts as zero.
 TEST(BranchPoint, BesideTheStartAsksForAReference) {
   const std::string branch = "1";
   const auto fails = record_trace(whirling_pendulum(critical_speed - 1e-3, 5, branch));
@@ -301,7 +301,7 @@ TEST(BranchPoint, OfATrussThatGivesWaySideways) {
   }
 }
 
-/// Both ends of the steps that meet in the point tell the same eigenvalues there.
+/// The two steps that end at the branch point have the same eigenvalues there.
 TEST(BranchPoint, EigenvaluesAreContinuousAcrossIt) {
   const auto trace = record_trace(spring_pendulum(20, 6, tilted, "2"));
   for (std::size_t i = 0; i + 1 < trace.steps.size(); ++i) {
@@ -311,7 +311,7 @@ TEST(BranchPoint, EigenvaluesAreContinuousAcrossIt) {
                                            trace.eigenvalues_of_node(i + 2), 0.0);
     for (Eigen::Index mode = 0; mode < at_end.size(); ++mode) {
       if (!std::isfinite(at_end[mode].real()) || !std::isfinite(at_begin[mode].real())) continue;
-      // s^2 is what is known to rounding where s vanishes.
+      // Where s vanishes, s^2 and not s is known to rounding.
       EXPECT_LT(std::abs(at_end[mode] * at_end[mode] - at_begin[mode] * at_begin[mode]), 1e-12)
           << "step " << i;
     }

@@ -1,4 +1,4 @@
-"""Who calls whom in src/continuation: no file calls into another that calls back.
+"""Checks the dependences in src/continuation: no file calls into another that calls back.
 
     calls_test.py SOURCES [OBJECTS]
 

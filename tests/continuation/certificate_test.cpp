@@ -1,5 +1,6 @@
-// The certificate closes where a block is continued and stays open where modes are exchanged; modal
-// assurance, which is what is used without it, passes such an exchange.
+// A step is certified ("the certificate closes") if every mode is continued, and it is not certified ("stays
+// open") if modes are exchanged. The modal assurance criterion, the usual test, does not detect such an
+// exchange.
 #include "eigentrail/continuation/certificate.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 
@@ -41,7 +42,7 @@ Setting smooth_family() {
 /// Two points with the same blocks: predicted from the left one by its series and corrected, as a trace does.
 class Step {
  public:
-  /// From all modes at `from`, by themselves.
+  /// Starts with all modes at `from`, each in a track of its own.
   Step(Setting setting, double from, double to) : setting_(std::move(setting)), problem_(setting_.problem()) {
     const PathPoint point = point_from_guess(problem_, from, counts);
     left = differentiate_point(problem_, point, counts).value();
@@ -148,12 +149,12 @@ class CertificateAtVeering : public testing::TestWithParam<NarrowVeering> {
 TEST_P(CertificateAtVeering, StaysOpenForSinglesThatAreExchangedAndModalAssurancePasses) {
   const auto [eps, from, to] = GetParam();
   ASSERT_LT(std::abs(step.left.s(0, 0) - mode(from, -1.0)), 1e-12);
-  // Each has gone straight on, to the other side of the veering: that is the other mode.
+  // Long steps carry each track straight through the veering to the eigenvalue of the other mode.
   ASSERT_LT(std::abs(step.right.s(0, 0) - mode(to, 1.0)), 1e-12) << "the step did not exchange the modes";
   ASSERT_LT(std::abs(step.right.s(1, 0) - mode(to, -1.0)), 1e-12) << "the step did not exchange the modes";
   EXPECT_FALSE(step.certified(0));
   EXPECT_FALSE(step.certified(1));
-  // The rival sees the shapes that it expects.
+  // The modal assurance criterion sees no change of the shapes.
   for (std::size_t i = 0; i < 2; ++i) {
     const Matrix assurance = modal_assurance(step.left.tracks[i].series.Z[0],
                                              step.right.tracks[i].series.Z[0], Matrix::Identity(2, 2));
@@ -192,7 +193,7 @@ TEST(Certificate, StaysOpenForSinglesAcrossAnExceptionalPointAndClosesForTheBloc
   EXPECT_TRUE(step.certified(0) && step.certified(1)) << "before the point";
   step.join(0.6);
   EXPECT_TRUE(step.certified(0));
-  // Singles that arrive behind the point, whichever they are.
+  // Single modes before the point, combined with single modes behind it, in whatever order.
   Step singles(setting(), 0.3, 0.4);
   const Step behind(setting(), 0.6, 0.61);
   singles.right = behind.left;
@@ -249,7 +250,8 @@ TEST(ModalCertificate, StaysOpenWhereTheEndIsAnotherMode) {
 }
 
 TEST(ModalCertificate, StaysOpenWhereModesJumpOverAVeering) {
-  // Each mode arrives with the other's eigenvector: the corrector found what the series pointed at.
+  // Each track arrives with the eigenpair of the other mode, because the corrector converges to the pair that
+  // is nearest to the prediction.
   for (const double eps : {1e-2, 1e-4, 1e-8}) {
     Step step(veering(eps), -0.3, 0.3);
     EXPECT_EQ(certified_together(step), std::vector<bool>(2, false)) << eps;
@@ -262,7 +264,8 @@ TEST(ModalCertificate, AgreesWithTheTubesOfSingleModes) {
   for (const double to : {0.25, 0.4, 0.7, 1.0}) {
     Step step(smooth_family(), 0.2, to);
     const std::vector<bool> together = certified_together(step);
-    // It bounds norms from above where the tubes estimate them: what closes here closes there.
+    // This certificate uses upper bounds of norms that the certificate of single modes estimates. Every step
+    // that it certifies is therefore certified by the other one as well.
     for (std::size_t i = 0; i < together.size(); ++i)
       EXPECT_TRUE(!together[i] || step.certified(i)) << "mode " << i << " to " << to;
   }

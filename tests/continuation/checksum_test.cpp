@@ -1,4 +1,5 @@
-// Sums that tell whether every mode is followed once, and the modes that a spectrum has and the tracks lack.
+// The test by sums of eigenvalues whether every mode is followed exactly once, and the search for modes of a
+// spectrum that no track has.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +12,7 @@
 namespace eigentrail::test {
 namespace {
 
-/// Damped, gyroscopic and circulatory: nothing but the sums holds.
+/// A damped, gyroscopic and circulatory system: the pencil has no structure that the test could use.
 PlantedMatrices general(Eigen::Index n, unsigned seed) {
   const ReducedPencil family = random_family(n, seed);
   return {{family.M[0]}, {family.C[0]}, {family.K[0]}};
@@ -64,14 +65,16 @@ TEST_P(ChecksumWithout, OneModeInPlaceOfAnotherFails) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, ChecksumWithout, testing::Values(0, 2, 5));
 
-/// It is blind to an exchange, and says so: labels are another's business.
+/// The sums do not depend on the order of the modes, so an exchange is not detected. The certificate does
+/// that.
 TEST(Checksum, DoesNotSeeAnExchange) {
   Followed exchanged(general(6, 6));
   std::swap(exchanged.node.tracks[1], exchanged.node.tracks[4]);
   EXPECT_TRUE(exchanged.holds());
 }
 
-/// A pair of 1 rad/s beside ones of 1e4: in the sums of s it is rounding, in those of 1/s it is not.
+/// A pair of 1 rad/s beside pairs of 1e4 rad/s: an error of the slow pair is lost in rounding of the sums of
+/// powers of s, but not of 1/s.
 TEST(Checksum, SeesTheSlowestOfFastModes) {
   const Matrix K = Vector{{1.0, 1e8, 4e8}}.asDiagonal();
   Followed all({{Matrix::Identity(3, 3)}, {}, {K}});
@@ -85,7 +88,8 @@ TEST(Checksum, LeavesOutTheSumsOfASingularMass) {
   // One freedom without mass: a real eigenvalue, and one at infinity.
   const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
   Followed all({{diagonal(1.0, 0.0)}, {diagonal(0.2, 1.0)}, {diagonal(4.0, 3.0)}});
-  // The sums of 1/s miss the one at infinity, which is zero: two freedoms have four.
+  // The sums of 1/s do not help: the infinite eigenvalue, whose 1/s is zero, is missing among the four of two
+  // freedoms.
   EXPECT_EQ(all.node.tracks.size(), 2U);
   EXPECT_FALSE(all.holds());
 }

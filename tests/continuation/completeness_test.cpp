@@ -36,7 +36,7 @@ TEST(DoubtfulTrack, ModesOfTheirOwnAreNot) {
 
 TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
   Tracked tracked(coupled);
-  // The same vector in another phase.
+  // The same eigenvector times a complex factor.
   tracked.node.tracks.push_back(tracked.node.tracks[1]);
   tracked.node.tracks.back().pair.Z *= Complex(0.6, 0.8);
   EXPECT_TRUE(tracked.is_doubtful());
@@ -57,7 +57,7 @@ TEST(DoubtfulTrack, MemberOfABlockIs) {
   const Track single = tracks[1];
   tracks = {tracks[2], joined};
   EXPECT_FALSE(tracked.is_doubtful());
-  // Whichever of the two comes first.
+  // In both orders of the tracks.
   tracks = {joined, single};
   EXPECT_TRUE(tracked.is_doubtful());
   tracks = {single, joined};

@@ -63,7 +63,8 @@ TEST(CriterionValue, ExtremumIsMinusTheDampingRatioInEitherChart) {
   EXPECT_NEAR(criterion_value(criterion, 1.0 / s, Chart::reciprocal, 0.0), -ratio, rounding);
 }
 
-/// mu = h: |mu| has no series at zero, and none is given; the functions without it have theirs.
+/// mu = h: |mu| has no power series at zero. Criteria that contain |mu| have no series there; others have
+/// one.
 TEST(CriterionSeries, AtZeroHasNoneWhereTheFunctionHasNone) {
   const ComplexVector mu{{Complex(0.0), Complex(1.0, 0.5), Complex(0.2)}};
   const Vector excitation = Vector::Zero(3);

@@ -155,7 +155,8 @@ ComplexMatrix vanishing_series(int m, double t, int q) {
 }
 
 TEST(DenseOutput, KeepsItsDigitsWhereAFunctionVanishesAtAnEnd) {
-  // What is left is rounding times the distance u to the end; seen from the other end it would be rounding.
+  // The error is rounding times the distance u from the end. Evaluated from the other end it would be of the
+  // size of rounding itself.
   for (const int m : {1, 2}) {
     const HermiteInterpolant forward(1.0, vanishing_series(m, 0.0, 4), vanishing_series(m, 1.0, 4));
     for (const double u : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12}) {

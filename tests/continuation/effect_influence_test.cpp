@@ -1,4 +1,4 @@
-// What each effect does to each mode, against eigenvalues in closed form.
+// Influence of each effect on each mode, compared with eigenvalues in closed form.
 #include "eigentrail/continuation/effect_influence.hpp"
 
 #include <gtest/gtest.h>
@@ -68,8 +68,8 @@ TEST(EffectInfluences, OfAllEffectsTogetherAreThatOfScalingThePencil) {
   }
 }
 
-/// One spring along (0.6, 0.8) and one across it, of the same stiffness: which of the vectors of the double
-/// eigenvalue is whose is not said, and so is what either spring does to it.
+/// One spring along (0.6, 0.8) and one across it, of the same stiffness. The eigenvectors of the double
+/// eigenvalue are not unique, so the influence of a single spring on it is not defined.
 TEST(EffectInfluences, DoubleEigenvalueHasNone) {
   const std::string text =
       "[parameters]\nk = 50\n[trace]\nparameter = \"k\"\nfrom = 50\nto = 60\n"

@@ -1,4 +1,4 @@
-// The rule by which two events are one.
+// The rule by which two detected events count as the same one.
 #include "continuation/events/event_log.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Where a step is expected to pass a meeting, and what lies beside it: all of them, each once, at the places
-// of the closed forms, and nothing else.
+// Meetings of eigenvalues that are expected on a step, and veerings beside it. Each must be found once, at
+// the place of the closed form, and nothing else may be found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace eigentrail::test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of simple roots of interpolated polynomials of order one
-/// Of double ones, which are known to the root of that.
+/// Of double roots, which are known to the square root of rounding.
 constexpr double of_double_roots = 1e-6;
 using Members = std::vector<int>;
 using Roots = std::function<std::vector<Complex>(double)>;
@@ -144,7 +144,7 @@ TEST(ExpectedInBlocks, TwoCloseTogetherAreTwo) {
   ASSERT_EQ(places.size(), 2U);
   EXPECT_NEAR(places[0].real(), 0.1, 1e-10);
   EXPECT_NEAR(places[1].real(), 0.101, 1e-10);
-  // Closer ones may as well be a double root that rounding has split: one place to look at.
+  // Closer roots may be one double root that rounding has split. They are reported as one place.
   const PlantedStep closer = branching({0.1 * 0.1001, -0.2001, 1.0}, -0.2, 0.3);
   const auto place = closer.places(closer.in_blocks());
   ASSERT_EQ(place.size(), 1U);
@@ -181,7 +181,7 @@ TEST(ExpectedInBlocks, TheOneThatTheStepBeganWithIsKnown) {
   track.met = {0, 1};
   const double half = std::sqrt(0.01 * 0.09);
   track.departure = Track::Departure{0.01, ComplexVector{{(2.0 + half) * j, (2.0 - half) * j}}};
-  // That at 0, and then that at 0.1.
+  // The meeting at 0, where the step begins, is known; the next one is at 0.1.
   const auto places = step.places(step.in_blocks());
   ASSERT_EQ(places.size(), 1U);
   EXPECT_NEAR(places[0].real(), 0.1, rounding);
@@ -195,7 +195,8 @@ TEST(ExpectedInBlocks, ModesThatAreOneNeverMeet) {
 TEST(ExpectedInBlocks, MeetingsOfGuestsAreNobodysEvents) {
   PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}, 0.0, 0.9);
   step.left.tracks[0].modes = {Track::guest, Track::guest, 4};
-  // The third meets one of them; what comes behind is looked for when the step has ended there.
+  // Only the meeting of the followed mode with one of the guests counts. Later meetings are searched for on
+  // the next step, which begins there.
   const auto found = step.in_blocks();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].b.members, Members{2});
@@ -243,7 +244,7 @@ TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
     EXPECT_NEAR(std::abs(found[0].position.imag()), eps, 1e-8);
     EXPECT_EQ(found[0].a.track, 0U);
     EXPECT_EQ(found[0].b.track, 1U);
-    // The gap as both ends see it: -((p - 0.1)^2 + eps^2).
+    // The discriminant at both ends: -((p - 0.1)^2 + eps^2).
     EXPECT_LT(std::abs(found[0].discriminant_at_left[0] + std::pow(from - 0.1, 2) + eps * eps), rounding);
     EXPECT_LT(std::abs(found[0].discriminant_at_right[0] + std::pow(to - 0.1, 2) + eps * eps), rounding);
   }
@@ -259,7 +260,7 @@ TEST(ExpectedBeside, WiderThanAskedForIsNone) {
 TEST(ExpectedBeside, WhatLiesBeforeOrBehindTheStepIsLeftToItsNeighbours) {
   EXPECT_TRUE(veering(0.01, 0.2, 0.4, false).beside(0.05).empty());
   EXPECT_TRUE(veering(0.01, -0.2, 0.0, false).beside(0.05).empty());
-  // Near an end either step may tell it.
+  // Close to an end both neighbouring steps may report it.
   EXPECT_EQ(veering(0.01, 0.11, 0.4, false).beside(0.05).size(), 1U);
   EXPECT_EQ(veering(0.01, -0.2, 0.09, false).beside(0.05).size(), 1U);
 }
@@ -270,7 +271,7 @@ TEST(ExpectedBeside, BlockOfTwoTellsItsOwn) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(step.places(found)[0].real(), 0.1, 1e-10);
   EXPECT_NEAR(std::abs(found[0].position.imag()), 0.03, 1e-10);
-  // So near to the axis that the step ends there: told with those on the axis.
+  // So close to the real axis that it counts as a meeting on the step, not as one beside it.
   EXPECT_TRUE(veering(1e-4, -0.05, 0.2, true).beside(0.1).empty());
 }
 
@@ -321,8 +322,8 @@ TEST(ExpectedBeside, BlockOfThreeTellsItsVeerings) {
   }
 }
 
-/// The rival: distances at both ends and in the middle of the step hardly differ from those of modes that
-/// keep their distance, and yet one pair veers and the other does not.
+/// Distances of eigenvalues do not show a veering: at both ends of the step they are almost the same as for
+/// two modes that keep a constant distance and do not veer.
 TEST(ExpectedBeside, ToldBySeriesAndNotByDistances) {
   const PlantedStep veers = veering(0.01, 0.05, 0.15, false);
   const PlantedStep parallel = lines(Matrix{{1.95, 0.0}, {2.05, 0.0}, {9.0, 0.2}}, 0.05, 0.15, false);

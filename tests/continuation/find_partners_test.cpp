@@ -1,4 +1,4 @@
-// Who could be followed together: meetings in closed form, before, beside and behind a step.
+// Modes that may be followed together, from their meetings in closed form: before, beside and behind a step.
 #include "continuation/tracks/regrouping.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(FindPartners, IsWhomAModeMeetsWithinTheReach) {
   ASSERT_EQ(partners.size(), 1U);
   EXPECT_EQ(partners[0].track, 1U);
   EXPECT_FALSE(partners[0].conjugate);
-  // A double root is told to the root of rounding.
+  // A double root is known to the square root of rounding.
   EXPECT_NEAR(partners[0].distance, 0.0, 1e-7);
 }
 
@@ -62,8 +62,8 @@ TEST(FindPartners, AreSymmetricAndNearestFirst) {
 
 class FindPartnersOfVeering : public testing::TestWithParam<double> {};
 
-/// 20 +- sqrt(p^2 + eps^2): they meet at +- j eps. The gap's series is exact where those of the modes are
-/// not.
+/// 20 +- sqrt(p^2 + eps^2): they meet at +- j eps. The series of the discriminant is exact, those of the
+/// modes are not.
 TEST_P(FindPartnersOfVeering, DistanceIsThatOfTheExceptionalPoint) {
   const double eps = GetParam();
   Planted family = Planted::frequencies({Matrix{{20.0, eps}, {eps, 20.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
@@ -79,8 +79,9 @@ TEST_P(FindPartnersOfVeering, DistanceIsThatOfTheExceptionalPoint) {
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, FindPartnersOfVeering, testing::Values(0.1, 1e-2, 1e-3, 1e-4));
 
-/// Half-width 0.1, on a step of twice the distance at which the series cease to converge: what they tell out
-/// there, a conjugate four units away, is no partner before the true one.
+/// A veering of half-width 0.1, on a step of twice the radius of convergence of the series. Outside of that
+/// radius the series suggest a meeting with a conjugate four units away. It must not come before the true
+/// partner.
 TEST(FindPartners, ConjugateFarAwayIsNotTheNearest) {
   constexpr double eps = 0.1;
   Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
@@ -138,7 +139,8 @@ TEST(FindPartners, ChartsDoNotMatter) {
   EXPECT_NEAR(partners[0].distance, 0.2, 1e-3);
 }
 
-/// A block of 2 +- 0.1, which a single mode 3 - p meets first at p = 0.9: its own step must see that.
+/// A block of 2 +- 0.1 and a single mode 3 - p, which meets the upper member of the block at p = 0.9. The
+/// search must use the members of the block and not their mean.
 TEST(FindPartners, BlockIsMetWhereItsMembersAre) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{1.9, 0.0}, {2.1, 0.0}, {3.0, -1.0}}));
   const PathNode node = family.point(0.0, {{{1.9 * j, 2.1 * j}}, {{3.0 * j}}});

@@ -1,5 +1,6 @@
-// What the dense output would err by, had modes been followed otherwise: against the error really made, and
-// zero where the other way makes polynomials of the series.
+// Estimates of the error that the dense output would have if modes were followed in other blocks or charts.
+// They are compared with the actual error, and vanish where the functions of the other choice are
+// polynomials.
 #include "continuation/tracks/grouping_errors.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,8 @@
 namespace eigentrail::test {
 namespace {
 
-/// Errors of interpolated polynomials: rounding of series whose terms outgrow their sum a hundred times.
+/// Error of interpolated polynomials: rounding of series whose terms are a hundred times larger than their
+/// sum.
 constexpr double rounding = 1e-11;
 constexpr double least_gap = 1e-3;
 
@@ -63,13 +65,14 @@ TEST_P(ErrorOfVeering, AsABlockIsTheSameForBothPartners) {
 TEST_P(ErrorOfVeering, WithoutPartnersIsThatOfTheModeItself) {
   const double alone_as_block = error_as_block(left, right, 0, {}, h, least_gap);
   const double scale = std::min(std::abs(left.tracks[0].roots[0]), std::abs(right.tracks[0].roots[0]));
-  // The better chart may be better by a little.
+  // The estimate as singles takes the better of the two charts and so may be smaller.
   EXPECT_GE(alone_as_block / scale, errors_as_singles(family.problem(), left, right, 0, h)[0] - rounding);
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, ErrorOfVeering, testing::Values(0.1, 0.03, 1e-2));
 
-/// Half-width 0.3 and steps of up to that: terms fall, and the estimate follows what is made of it.
+/// A veering of half-width 0.3 and steps of at most that length. The terms of the interpolant decrease, and
+/// the estimate agrees with the actual error.
 TEST(ErrorsAsSingles, EstimateTheErrorThatIsMade) {
   constexpr double eps = 0.3;
   Planted family = Planted::frequencies(veering_at_zero(eps));
@@ -130,7 +133,7 @@ TEST(ErrorsAsSingles, AreThoseInTheBetterChart) {
 }
 
 TEST(ErrorInOtherChart, IsRelativeToTheEigenvalueThere) {
-  // mu = 1/s = -0.25 + sqrt(p - 0.9375), of which s has a pole more.
+  // mu = 1/s = -0.25 + sqrt(p - 0.9375); s has a pole in addition to the branch point of mu.
   Planted family({{Matrix{{1.0}}, Matrix{{-1.0}}}, {Matrix{{0.5}}}, {Matrix{{1.0}}}});
   const auto mu = [](double p) { return -0.25 + std::sqrt(p - 0.9375); };
   constexpr double h = 0.015;
@@ -143,7 +146,7 @@ TEST(ErrorInOtherChart, IsRelativeToTheEigenvalueThere) {
                       std::abs(mu(0.98 + h));
   EXPECT_GT(estimate, 0.9 * made);
   EXPECT_LT(estimate, 5.0 * made + rounding);
-  // What the finite chart would give, relatively, is far worse.
+  // The relative error in the finite chart is much larger.
   const double finite = error_as_block(left, right, 0, {}, h, least_gap) * std::abs(mu(0.98));
   EXPECT_GT(finite, 1e2 * estimate);
 }
@@ -212,7 +215,7 @@ TEST(ErrorAsBlock, IsUnknownWhereOneEndHasMoreMembers) {
   EXPECT_TRUE(std::isinf(error_as_block(left, right, 0, {}, 0.2, least_gap)));
 }
 
-/// Two whose distance at an end is far below the least gap: the bound does not blow up.
+/// Two eigenvalues whose distance at an end is far below the least gap: the estimate stays bounded.
 TEST(ErrorAsBlock, CountsRootsAsNoCloserThanTheLeastGap) {
   constexpr double eps = 1e-5;
   Planted family = Planted::frequencies(

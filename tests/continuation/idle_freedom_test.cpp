@@ -1,4 +1,5 @@
-// Freedoms that nothing acts on are found whatever combination of coordinates they are, and no others.
+// Idle freedoms, on which no mass, damping and stiffness acts, are found whatever combination of coordinates
+// they are. No other freedoms are reported.
 #include "continuation/point/idle_freedom.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +50,7 @@ TEST(IdleCoordinate, OneMatrixIsEnoughToKeepAFreedom) {
   EXPECT_EQ(idle_of(two, none, third), "");
 }
 
-/// Its rigid-body motion has mass, though no stiffness: what looks at K alone would call it idle.
+/// The rigid-body motion has mass but no stiffness. A test of K alone would report it as idle.
 TEST(IdleCoordinate, FreeChainHasNone) {
   const Matrix K = free_chain(3);
   EXPECT_EQ(idle_of(unit, none, K), "");
@@ -61,7 +62,7 @@ TEST(IdleCoordinate, MasslessFreeChainMovesAsAWhole) {
   EXPECT_NE(idle_of(none, free_chain(3), free_chain(3)), "");
 }
 
-/// No row and no diagonal entry vanishes: what looks for those finds nothing.
+/// No row and no diagonal entry vanishes. A test for zero rows would find nothing.
 TEST(IdleCoordinate, OfACombinationIsTheOneThatMovesMost) {
   // Every matrix takes (0.3, 1, -0.2) to zero.
   const Vector idle{{0.3, 1.0, -0.2}};
@@ -99,7 +100,7 @@ TEST(IdleCoordinate, WithoutFreedomsThereIsNone) {
   EXPECT_EQ(idle_of(none, none, none, {unit}), "");
 }
 
-/// det(s^2 M + s C + K) = 0 for every s, and yet no motion that all three leave out.
+/// det(s^2 M + s C + K) = 0 for every s, although no motion is in the null spaces of all three matrices.
 TEST(IdleCoordinate, IsNoOtherSingularPencil) {
   const Matrix C{{0.0, 1.0}, {0.0, 0.0}};
   const Matrix K{{1.0, 0.0}, {0.0, 0.0}};

@@ -1,4 +1,4 @@
-// Events close to each other, and steps that are cut short: each of these was wrong once.
+// Regression tests: events close to each other, and steps that are shortened to end at a meeting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_P(DivergenceBehindCollision, IsAnEventOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision, testing::Values(0.1, 1e-2, 1e-3, 1e-4),
                          [](const auto& checked) { return "case_" + std::to_string(checked.index); });
 
-// Without damping the pair meets at zero, and what leaves the axis there is one event, not two.
+// Without damping the pair meets at zero and leaves the imaginary axis there. This is one event, not two.
 TEST(LostEvents, CollisionAtZeroIsNoDivergenceToo) {
   const RecordedTrace trace =
       record_trace(family("0", "1.5", "[ [[0, 0], [0, 0]] ]", "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));

@@ -1,4 +1,5 @@
-// A meeting as it is seen from a point near it: kind, place, width and Puiseux coefficient in closed form.
+// The nearest meeting of two eigenvalues, computed from the series at a point: kind, place, half-width and
+// Puiseux coefficient, compared with closed forms.
 #include "continuation/events/meetings.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +110,8 @@ TEST_P(SeenFrom, CrossingLiesWhereUncoupledModesAreEqual) {
   ASSERT_TRUE(meeting.found);
   EXPECT_NEAR(meeting.offset, -GetParam(), rounding);
   EXPECT_EQ(meeting.half_width, 0.0);
-  // Farther away the two are different, and whether they have two vectors where they meet is not told.
+  // Farther away the eigenvalues differ. Then the point does not show whether they have two eigenvectors
+  // where they meet.
   if (std::abs(GetParam()) <= 1e-6) {
     EXPECT_EQ(meeting.kind, EventKind::crossing);
   }
@@ -132,13 +134,15 @@ TEST(NearestMeeting, CurvedModesCrossWhereTheirCurvesDo) {
     const PathNode node = family.point(p, {{{(2.0 + p + p * p) * j, (2.6 - p + 0.5 * std::pow(p, 3)) * j}}});
     const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
     ASSERT_TRUE(meeting.found) << away;
-    // From far away a point nearer by is told, to the square of the distance; from there the place itself.
+    // Far from the meeting the predicted place has an error of the square of the distance. Close to it the
+    // place is accurate to rounding.
     const double accuracy = std::abs(away) <= 1e-3 ? rounding : away * away;
     EXPECT_NEAR(p + meeting.offset, place, accuracy) << away;
   }
 }
 
-/// 2 +- p by a matrix with one vector where both are 2: they go straight on, and coalesce.
+/// Frequencies 2 +- p of a matrix that has only one eigenvector where both are 2. The eigenvalues are smooth,
+/// but the modes coalesce.
 TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
   Planted family = branching({0.0, 0.0, 1.0});
   for (const double p : {0.0, 1e-9, -1e-8}) {
@@ -146,7 +150,7 @@ TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
     const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
     ASSERT_TRUE(meeting.found) << p;
     EXPECT_EQ(meeting.kind, EventKind::collision) << p;
-    // A double root of what is known to rounding.
+    // The place is a double root and so known to the square root of rounding.
     EXPECT_NEAR(p + meeting.offset, 0.0, 1e-7) << p;
   }
 }
@@ -161,7 +165,7 @@ TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
     const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
     ASSERT_TRUE(meeting.found) << p;
     EXPECT_EQ(meeting.kind, EventKind::veering) << p;
-    // Lambda is known to rounding, and the gap's root to that over its slope.
+    // The error of the place is the rounding error of Lambda divided by the slope of the discriminant.
     EXPECT_NEAR(meeting.offset, -p, 1e-13 + 1e-9 * eps) << p;
     EXPECT_NEAR(meeting.half_width, eps, 1e-13 + 1e-9 * eps) << p;
   }
@@ -169,7 +173,7 @@ TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, NearestVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6, 1e-8));
 
-/// Modes of different damping pass each other on the real axis; where they coincide p is complex.
+/// Modes of different damping whose frequencies cross at a real p. They coincide only at a complex p.
 TEST(NearestMeeting, ModesThatPassEachOtherDoNotMeet) {
   constexpr double damping = 0.02;
   const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
@@ -199,7 +203,7 @@ TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
   ASSERT_TRUE(meeting.found);
   EXPECT_EQ(meeting.kind, EventKind::veering);
   EXPECT_NEAR(meeting.half_width, std::abs(eps - damping), 2e-3 * eps);
-  // The gap vanishes at the place that is told, on one side of the axis.
+  // The discriminant vanishes at the reported place, on one side of the real axis.
   const ComplexMatrix gap = discriminant_of(node.tracks[0], {0}, {1}).transpose();
   const auto at = [&](Complex p) {
     Complex value = 0.0;
@@ -275,14 +279,14 @@ TEST(NearestMeeting, OfADoubletWithAThirdIsACrossing) {
   }
 }
 
-/// Whoever is asked for: the two that are one meet the third together.
+/// Two modes that coincide everywhere (a doublet) meet a third one together, whichever of the two is given.
 TEST(NearestMeeting, OfADoubletBesideItsCrossingIsThatOfAllThree) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
   constexpr double place = 0.5 / 1.2;
   const double p = place - 1e-8;
   const Complex twice = (2.0 + 0.5 * p) * j;
   const PathNode node = family.point(p, {{{twice, (2.5 - 0.7 * p) * j, twice}}});
-  // Slopes of the two are told on the scale of their distance from the third.
+  // The reach is small: it sets the scale on which the slopes of the two are compared.
   const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {2}, 1e-7);
   ASSERT_TRUE(meeting.found);
   EXPECT_EQ(meeting.kind, EventKind::crossing);
@@ -322,7 +326,8 @@ TEST_P(TripleCollision, IsOneExceptionalPointWithItsPuiseuxCoefficient) {
   ASSERT_TRUE(meeting.found);
   EXPECT_EQ(meeting.kind, EventKind::collision);
   EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
-  // The slope of the product is a difference over a thousandth of the reach: to its square.
+  // The slope of the product of the eigenvalues is a central difference with a step of a thousandth of the
+  // reach, and has the error of the square of that.
   EXPECT_NEAR(meeting.offset, -p, 1e-8);
   // (s - 2 j)^3 = j^3 p.
   EXPECT_LT(std::abs(std::pow(meeting.puiseux, 3) + j), 1e-4);
@@ -330,7 +335,7 @@ TEST_P(TripleCollision, IsOneExceptionalPointWithItsPuiseuxCoefficient) {
 
 INSTANTIATE_TEST_SUITE_P(Distances, TripleCollision, testing::Values(0.0, 1e-6, -1e-3, 0.02));
 
-/// At the same distance as that, only two of three meet: the third stays out.
+/// Only two of three eigenvalues meet, at a distance as above. The third must not be included.
 TEST(NearestMeeting, LeavesOutAThirdThatOnlyComesNear) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.1, 0.0}, {2.35, -0.1}}));
   const PathNode node = family.point(0.08, {{{2.08 * j, 2.1 * j, 2.342 * j}}});
@@ -340,7 +345,7 @@ TEST(NearestMeeting, LeavesOutAThirdThatOnlyComesNear) {
   EXPECT_NEAR(meeting.offset, 0.02, 1e-10);
 }
 
-/// Meetings of 1/s: both leave through infinity at different places, and meet between.
+/// Meetings of 1/s: both eigenvalues pass through infinity, at different places, and meet between them.
 TEST(NearestMeeting, IsSeenInTheReciprocalChart) {
   // mu = -1 + p and -1.5 + 2 p, from (s mu - 1): no mass, C = mu, K = -1.
   const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
@@ -363,7 +368,7 @@ TEST(EarlierMeeting, IsTheOneThatTheStepHasPassed) {
   Planted family = branching({0.02, -0.3, 1.0});
   const PathNode node = branching_point(family, 0.2, 0.0);
   EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.1, 1e-9);
-  // Far behind for a short step; ahead for one that comes from the other side.
+  // None if the step is so short that the meeting is far behind; none if it lies ahead.
   EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 0.3), 0.0);
   EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.0);
 }

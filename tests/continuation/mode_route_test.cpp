@@ -1,4 +1,5 @@
-// The routes to all modes of a point give the same point, and each serves what it is made for.
+// The methods ("routes") that compute all modes of a point give the same point. Each is used for the systems
+// for which it is meant.
 #include <gtest/gtest.h>
 
 #include <cmath>

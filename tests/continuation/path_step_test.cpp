@@ -256,8 +256,8 @@ TEST_P(FoldedStep, PassesAParameterTwiceBeforeTheFoldOnceAtItAndNeverBehind) {
 
 INSTANTIATE_TEST_SUITE_P(SeriesLengths, FoldedStep, testing::Values(2, 3, 4, 5));
 
-/// p = cos(sigma): a step that begins, or ends, on the fold knows positions beside it to their own digits,
-/// not to those of p.
+/// p = cos(sigma), on a step that begins or ends at the fold. The distance of a position from the fold has
+/// full relative accuracy, although p there differs from its extremum only in the last digits.
 TEST(StepPositions, BesideAFoldAtAnEndAreRelativelyAccurate) {
   constexpr double length = 0.3;
   const auto series = [](double at) {
@@ -278,12 +278,12 @@ TEST(StepPositions, BesideAFoldAtAnEndAreRelativelyAccurate) {
     step.parameter << series(-length), series(0.0);
     found = step_positions(step, p);
     ASSERT_EQ(found.size(), 1U) << depth;
-    // Positions near 1 are rounded to its units.
+    // Positions near 1 have the rounding error of numbers near 1.
     EXPECT_NEAR((1.0 - found[0]) * length, sigma, 1e-11 * sigma + 1e-16) << depth;
   }
 }
 
-/// p = 2 - (t - fold)^2 at the fold, and where rounding may put it: one place, or none.
+/// p = 2 - (t - fold)^2, evaluated at its maximum and up to two rounding units beside it: one place, or none.
 TEST(StepPositions, AtAFoldAreOneForEveryRoundingOfItsParameter) {
   std::size_t found_places = 0;
   for (int i = 0; i <= 2000; ++i) {

@@ -29,7 +29,7 @@ std::string scene_of(const PlantedMatrices& matrices, int order) {
   return text.str();
 }
 
-/// A scene must use its parameter; zero times p does.
+/// A scene must use its parameter. The term zero times p does this.
 PlantedMatrices with_variable(PlantedMatrices matrices) {
   if (matrices.K.size() == 1)
     matrices.K.emplace_back(Matrix::Zero(matrices.K[0].rows(), matrices.K[0].cols()));
@@ -89,7 +89,7 @@ InvariantPair Planted::pair_of(const PathPoint& point, const Together& track) {
 }
 
 PathNode Planted::point(double p, const std::vector<Together>& tracks, const Matrix& previous_basis) {
-  // A double eigenvalue that is defective is told to the root of rounding, a triple one to the third.
+  // A defective double eigenvalue is known to the square root of rounding, a triple one to the cube root.
   constexpr double told = 1e-4;
   PathPoint point = reduced(p, previous_basis);
   for (const Together& track : tracks) point.pairs.push_back(pair_of(point, track));

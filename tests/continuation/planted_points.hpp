@@ -1,5 +1,5 @@
-// Points of families of matrices whose eigenvalues are known in closed form, each followed as the test asks:
-// alone, or in blocks, in either chart.
+// Points of matrix families whose eigenvalues are known in closed form. The test chooses the blocks and
+// charts in which the modes are followed.
 #pragma once
 
 #include <functional>
@@ -55,7 +55,7 @@ class Planted {
 /// Every one as a track of its own.
 std::vector<Together> alone(const std::vector<Complex>& s);
 
-/// Eigenvalues of a track as its series tells them at distance h, in the order of `expected`.
+/// Eigenvalues from the series of a track at the distance h, in the order of `expected`.
 ComplexVector roots_at(const Track& track, double h, const ComplexVector& expected);
 
 /// Largest distance of the coefficients of two series; missing ones are zero.

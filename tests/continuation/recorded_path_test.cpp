@@ -1,4 +1,4 @@
-// The dense output of a path put together from steps with closed forms: places, parameters, eigenvalues.
+// The dense output of a path of several steps, compared with closed forms: places, parameters, eigenvalues.
 #include "eigentrail/continuation/recorded_path.hpp"
 
 #include <gtest/gtest.h>

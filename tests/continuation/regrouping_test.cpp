@@ -1,4 +1,4 @@
-// Joining, parting and changing charts at a point: blocks of modes in closed form, in and out again.
+// Joining modes to blocks, separating blocks, and changing charts at a point, compared with closed forms.
 #include "continuation/tracks/regrouping.hpp"
 
 #include <gtest/gtest.h>
@@ -132,7 +132,7 @@ TEST(Regrouping, CrowdedAreThoseCloserThanAShareOfTheWayTheyMove) {
   EXPECT_EQ(crowd(50.0), (std::vector<std::size_t>{1, 2}));
 }
 
-/// The same mode twice is no block: its two columns are one.
+/// The same mode twice is no block, because its two columns are linearly dependent.
 TEST(Regrouping, DoesNotJoinAModeWithItselfAndLeavesThePointAlone) {
   Planted family = crossing();
   PathNode node = family.point(0.0, alone({2.0 * j, 5.0 * j, 2.0 * j}));
@@ -190,7 +190,8 @@ TEST(Regrouping, ConjugateThatIsNoLongerNeededIsDropped) {
   EXPECT_LT(std::abs(node.tracks[0].roots[0] - s), rounding);
 }
 
-/// Nearly defective: sqrt(p) 1e-10 from its branch point. However short the step, they stay together.
+/// sqrt(p) at a distance of 1e-10 from its branch point: the block is nearly defective and must not be
+/// separated, however short the step is.
 TEST(Regrouping, DefectiveBlockIsNotTakenApart) {
   Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
   PathNode node = family.point(1e-10, {{{(2.0 + 1e-5) * j, (2.0 - 1e-5) * j}}});
@@ -201,7 +202,7 @@ TEST(Regrouping, DefectiveBlockIsNotTakenApart) {
 TEST(Regrouping, PartsThoseWhoWouldHaveBeenAccurateAloneOnTheLastStep) {
   Planted family = crossing();
   const PathNode left = family.point(-0.1, {{{1.9 * j, 2.7 * j}}});
-  // They meet, but are polynomials by themselves.
+  // They meet, but each eigenvalue is a polynomial and can be interpolated alone.
   for (const double accepted : {0.0, 1e-6}) {
     PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
     part(family.problem(), &left, node, 0.1, 0.1, {10.0, accepted}, family.counts);
@@ -223,7 +224,8 @@ TEST(Regrouping, ASingleModeThatCouldNotDoAloneKeepsItsPartner) {
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
-/// The upper of two that veer, and one that crosses it: the second is a polynomial and could do alone.
+/// A block of the upper of two veering modes and of a mode that crosses it. The latter is a polynomial and
+/// could be interpolated alone, the former could not.
 TEST(Regrouping, DoesNotPartAPairOfWhichOneCouldNotDoAlone) {
   constexpr double eps = 0.05;
   Planted family = Planted::frequencies({Matrix{{2.0, eps, 0.0}, {eps, 2.0, 0.0}, {0.0, 0.0, 2.3}},
@@ -248,7 +250,7 @@ TEST(Regrouping, WhoIsWhoBehindAMeetingOutlivesJoiningAndParting) {
   EXPECT_EQ(joined.met, (std::vector<int>{1, 2}));
   ASSERT_TRUE(joined.departure);
   EXPECT_LT(distance(joined.departure->roots, ComplexVector{{2.503 * j, 2.01 * j, 1.99 * j}}), rounding);
-  // The third could do alone; of the two that coincide here that is not known.
+  // The third can be interpolated alone. For the two that coincide at this point this is not known.
   const PathNode left = family.point(-0.1, {{{2.47 * j, 1.9 * j, 2.1 * j}}});
   part(family.problem(), &left, node, 0.1, 0.1, {1.0, 1e-6}, family.counts);
   ASSERT_EQ(node.tracks.size(), 2U);

@@ -1,5 +1,6 @@
-// A change of the path's coordinate: against paths that are polynomials in the new one, and the invariants of
-// any: sigma is what the plane measures, and the way back restores every series.
+// Changes of the coordinate along the path: compared with paths that are polynomials in the new coordinate.
+// For any path, the new coordinate is the one defined by the plane, and the inverse change restores every
+// series.
 #include "continuation/path/reparametrize.hpp"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,8 @@ TEST(Reparametrize, AlongItselfNothingChanges) {
   EXPECT_EQ(difference(path.parameters, root_path().parameters), 0.0);
 }
 
-/// The plane contains the path's direction: the path does not pass it, and has no series across it.
+/// The plane contains the direction of the path. The path does not cross it and has no series in its
+/// coordinate.
 TEST(Reparametrize, OnAPlaneAlongThePathHasNoSeries) {
   Path path = root_path();
   reparametrize(path, {Vector::Ones(1), -0.5}, traced);

@@ -1,5 +1,5 @@
-// Leaving a trace and going on with it: branches, planes, sparse matrices; states that are damaged or
-// foreign.
+// Interrupting and resuming traces with branches, planes and sparse matrices; states that are damaged or
+// belong to another trace.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -64,7 +64,8 @@ TEST_F(DamagedState, ThatEndsEarlyOrGoesOnIsRefused) {
   expect_refused(state + 'x', "a state with a byte too many");
 }
 
-/// Counts, shapes and indices are checked; what passes for a number may be any, and ends as a trace does.
+/// Counts, shapes and indices of a state are checked. Other numbers may have any value; the trace then ends
+/// with one of its usual outcomes.
 TEST_F(DamagedState, WithWrongBytesIsRefusedOrTraced) {
   std::mt19937 random(20);
   int refused = 0;

@@ -1,5 +1,5 @@
-// Blocks in the basis of the left end of their step: eigenvalues do not change, and what is interpolated is
-// smooth whatever bases the two points came with.
+// Blocks in the basis of the left end of their step: the eigenvalues do not change, and the interpolated
+// functions are smooth whatever bases the two points had before.
 #include "continuation/step/shared_basis.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,8 @@ class FixedBasis : public testing::TestWithParam<int> {
   ComplexMatrix W = random_complex(12, GetParam(), engine);
 };
 
-/// Random normalizations have conditions of up to some hundred, and every order multiplies with them.
+/// The inverses of random normalizations have condition numbers of up to some hundred. Each order of the
+/// series multiplies the error by one of them.
 constexpr double after_inverses = 1e-8;
 
 TEST_P(FixedBasis, IsNormalizedAtEveryOrder) {
@@ -150,7 +151,7 @@ TEST(InBasisOf, PhysicalVectorsOfAPointHaveTheirReducedCoordinates) {
     const Coefficients reduced = in_basis_of(node, track.series.Z);
     EXPECT_EQ(reduced[0].rows(), 3);
     EXPECT_LT((reduced[0] - track.pair.Z).norm(), rounding);
-    // Order 0 lies in the tangent space, and nothing of it is lost.
+    // The coefficient of order 0 lies in the tangent space, so the projection does not change it.
     EXPECT_LT((node.basis.T[0].cast<Complex>() * reduced[0] - track.series.Z[0]).norm(), rounding);
   }
 }
@@ -187,7 +188,7 @@ class BlockOfThree : public testing::Test {
     return (in_order_of(expected, found) - expected).cwiseAbs().maxCoeff();
   }
 
-  /// Another basis of the right end's block.
+  /// Changes the basis of the block at the right end.
   void turn_right() {
     std::mt19937_64 engine(11);
     Coefficients S{random_complex(3, 3, engine)};
@@ -210,7 +211,7 @@ TEST_F(BlockOfThree, IsInterpolatedInOneBasis) {
   turn_right();
   const DenseBlock turned = block_on_step(left, right, 0);
   EXPECT_LT(miss_in_the_middle(turned.left, turned.right), interpolation);
-  // The two points' own bases have nothing to do with each other.
+  // In the original bases of the two points, which are unrelated, the interpolation fails.
   EXPECT_GT(miss_in_the_middle(left.tracks[0].functions, right.tracks[0].functions), 1e-2);
 }
 

@@ -1,4 +1,4 @@
-// Large multibody models, from their elements to the trace, by sparse matrices and by dense ones.
+// Large multibody models with sparse and with dense matrices: elements, reduction and trace.
 #include <gtest/gtest.h>
 
 #include <cmath>

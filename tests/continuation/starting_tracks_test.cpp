@@ -1,5 +1,6 @@
-// Which modes of a spectrum start as one block: pencils with planted double, triple and nearly real
-// eigenvalues. A block is told to rounding where the spectrum tells its members to a root of it.
+// The blocks in which the modes of a spectrum start, for pencils with known double, triple and nearly real
+// eigenvalues. The functions of a block are known to rounding, where the spectrum gives its eigenvalues only
+// to a root of rounding.
 #include "continuation/tracks/starting_tracks.hpp"
 
 #include <gtest/gtest.h>
@@ -177,7 +178,8 @@ TEST(StartingGroups, GuestsBringTheirConjugatesAsGuests) {
   EXPECT_EQ(sorted, (Modes{Track::guest, Track::guest, Track::no_mode, 0}));
 }
 
-/// A triple eigenvalue with one vector: QZ's three are some 1e-5 apart, the block is told to rounding.
+/// A triple eigenvalue with one eigenvector. The three eigenvalues of QZ differ by some 1e-5; the functions
+/// of the block are known to rounding.
 TEST(StartingGroups, TripleDefectiveOneIsToldByItsBlockAndNotBySingleModes) {
   const Matrix W{{2.0, 1.0, 0.0}, {0.0, 2.0, 1.0}, {0.0, 0.0, 2.0}};
   const Vector v{{1.0, 2.0, 3.0}};
@@ -192,7 +194,7 @@ TEST(StartingGroups, TripleDefectiveOneIsToldByItsBlockAndNotBySingleModes) {
   ComplexMatrix N = pair.Lambda - 2.0 * j * ComplexMatrix::Identity(3, 3);
   EXPECT_LT(std::abs(N.trace()), 1e-12);
   EXPECT_LT((N * N * N).norm(), 1e-12);
-  // The rival: the spectrum's own eigenvalues.
+  // For comparison, the eigenvalues of the spectrum itself.
   double miss = 0.0;
   for (const StartingMode& mode : modes) miss = std::max(miss, std::abs(mode.s - 2.0 * j));
   EXPECT_GT(miss, 1e-7);

@@ -1,5 +1,5 @@
-// Eigenvalues of a step one by one: in closed form through crossings, veerings and exceptional points, and
-// the same whatever order they are asked for in.
+// Single eigenvalues of a block along a step ("strands"), compared with closed forms at crossings, veerings
+// and exceptional points. They do not depend on the order in which places are sampled.
 #include "continuation/tracks/strands.hpp"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,9 @@ BlockStep three() {
   return {uncoupled(Matrix{{2.0, 0.5}, {2.2, 0.0}, {2.5, -0.7}}), by_size, 0.0, 0.6};
 }
 
-/// On the step itself nothing tells a crossing from a veering of rounding's width: that it is one is found
-/// elsewhere, and steps end there.
+/// Within a step a crossing cannot be distinguished from a veering with a half-width of rounding. The sampler
+/// keeps the sides, as in a veering. Crossings are recognized by the search for meetings, and steps end
+/// there.
 TEST(StrandSampler, TakesACrossingForTheNarrowestOfVeerings) {
   for (const BlockStep& step : {crossing(), crossing(0.8, 0.0), three()}) {
     StrandSampler sampler = step.sampler();
@@ -90,8 +91,8 @@ TEST(StrandSampler, TakesACrossingForTheNarrowestOfVeerings) {
   }
 }
 
-/// s = j (2 + 0.5 p), twice, and -damping + j (2.5 - 0.7 p): they pass each other at p = 0.42, at that
-/// distance.
+/// s = j (2 + 0.5 p), twice, and -damping + j (2.5 - 0.7 p): they pass each other at p = 0.42 at the distance
+/// `damping`.
 struct PassingStep {
   explicit PassingStep(double damping)
       : family(matrices(damping)),
@@ -143,7 +144,7 @@ class SampleVeering : public testing::TestWithParam<double> {};
 TEST_P(SampleVeering, EachKeepsItsSide) {
   const BlockStep step = veering(GetParam());
   StrandSampler sampler = step.sampler();
-  // Rounding of delta over the distance of the roots, where that is least.
+  // Rounding of delta divided by the least distance of the roots.
   EXPECT_LT(largest_miss_on(step, sampler), rounding / GetParam());
 }
 
@@ -188,7 +189,7 @@ TEST(StrandSampler, OfASingleModeIsItsInterpolant) {
   }
 }
 
-/// sqrt(p): the interpolant of delta is exact, the roots part like a root.
+/// 2 +- sqrt(p): the interpolant of delta is exact, and so are the roots up to their order.
 TEST(StrandSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
   Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
   const auto root = [](double p) { return std::sqrt(Complex(p)); };
@@ -224,7 +225,7 @@ TEST(StrandsOf, ModesThatCoincideAtTheLeftEndOnlyAreTwo) {
   EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 2U);
 }
 
-/// Half-width 1e-6: far from one, for anyone who samples the step where it is.
+/// A veering of half-width 1e-6. Samples of the step must be refined there, so that it counts as two strands.
 TEST(StrandsOf, NarrowVeeringIsTwo) {
   const BlockStep step = veering(1e-6);
   StrandSampler sampler = step.sampler();
@@ -273,7 +274,7 @@ TEST_F(DepartureFromACrossing, IsLookedAtNearerByOnAShorterStep) {
     EXPECT_LE(position, farthest_departure);
     EXPECT_GT(position, 0.0);
     const double p = 0.3 + position * h;
-    // delta at the point is rounding, of order 1e-16, and its root 1e-8.
+    // At the point delta is a rounding error of about 1e-16, so its square root is about 1e-8.
     EXPECT_LT(distance(roots, ComplexVector{{(2.0 + p) * j, (2.6 - p) * j}}), 2e-8) << h;
     EXPECT_GT(roots[0].imag(), roots[1].imag()) << h;
   }
@@ -297,7 +298,7 @@ TEST_F(DepartureFromACrossing, IsWhereStrandsBegin) {
   }
 }
 
-/// The two that cross are told from each other also where a third of their block is far away.
+/// The two crossing eigenvalues are distinguished although a third one of their block is far away.
 TEST(DepartingRoots, OfTwoBesideAThirdKeepTheirOrder) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {3.1, 0.2}}));
   const Complex third = (3.1 + 0.2 * 0.3) * j;

@@ -1,4 +1,4 @@
-// Threads share the modes of a point; what they find may not depend on them.
+// Several threads compute the modes of a point. The results must not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include "eigentrail/continuation/point_modes.hpp"

@@ -1,4 +1,4 @@
-// Accuracy of the dense output against an independent solution, and what it costs in points.
+// Accuracy of the dense output compared with an independent solution, and the number of points needed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(tested.param.order);
     });
 
-/// Factorizations per mode and point; the points that special points were located with count as well.
+/// Factorizations per mode and point. Points computed to locate events count as well.
 double factorizations_per_point(const TraceResult& result) {
   int points = result.nodes;
   for (const Event& event : result.events) points += event.retrackings;

@@ -1,4 +1,4 @@
-// The trace loop: identity of modes, outcomes as values, independence of the choice of basis.
+// The trace loop: identity of modes, status of traces that end early, independence of the tangent basis.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,7 +126,7 @@ TEST(Trace, DerivativesAreRefinedBesideAVeering) {
 }
 
 TEST(Trace, OverdampedRootsOfOneFreedomAreTwoModes) {
-  // The two real roots share their shape: identity is decided by the eigenvalue.
+  // The two real modes have the same shape. They are distinguished by their eigenvalues.
   const Setting setting = make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 3\nto = 8\n[matrix_family]\nM = [ [[1]] ]\nC = [ [[0]], [[1]] ]\nK "
       "= [ [[1]] ]\n");
@@ -177,8 +177,8 @@ TEST(Trace, StartsAtAnExceptionalPoint) {
 }
 
 TEST(Trace, ClusterThatRoundingTearsApartIsReportedAtTheStart) {
-  // One Jordan chain of eight: K = S (4 + N) S^-1 with whole numbers. Its eigenvalues are known to the eighth
-  // root of rounding, so nobody can say which of them belong together.
+  // One Jordan chain of length eight: K = S (4 + N) S^-1 with integer S. Its eigenvalues are known only to
+  // the eighth root of rounding, so their blocks cannot be determined.
   constexpr Eigen::Index n = 8;
   Matrix chain = 4.0 * Matrix::Identity(n, n);
   chain.diagonal(1).setOnes();

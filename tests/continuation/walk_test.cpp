@@ -1,4 +1,4 @@
-// The safeguarded walk to a special point, on functions whose roots are known.
+// The safeguarded iteration that locates events, on functions with known roots.
 #include "continuation/events/walk.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,8 @@ TEST(Walk, RoundingBeyondTheEndCountsAsTheEnd) {
   EXPECT_EQ(last, 1.5);
 }
 
-/// Moves that no longer shrink at the level of rounding have arrived; far above it they wander.
+/// If moves no longer decrease, the iteration has converged if they are at the rounding level. If they are
+/// far above it, the iteration has failed.
 TEST(Walk, TellsRoundingFromWandering) {
   const auto restless = [](double) { return RealSight{RealSight::Kind::seen, 1e-10}; };
   WalkRules rules = rules_of(1e-13);
@@ -93,7 +94,7 @@ TEST(Walk, EndsWhereALookSaysSo) {
   }
 }
 
-/// The rival: the same method without its interval runs away from a flat start.
+/// For comparison: without an interval the same method diverges from a start where the slope is small.
 TEST(Walk, WithoutAnIntervalNewtonsMethodRunsAway) {
   const auto arctangent = [](double x) {
     return RealSight{RealSight::Kind::seen, -std::atan(x) * (1.0 + x * x)};

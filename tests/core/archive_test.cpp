@@ -1,4 +1,4 @@
-// Values as bytes and back, and bytes that are no values.
+// Conversion of values to bytes and back, and bytes that do not represent values.
 #include "core/archive.hpp"
 
 #include <gtest/gtest.h>

@@ -201,7 +201,7 @@ TEST(ConstraintFactorization, NearlyParallelRowsInDifferentUnitsStayTwoConstrain
     A.row(0) *= unit;
     const ConstraintFactorization factorization(A);
     EXPECT_EQ(factorization.rank(), 2) << unit;
-    // The rival, the same decomposition of the rows as they stand, sees one constraint.
+    // For comparison, without scaling of the rows one constraint is lost if the units differ.
     Eigen::CompleteOrthogonalDecomposition<Matrix> unscaled;
     unscaled.setThreshold(ConstraintFactorization::rank_tolerance);
     unscaled.compute(A.transpose());
@@ -210,7 +210,7 @@ TEST(ConstraintFactorization, NearlyParallelRowsInDifferentUnitsStayTwoConstrain
 }
 
 TEST(ConstraintFactorization, SolvesNearlyParallelRowsWhereTheNormalEquationsFail) {
-  // The rival is Eq. 15 to the letter, A+ = A^T (A A^T)^-1: it squares the condition number.
+  // For comparison, A+ = A^T (A A^T)^-1 as written in Eq. 15 squares the condition number.
   constexpr double not_a_solution = 0.1;
   const Matrix A = rows_at_angle(1e-8);
   const ConstraintFactorization factorization(A);

@@ -35,7 +35,7 @@ TEST(NearestName, AllowsMoreEditsInLongerNames) {
 }
 
 TEST(NearestName, PrefersTheCloserOfTwoCandidatesWhateverTheirOrder) {
-  // The rival: the first candidate that is close enough.
+  // A simpler rule would suggest the first candidate that is close enough.
   EXPECT_EQ(nearest_name("spring_", {"sprint", "spring"}), "spring");
   EXPECT_EQ(nearest_name("spring_", {"spring", "sprint"}), "spring");
 }

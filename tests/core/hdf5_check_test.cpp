@@ -1,4 +1,4 @@
-// Files that HDF5 is not shown.
+// Files that are rejected before the HDF5 library opens them.
 #include "core/hdf5_check/check.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::string bytes_of(const std::string& name) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// What is wrong with a file; empty when nothing is.
+/// The error in a file; empty if there is none.
 std::string fault(std::string_view bytes) {
   try {
     check_hdf5_bytes(bytes);

@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(All, SeriesFunction, testing::ValuesIn(functions()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Series, BeatsCentralDifferencesOfTheFourthDerivativeAtTheirBestStep) {
-  // The rival: a five-point difference loses eps / step^4 to rounding and step^2 to truncation.
+  // For comparison, a five-point difference has a rounding error eps / step^4 and a truncation error step^2.
   constexpr double orders_of_magnitude = 1e6;
   const double x0 = 0.9;
   const double exact =
@@ -291,7 +291,7 @@ TEST(Series, IntegerPowersOfASeriesThatBeginsAtZeroAreExact) {
     const S power = integer_power(h, n);
     for (int k = 0; k <= order; ++k) EXPECT_EQ(power[k], k == n ? 1.0 : 0.0) << "h^" << n;
   }
-  // The rival: the general power goes through the logarithm.
+  // For comparison, the general power uses the logarithm.
   EXPECT_FALSE(std::isfinite(pow(h, S(2.5))[2]));
   EXPECT_FALSE(std::isfinite(integer_power(h, -1)[0]));
 }

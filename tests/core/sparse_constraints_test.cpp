@@ -52,7 +52,8 @@ TEST(SparseConstraints, AgreeWithTheDenseFactorization) {
   EXPECT_LT((sparse.transposed_pseudo_inverse_times(force) - lambda).norm(), rounding * lambda.norm());
   const Matrix Y = Matrix::Random(120, 4);
   EXPECT_LT((sparse.allowed_part(Y) - dense.allowed_part(Y)).norm(), rounding * Y.norm());
-  // Both tell the least angle between constraints up to the order in which they take the rows.
+  // Both estimate the least angle between constraints. The estimates differ because the rows are taken in
+  // different orders.
   EXPECT_LT(std::abs(std::log10(sparse.independence() / dense.independence())), 1.0);
 }
 
@@ -114,7 +115,7 @@ TEST(SparseConstraints, AtTheLimitOnlyTheRefinedSolutionKeepsItsDigits) {
   ASSERT_TRUE(sparse.is_sparse());
   const Vector exact = ConstraintFactorization(A).pseudo_inverse_times(Vector::Ones(31));
   const double error = (sparse.pseudo_inverse_times(Vector::Ones(31)) - exact).norm() / exact.norm();
-  // The rival: the normal equations as they are.
+  // For comparison, the normal equations without refinement.
   const Matrix S = A.rowwise().normalized();
   const Vector right = A.rowwise().norm().cwiseInverse();
   const Vector plain = S.transpose() * (S * S.transpose()).ldlt().solve(right);

@@ -1,4 +1,4 @@
-// What a fuzzer calls with every input, and the replay of its corpus with every file.
+// The function that a fuzzer calls with every input, and the replay of its corpus with every file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Bytes as an HDF5 file: what is looked at before the HDF5 library opens it.
+// Bytes as an HDF5 file: the checks before the HDF5 library opens it.
 #include "core/hdf5_check/check.hpp"
 #include "core/hdf5_file.hpp"
 #include "fuzz/entry.hpp"

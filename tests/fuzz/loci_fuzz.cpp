@@ -26,7 +26,7 @@ void evaluate(const LociFile& loci) {
   }
 }
 
-/// What is no loci file may be one of the other kinds that a page shows.
+/// Files of other kinds are turned into the data of a page as well.
 void show_other(const std::string& path, const ReportBudget& budget) {
   try {
     (void)page_json(file_data(path, budget));

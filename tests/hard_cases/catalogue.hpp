@@ -1,5 +1,5 @@
-// Hard cases: families of matrices and scenes on which following eigenvalues goes wrong, each with its
-// spectrum from an independent source and every special point of its range.
+// Hard cases: matrix families and scenes whose eigenvalues are difficult to follow, each with its spectrum
+// from an independent source and all special points of its range.
 #pragma once
 
 #include <functional>

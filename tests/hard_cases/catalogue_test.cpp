@@ -1,4 +1,5 @@
-// The catalogue against itself: closed forms against pencils, every special point by what its kind means.
+// Consistency of the catalogue: closed forms agree with the pencils, and every special point satisfies the
+// conditions of its kind.
 #include "hard_cases/catalogue.hpp"
 
 #include <gtest/gtest.h>
@@ -135,7 +136,8 @@ TEST(Catalogue, BladesAgreeWithTheirReferenceAtTheEnd) {
   EXPECT_LT(matched_distance(expected, found), 1e-14);
 }
 
-/// The rival of the Jacobi method: a tridiagonal QR loses the soft eigenvalues of a graded matrix.
+/// The Jacobi method keeps the relative accuracy of the small eigenvalues of a graded matrix. Reduction to
+/// tridiagonal form and QR would lose them.
 TEST(WidePencil, JacobiKeepsTheSmallEigenvaluesOfAGradedMatrix) {
   const WideMatrix K = hard_case("graded_veering").pencil(0.0, 0).K.real();
   const std::vector<Wide> mu = jacobi_eigenvalues(K);

@@ -1,4 +1,4 @@
-// Every hard case left and gone on with: bit for bit what it was without.
+// Every hard case interrupted and resumed: the result is the same, bit for bit, as without interruption.
 #include <gtest/gtest.h>
 
 #include "hard_cases/run_case.hpp"
@@ -7,7 +7,7 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr std::size_t states = 12;  ///< of each trace that are gone on from
+constexpr std::size_t states = 12;  ///< number of states of each trace from which it is resumed
 
 class ResumedCase : public testing::TestWithParam<HardCase> {};
 

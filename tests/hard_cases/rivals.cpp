@@ -68,8 +68,8 @@ Matrix distances(const std::vector<Complex>& from, const std::vector<Complex>& t
   });
 }
 
-/// 1 - MAC; members above and below the real axis are not matched with each other, or whirl forwards would be
-/// taken for the conjugate of whirl backwards, which has the same shape.
+/// Cost of matching modes: 1 - MAC. An eigenvalue above the real axis is not matched with one below: the
+/// conjugate of backward whirl has the same shape as forward whirl.
 Matrix disagreement(const GridSpectra::Point& last, const GridSpectra::Point& next) {
   Matrix cost = 1.0 - modal_assurance(last.vectors, next.vectors, next.mass).array();
   for (Eigen::Index i = 0; i < cost.rows(); ++i) {

@@ -1,5 +1,5 @@
-// What users do today: a full spectrum by QZ at equally spaced parameters, labels carried from one to the
-// next.
+// The usual method, for comparison ("rivals"): a full spectrum by QZ at equally spaced parameters, with
+// labels carried from each to the next.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// Reference labels against analytic branches, and what the rivals make of the hard cases.
+// Reference labels compared with analytic branches, and errors of the usual methods (rivals.hpp) on hard
+// cases.
 #include "hard_cases/rivals.hpp"
 
 #include <gtest/gtest.h>

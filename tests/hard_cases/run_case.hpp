@@ -1,4 +1,4 @@
-// One hard case traced with one setting, and everything that is checked about it.
+// Traces one hard case with one setting and checks errors, events and labels.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The scenes of the catalogue: the library's reduction of each against the catalogue's spectrum.
+// The spectrum of each scene after the library's reduction, compared with the spectrum of the catalogue.
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
@@ -22,7 +22,7 @@ class Scenes : public testing::TestWithParam<HardCase> {
   const HardCase& hard_case() const { return GetParam(); }
 };
 
-/// By how much QZ may miss an eigenvalue s of the companion pencil (A, E): its backward error times the
+/// Allowed error of QZ for an eigenvalue s of the companion pencil (A, E): its backward error times the
 /// condition number (|A| + |s| |E|) |X| |Y| / |Y^H E X|, X = (z, s z), Y = ((s M + C)^H y, y).
 double qz_error(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix M = pencil.M[0].cast<Complex>();

@@ -1,4 +1,4 @@
-// What a special point of a case must be, by its kind: conditions on the pencil there, in extended precision.
+// Conditions on the pencil at a special point of a case, by its kind, in extended precision.
 #pragma once
 
 #include <gtest/gtest.h>

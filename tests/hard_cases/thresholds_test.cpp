@@ -1,6 +1,6 @@
-// No hard case loses or invents an event when a threshold that decides what is found is a third of its value,
-// or three times as large. veering.widest is left out: it says which veerings count, so that other ones are
-// asked for; and the thresholds of the start of a trace, which end it with a message.
+// In no hard case an event is lost or added if a threshold of the event search is a third of its value or
+// three times as large. Left out are veering.widest, which defines the veerings that are to be found, and the
+// thresholds of the start of a trace, which end it with a message.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -48,8 +48,8 @@ TEST_P(TracedCase, MatchesItsReference) {
   EXPECT_TRUE(found.empty()) << found;
 }
 
-/// Rounding, which differs from one basis to the next, makes no second crossing of a doublet with itself out
-/// of the one with the third mode.
+/// A third mode crosses a doublet once. Rounding, which depends on the basis, must not lead to a second
+/// event, a crossing within the doublet.
 TEST(PermanentDoublet, IsCrossedOnceInEveryBasis) {
   constexpr double third = 1.0 / 3.0;
   for (unsigned seed = 0; seed < 40; ++seed) {

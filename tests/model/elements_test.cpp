@@ -1,5 +1,5 @@
-// Every effect of the registry: automatic derivatives against finite differences of the residual by observed
-// order, declared facts against what the numbers show, and closed forms.
+// Every effect of the registry: automatic derivatives are compared with finite differences of the residual,
+// by the observed order, declared properties with computed values, and results with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -211,7 +211,7 @@ TEST_P(Elements, SeriesAlongAPathReproduceTheMatricesAheadWithFifthOrder) {
   }
 }
 
-/// The same templates on 113 bits: what double precision rounds away is all that differs.
+/// The same templates with 113 bits: the results differ only by the rounding of double precision.
 TEST_P(Elements, AgreesWithExtendedPrecision) {
   Linearization lin;
   SteadyResidual residual;
@@ -298,8 +298,8 @@ class Filler {
   int slot_ = 0;
 };
 
-/// The derivative in a direction an element does not declare must vanish: a forgotten declaration would
-/// silently drop a matrix, or take one for constant that is not.
+/// Derivatives in directions that an element does not declare must vanish. If a declaration were missing, a
+/// matrix would be omitted, or taken as constant, without an error.
 TEST(Registry, DeclaredDependencesAreComplete) {
   using Base = Series<double, 0>;
   using Scalar = Series<Base, 1>;

@@ -1,4 +1,4 @@
-// A model of the user's own: what automatic differentiation makes of its force and mass.
+// A user's own model: derivatives of its force and mass by automatic differentiation.
 #include "eigentrail/model/force_model.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The multibody model as a whole: structure flags, counters, names, guesses.
+// The multibody model: structure flags, counters, names, guesses.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -56,7 +56,7 @@ TEST_P(AllPairsOfFamily, AgreeWithPairsOneByOne) {
   }
 }
 
-/// Where a mode is missing, or belongs to the other chart, the pairs want to be corrected one by one.
+/// If a mode is missing or belongs to the other chart, the pairs must be corrected one by one.
 TEST_P(AllPairsOfFamily, AreRefusedWhereSomethingIsMissing) {
   std::vector<InvariantPair> from = starts();
   from.pop_back();

@@ -60,7 +60,8 @@ TEST(PartSeries, TellsAGapThroughAnExceptionalPointToFullAccuracy) {
   exact[2] = 1e-9;
   EXPECT_LT((gap - exact).norm(), 1e-13);
   EXPECT_LT((mean_series(part) - i * ComplexVector::Unit(count, 0)).norm(), 1e-13);
-  // The eigenvalues themselves, and with them the product of their series, are lost there.
+  // The eigenvalues themselves have no power series there and are accurate only to the square root of
+  // rounding.
   const ComplexVector roots = block_roots(Lambda[0].reshaped());
   EXPECT_GT((in_order_of((ComplexVector(4) << i, i, 2.0 * i, 3.0 * i).finished(), roots).head(2).array() - i)
                 .abs()

@@ -1,4 +1,4 @@
-// Shares of kinetic energy against closed forms, and the names that follow.
+// Shares of kinetic energy compared with closed forms, and the names of modes derived from them.
 #include "eigentrail/modes/energy_shares.hpp"
 
 #include <gtest/gtest.h>

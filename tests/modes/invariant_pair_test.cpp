@@ -242,8 +242,8 @@ TEST_P(PairOfFamily, SeriesOfABlockHaveTheirOrder) {
   }
 }
 
-/// Factors of a distant prediction serve for the series, too: where they are so far off that every
-/// coefficient takes many corrections, the block is factored anew.
+/// The series may be computed with the factors of a distant prediction. If these are so inaccurate that every
+/// coefficient needs many corrections, the block is factorized again.
 TEST_P(PairOfFamily, SeriesOfABlockDoNotDependOnItsFactors) {
   const PencilAtPoint point(start);
   const InvariantPair pair = correct_pair(point, block_of(modes(), 2), s_ref, {}, counts);
@@ -300,7 +300,7 @@ TEST_P(PairOfFamily, ConjugatePairIsARealBlock) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PairOfFamily, testing::Range(1U, 6U));
 
-/// s^2 + 3 s + k = 0: a root near zero, from starts that are off by as much as counts as zero.
+/// s^2 + 3 s + k = 0: a root near zero, from starts with an error as large as magnitudes that count as zero.
 class SmallEigenvalue : public testing::TestWithParam<double> {};
 
 TEST_P(SmallEigenvalue, IsReachedFromEveryStartThatCountsAsZero) {
@@ -374,7 +374,7 @@ TEST(InvariantPair, DependentColumnsAreSingular) {
 }
 
 TEST(EigenvalueRemainder, TellsTheRealPartOnTheImaginaryAxisToItsOwnDigits) {
-  // M = I, C = alpha I: Re s = -alpha / 2 in every mode, here far below the rounding of s itself.
+  // M = I, C = alpha I: Re s = -alpha / 2 in every mode, here far below the rounding error of s.
   const double alpha = 3e-17;
   const ReducedPencil pencil{{Matrix::Identity(2, 2)},
                              {alpha * Matrix::Identity(2, 2)},

@@ -139,8 +139,8 @@ TEST(BlockFunctions, OfTwoDoNotDependOnTheBasis) {
 }
 
 TEST(BlockFunctions, OfTwoKeepTheirDigitsWhereTheEigenvaluesMeet) {
-  // tau +- 1e-9: delta = 1e-18 comes out to nine digits, as far as Lambda is known; tau^2 - det has none of
-  // them.
+  // Eigenvalues tau +- 1e-9: delta = 1e-18 is accurate to nine digits, as accurate as Lambda determines it.
+  // The formula tau^2 - det has no correct digit.
   ComplexMatrix Lambda(2, 2);
   Lambda << Complex(0.0, 7.0), 1e-9, 1e-9, Complex(0.0, 7.0);
   const ComplexVector functions = functions_of(Lambda);
@@ -150,7 +150,8 @@ TEST(BlockFunctions, OfTwoKeepTheirDigitsWhereTheEigenvaluesMeet) {
 }
 
 TEST(BlockFunctions, OfThreeKeepTheDigitsOfEigenvaluesThatCoincide) {
-  // Two coincide without being defective. The characteristic polynomial tells them to half the digits only.
+  // Two eigenvalues coincide without being defective. The characteristic polynomial gives them to half the
+  // digits only.
   const ComplexVector eigenvalues{{Complex(0.0, 3.0), Complex(0.0, 3.0), Complex(0.0, 3.4)}};
   const ComplexMatrix Lambda = block_with(eigenvalues, 5);
   const ComplexVector roots = in_order_of(eigenvalues, block_roots(functions_of(Lambda)));

@@ -44,7 +44,7 @@ TEST(ModalAssurance, IsZeroForShapesOrthogonalInTheMass) {
   const ComplexVector Mv = M * v;
   const ComplexVector w = other - v * (Mv.dot(other) / Mv.dot(v));
   EXPECT_LT(modal_assurance(v, w, M)(0, 0), rounding);
-  // The rival without the mass sees two shapes that resemble each other.
+  // For comparison, without the mass the two shapes are not orthogonal.
   EXPECT_GT(modal_assurance(v, w, Matrix::Identity(5, 5))(0, 0), 1e-3);
 }
 
@@ -172,11 +172,11 @@ TEST(OptimalAssignment, BeatsTheCheapestColumnOfEachRowAndTheGreedyChoice) {
   cost << 1.0, 1.1, 9.0,  //
       1.2, 9.0, 9.0,      //
       9.0, 9.0, 0.0;
-  // First rival: the cheapest column of each row is no one-to-one assignment.
+  // For comparison: the cheapest column of each row is no one-to-one assignment.
   std::vector<int> cheapest(3);
   for (int i = 0; i < 3; ++i) cost.row(i).minCoeff(&cheapest[static_cast<std::size_t>(i)]);
   EXPECT_FALSE(one_to_one(cheapest));
-  // Second rival: the cheapest pair that is left, again and again, ends with the costly pair (1, 1).
+  // For comparison: taking the cheapest remaining pair repeatedly ends with the costly pair (1, 1).
   const std::vector<int> greedy = {0, 1, 2};
   EXPECT_EQ(optimal_assignment(cost), (std::vector<int>{1, 0, 2}));
   EXPECT_LT(total(cost, optimal_assignment(cost)), total(cost, greedy));

@@ -71,8 +71,8 @@ TEST(NormalizeShape, IsItsOwnFixedPointAndForgetsThePhaseItCameWith) {
 }
 
 TEST(NormalizeShape, FollowsAReferenceSmoothlyWhereTheLargestComponentChanges) {
-  // v(t) turns from the first component to the second; the rival, which makes the largest component real,
-  // jumps.
+  // v(t) turns from the first component to the second. A normalization that makes the largest component real
+  // would jump.
   const Matrix M = Matrix::Identity(2, 2);
   const auto v = [](double t) {
     ComplexVector shape(2);

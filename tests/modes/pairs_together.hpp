@@ -1,4 +1,5 @@
-// What the tests of all pairs at once share: starts from LAPACK, and comparison with pairs one by one.
+// Shared by the tests of the methods that compute all pairs together: starting values from LAPACK, and
+// comparison with pairs that are computed one by one.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the tests of invariant pairs share: tolerances, and corrections of one mode from a guess.
+// Shared by the tests of invariant pairs: tolerances, and the correction of one mode from a guess.
 #pragma once
 
 #include "eigentrail/modes/invariant_pair.hpp"

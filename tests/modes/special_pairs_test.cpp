@@ -1,4 +1,5 @@
-// Pairs where single modes fail: exceptional points, and eigenvalues that pass through infinity.
+// Invariant pairs where single modes in the finite chart fail: exceptional points, and eigenvalues that pass
+// through infinity.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -47,7 +48,7 @@ TEST(ExceptionalPoint, BlockOfTwoConvergesToRounding) {
 }
 
 TEST(ExceptionalPoint, TwoSinglesDoNotConvergeToRounding) {
-  // Newton at a double root halves its error at every step, and ends at the root of rounding.
+  // Newton's method at a double root halves the error in every step, and ends at the square root of rounding.
   const ReducedPencil pencil = exceptional_family(0.5);
   const Complex s(0.0, std::sqrt(1.5));
   for (const double side : {-1.0, 1.0}) {
@@ -92,7 +93,7 @@ TEST(ExceptionalPoint, SeriesOfTheInvariantsEqualTheClosedForm) {
 }
 
 TEST(ExceptionalPoint, SeriesOfASingleDivergeWhereThoseOfTheBlockDoNot) {
-  // The rival beside the point: coefficients of sqrt(delta) grow with the distance to it.
+  // Close to the exceptional point, the coefficients of the single eigenvalue grow like those of sqrt(delta).
   const ReducedPencil family = exceptional_family(0.5 - 1e-6);
   const ReducedPencil pencil = at(family, 0.0);
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
@@ -215,7 +216,7 @@ TEST(ReciprocalChart, FollowsAnEigenvalueThroughInfinityWhereTheMassIsSingular) 
     EXPECT_NEAR(found.real(), expected[k], tolerance) << "order " << k;
     EXPECT_EQ(found.imag(), 0.0);
   }
-  // The rival: in the finite chart the same start has nothing to converge to but the other root.
+  // For comparison: in the finite chart the same start can converge only to the other root.
   const InvariantPair finite = correct_mode(PencilAtPoint(family), -1e3, ComplexVector::Ones(1), counts);
   EXPECT_TRUE(finite.status != PairStatus::converged ||
               std::abs(finite.eigenvalue() + 2.0 / 3.0) < tolerance);

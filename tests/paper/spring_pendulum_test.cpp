@@ -83,7 +83,7 @@ TEST_P(SpringPendulum, ProjectionSensitivityEqualsEqs125And129) {
 }
 
 TEST_P(SpringPendulum, FrozenProjectionGivesTheWrongSensitivity) {
-  // The rival: T' = 0. Its K' lacks 2 sin^2 and cannot reproduce (126c).
+  // For comparison, with T' = 0 the term 2 sin^2 is missing in K', and (126c) is not reproduced.
   const PathProblem problem = setting.problem();
   Linearization linearization;
   ASSERT_FALSE(problem.model.linearize(node.path, 1, linearization, counts.evaluations));

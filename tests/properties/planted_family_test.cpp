@@ -1,4 +1,4 @@
-// The planted families against themselves: what the sweep takes for the truth, by other means.
+// Consistency of the planted families: the data that the sweep takes as exact are checked by other methods.
 #include "properties/planted_family.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A planted family traced, and everything that is checked about it.
+// Traces a planted family and checks errors, events and labels.
 #pragma once
 
 #include <map>

@@ -67,7 +67,8 @@ TEST(TangentBasis, StaysCloseToThePreviousBasis) {
 }
 
 TEST(TangentBasis, FreshFactorizationAloneJumpsWhereTheAlignedBasisDoesNot) {
-  // The rival is Q2 as it comes: writing the same constraints in another order and sign moves it far.
+  // For comparison, Q2 of the factorization without alignment changes much if the same constraints are
+  // written in another order and with another sign.
   const Matrix A0 = random_matrix(2, 6, 1);
   const Matrix A1 = -A0.colwise().reverse() + 1e-9 * random_matrix(2, 6, 2);
   const Matrix T0 = ConstraintFactorization(A0).null_basis();

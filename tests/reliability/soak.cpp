@@ -1,7 +1,7 @@
-// Random traces one after the other in one process, each written, read back and evaluated; the memory of the
-// process may not grow. Meant for a build with address sanitizer (bootstrap check), where leaks show, too.
+// Runs random traces in one process, each written, read back and evaluated. The memory of the process must
+// not grow. Intended for a build with address sanitizer (bootstrap check), which also detects leaks.
 //
-//     soak [SECONDS] [SEED]      at least so long, and as many traces as it takes to tell
+//     soak [SECONDS] [SEED]      at least this time and `least_traces` traces
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace eigentrail::test {
 namespace {
 
 constexpr double warm_up = 0.25;        ///< share of the run in which memory may grow
-constexpr double allowed_growth = 0.1;  ///< after it
-constexpr double least_traces = 160;    ///< a slow machine takes longer: fewer say nothing about memory
+constexpr double allowed_growth = 0.1;  ///< largest relative growth after that
+constexpr double least_traces = 160;    ///< with fewer the growth of memory is not significant
 
 /// Resident memory of this process, bytes.
 double memory() {

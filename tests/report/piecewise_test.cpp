@@ -115,7 +115,7 @@ TEST(PiecewiseCurves, EndAfterAFewHundredPiecesPerStepOfNoise) {
   EXPECT_LT(curves.front().knots.size(), 1000U);
 }
 
-// A step of length 1e-20 behind one of length 1 ends where it begins, by rounding.
+// A step of length 1e-20 behind one of length 1: by rounding its ends are equal.
 TEST(PiecewiseSteps, LostInTheLengthOfThePathGiveNumbers) {
   const auto value = [](std::size_t, double t) {
     EXPECT_TRUE(t >= 0.0 && t <= 1.0);

@@ -279,7 +279,7 @@ TEST(Expression, TextsWithinTheLimitsAreEvaluated) {
 }
 
 TEST(Expression, TheDeepestStackAcceptedIsEvaluatedOnEveryScalar) {
-  // The largest nesting that the parser lets pass may not write past the evaluation stack.
+  // The deepest nesting that the parser accepts must not write beyond the evaluation stack.
   int deepest = 0;
   for (int n = 1; n < 100; ++n) {
     const std::string text = repeated("x-(", n) + "x" + repeated(")", n);

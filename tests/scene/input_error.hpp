@@ -1,4 +1,4 @@
-// The message of an error that a test expects.
+// The message of an error, for tests.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace eigentrail::test {
 
-/// What the InputError thrown by `action` says; a text that no message equals when none is thrown.
+/// The message of the InputError thrown by `action`; if none is thrown, a text that is no message.
 template <class Action>
 std::string input_error(const Action& action) {
   try {

@@ -1,4 +1,4 @@
-// What is beyond the limits of a scene is refused with its place.
+// Scenes beyond the limits are rejected with a message that names the place.
 #include "eigentrail/scene/limits.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::input_error;
 
 constexpr const char* trace = "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[parameters]\np = 0\n";
 
-/// What is said of a scene.
+/// The error message for a scene.
 std::string fault(const std::string& text) {
   return input_error([&] { (void)prepare_trace(parse_scene(text, "test.toml"), {}); });
 }

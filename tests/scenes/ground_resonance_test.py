@@ -79,7 +79,7 @@ class GroundResonance(RotorTest):
         self.assertEqual(self.special_points(file, "flutter"), [])
 
     def test_damping_that_turned_with_the_rotor_would_not_do(self):
-        """A rival: support damping relative to the turning frame moves the boundaries by far more than the tolerance."""
+        """With support damping relative to the turning frame the boundaries differ by far more than the tolerance."""
         turned = self.scene_text().replace('speed = "-omega"', 'speed = 0')
         right = sorted(rpm for rpm, _ in self.special_points(self.trace_scene(), "flutter"))
         wrong = sorted(rpm for rpm, _ in self.special_points(self.trace_text(turned), "flutter"))

@@ -1,4 +1,4 @@
-// Boundaries of scenes given as texts, and where their dense output lies.
+// Boundaries of scenes that are given as texts, and the deviation of their dense output from closed forms.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Boundaries with closed forms, held by the dense output all along.
+// The dense output of boundaries compared with closed forms along the whole curve.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ TEST(BoundaryClosedForm, CornerWhereAnotherModeTakesOver) {
   ASSERT_EQ(result.curves.size(), 2U);
   ASSERT_EQ(result.corners.size(), 1U);
   const Corner& corner = result.corners.front();
-  EXPECT_EQ(corner.kind, CornerKind::crossing);
+  EXPECT_EQ(corner.kind, CornerKind::intersection);
   EXPECT_NEAR(corner.place[0], 0.1, 1e-13);
   EXPECT_NEAR(corner.place[1], 0.2, 1e-13);
   EXPECT_EQ(corner.curves, (std::array<int, 2>{0, 1}));

@@ -1,4 +1,5 @@
-// None is missed: islands, curves that graze, boundaries in regions that the edges do not see.
+// No boundary is missed: closed curves between the lines (islands), curves that touch a line or an edge, and
+// boundaries that do not reach an edge.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +38,8 @@ TEST(BoundaryCompleteness, StableIslandInAnUnstableRegion) {
   expect_circle(result.curves[0], -0.3, 0.4, 0.3);
 }
 
-/// Between the lines, which are a third apart: only a walk finds it.
+/// An island between the lines, whose distance is a third. It is found only by following an extremum (a
+/// walk).
 TEST(BoundaryCompleteness, SmallIslandsBetweenTheLines) {
   for (const char* sign : {"", "-"}) {
     const BoundaryResult result = boundaries_of(circle_scene(0.15, -0.18, 0.01, sign), square_window());
@@ -49,14 +51,14 @@ TEST(BoundaryCompleteness, SmallIslandsBetweenTheLines) {
   }
 }
 
-/// The rival: an island is out of sight of the edges, and stays so where nobody walks.
+/// For comparison, a search on the edges alone finds no change of stability.
 TEST(BoundaryCompleteness, EdgesAloneSeeNoIsland) {
   BoundaryRequest request = square_window();
   request.lines = 0;
   EXPECT_EQ(boundaries_of(circle_scene(0.13, -0.21, 0.4), request).seeds, 0);
 }
 
-/// From outside the first inner line touches the island at one point.
+/// The first inner line touches the island at one point from outside.
 TEST(BoundaryCompleteness, IslandThatGrazesALine) {
   const double line = -1.0 + 2.0 / 6.0;
   const BoundaryResult result = boundaries_of(circle_scene(0.1, line + 0.05, 0.05), square_window());
@@ -77,7 +79,7 @@ TEST(BoundaryCompleteness, IslandThatGrazesTheEdge) {
   EXPECT_NEAR(length, std::acos(-1.0) * 0.1, 0.05 * 0.1);
 }
 
-/// The boundary reaches into the window through one edge by little.
+/// A boundary that crosses one edge twice and extends only slightly into the window.
 TEST(BoundaryCompleteness, ShallowBoundaryAtTheEdge) {
   const BoundaryResult result = boundaries_of(circle_scene(0.1, 1.3, 0.301), square_window());
   ASSERT_EQ(result.curves.size(), 1U);

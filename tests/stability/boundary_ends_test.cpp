@@ -1,4 +1,4 @@
-// How curves end inside the window.
+// Curves that end inside the window.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ TEST(BoundaryEnds, TakensBogdanov) {
   EXPECT_EQ(last.s, Complex(0.0));
   EXPECT_LT(largest_miss(flutter[0], 500, [](const auto& at) { return at[0]; }), 1e-8);
   EXPECT_LT(largest_miss(flutter[0], 500, [](const auto& at) { return at[1] + at[3]; }), 1e-8);
-  // That of divergence goes on, through the point where s = 0 is a double root.
+  // The divergence curve continues through the point where s = 0 is a double root.
   EXPECT_EQ(divergence[0].begin, CurveEnd::edge);
   EXPECT_EQ(divergence[0].end, CurveEnd::edge);
   const auto [low, high] = divergence[0].extent();
@@ -75,7 +75,8 @@ TEST(BoundaryEnds, DampingRatioEndsWhereTheFrequencyVanishes) {
   EXPECT_LT(last.place.norm(), 1e-12);
 }
 
-/// Without damping all modes of Ziegler's column stay on the axis: no Newton step leads onto that edge.
+/// On the edge without damping all modes of Ziegler's column are on the imaginary axis. There g = 0
+/// everywhere, so Newton's method cannot determine the end of the curve.
 TEST(BoundaryEnds, OnAnEdgeWithoutDamping) {
   const BoundaryResult result = ziegler_boundaries(0.0, 1.0, 1e-9);
   EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
@@ -89,8 +90,8 @@ TEST(BoundaryEnds, OnAnEdgeWithoutDamping) {
       1e-8);
 }
 
-/// With the damping's sign all modes change theirs: Q = 0 up to the load where they coalesce, and the
-/// parabola, which crosses it.
+/// All modes change their stability with the sign of the damping, so Q = 0 is a boundary up to the load where
+/// the modes coalesce. The parabola crosses it.
 TEST(BoundaryEnds, InAnExceptionalPointBehindACrossingOfOneMode) {
   const BoundaryResult result = ziegler_boundaries(-1.0, 1.0, 1e-9);
   EXPECT_EQ(result.status, BoundaryStatus::completed) << result.message;
@@ -107,7 +108,7 @@ TEST(BoundaryEnds, InAnExceptionalPointBehindACrossingOfOneMode) {
   EXPECT_EQ(without_damping, 2);
   ASSERT_EQ(result.corners.size(), 2U);
   for (const Corner& corner : result.corners) {
-    EXPECT_EQ(corner.kind, CornerKind::crossing);
+    EXPECT_EQ(corner.kind, CornerKind::intersection);
     EXPECT_NEAR(corner.place[0], 41.0 / 28.0, 1e-8);
     EXPECT_NEAR(corner.place[1], 0.0, 1e-8);
   }

@@ -1,4 +1,4 @@
-// What is refused before the search, and where options come from.
+// Options of the boundary search: their sources, and errors that are reported before the search.
 #include "eigentrail/stability/boundary_options.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 const std::string damped = freedoms({{"P + Q", "4"}});
 
-/// The message of the refusal, empty when there is none.
+/// The error message, empty if there is no error.
 std::string refusal(const std::string& scene, const std::function<void(BoundaryRequest&)>& change) {
   BoundaryRequest request = square_window();
   change(request);

@@ -1,4 +1,4 @@
-// The blade of data/scenes/rotating_mass.toml against an independent scan.
+// Boundaries of data/scenes/rotating_mass.toml compared with independently computed spectra.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 namespace eigentrail::test {
 namespace {
 
-/// Largest real part of all eigenvalues: own equilibrium, null space, and QZ on the unscaled companion form.
+/// Largest real part of all eigenvalues, from an equilibrium and null space computed here and QZ on the
+/// unscaled companion form.
 double spectral_abscissa(const Model& model, double omega, double a_n) {
   const Parameters& list = model.description().parameters;
   Vector parameters = list.declared_values();
@@ -45,7 +46,8 @@ BoundarySetup prepare_blade(const std::string& second, Place low, Place high, do
                           request);
 }
 
-/// Below 10 rad/s the blade has several equilibria; the curves of one cross those of another in the plane.
+/// Below 10 rad/s the blade has several equilibria. Boundaries of different equilibria intersect in the
+/// plane.
 TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
   const BoundarySetup setup = prepare_blade("drag", {5.0, 0.5}, {16.0, 320.0}, 1e-8);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);
@@ -53,7 +55,7 @@ TEST(BoundaryRotatingMass, CurvesOfDifferentEquilibriaMakeNoCorners) {
   EXPECT_GE(result.curves.size(), 2U);
   EXPECT_TRUE(result.corners.empty());
   const auto told = [](const std::string& note) {
-    return note.starts_with("crossings of curves that belong");
+    return note.starts_with("intersections of curves that belong");
   };
   EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), told));
 }

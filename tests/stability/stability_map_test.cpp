@@ -1,4 +1,4 @@
-// Stability maps against closed forms, against QZ in every cell, and where a trace does not come.
+// Stability maps compared with closed forms and with QZ in every cell, and cells that a trace does not reach.
 #include "eigentrail/stability/stability_map.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(All, MapTolerances, testing::Values(1e-4, 1e-6, 1e-9), 
   return "tolerance_1em" + std::to_string(static_cast<int>(-std::log10(test.param) + 0.5));
 });
 
-/// Cells that lie on the circle and on the line exactly: nothing grows there that does not on either side.
+/// Cells exactly on the circle and on the line have the smaller number of growing modes of both sides.
 TEST(StabilityMap, CellsOnABoundaryCountTheCalmerSide) {
   for (const auto& [from, to] : {std::pair("-1", "1"), std::pair("1", "-1")}) {
     SCOPED_TRACE(from);
@@ -272,7 +272,7 @@ TEST(StabilityMap, CellsWithAMissingModeAreUnknown) {
   });
 }
 
-/// The scene's `modes` may leave some out; the map then speaks of those it follows.
+/// The option `modes` of the scene may leave some modes out. The map then refers to the followed ones.
 TEST(StabilityMap, OfSomeModesSpeaksOfThose) {
   const std::string scene =
       "[parameters]\nb = 0.0\n\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 1\n\n"

@@ -137,7 +137,7 @@ TEST(StableRanges, LeaveOutTwoWindowsOfInstability) {
   EXPECT_EQ(traced.ranges[1].least_margin, 0.0);
 }
 
-/// The window's growth, 2.5e-9 at most, is far below the tolerance: the events alone tell of it.
+/// The growth rate in the window is at most 2.5e-9, far below the tolerance. Only the events show it.
 TEST(StableRanges, SeeAWindowBelowTheTolerance) {
   const TracedRanges traced =
       traced_family("from = 0\nto = 1\ntolerance = 1e-5",
@@ -145,7 +145,8 @@ TEST(StableRanges, SeeAWindowBelowTheTolerance) {
   expect_ranges(traced.ranges, {{stable, 0, 0.4, "start", "flutter"}, {stable, 0.405, 1, "flutter", "end"}});
 }
 
-/// s^2 + 0.1 s + cos: a damped pendulum pushed beyond its fold; it stands upside down behind.
+/// s^2 + 0.1 s + cos: a damped pendulum, pushed. Beyond the fold the path continues with the upright
+/// equilibria.
 TEST(StableRanges, EndWhereTheEquilibriumTurnsBack) {
   const HardCase& c = hard_case("C05_pushed_pendulum");
   const TracedRanges traced =
@@ -192,7 +193,7 @@ TEST(StableRanges, AreFoundWithoutEventsToo) {
   EXPECT_EQ(ranges[0].to.cause, "sign change");
 }
 
-/// The damping p^2 touches zero: the range goes on, and its margin tells.
+/// The damping p^2 touches zero. The range continues, and its least margin is zero.
 TEST(StableRanges, GoOnWhereTheMarginTouchesZero) {
   const TracedRanges traced =
       traced_family("from = -1\nto = 1", "M = [[[1]]]\nC = [[[0]], [[0]], [[0.1]]]\nK = [[[1]]]");
@@ -223,8 +224,8 @@ TEST(StableRanges, ARigidBodyModeIsNoGrowth) {
 }
 
 TEST(StableRanges, ManyRigidBodyModesEndATraceInNoTime) {
-  // Two points in space on a spring: five modes are rigid, and none can be told from the others. Followed
-  // through rounding they took hours.
+  // Two points in space joined by a spring have five rigid-body modes, which cannot be distinguished.
+  // Following them through rounding errors took hours.
   const TracedRanges traced = traced_ranges(make_setting(R"([parameters]
 k = 1
 [trace]

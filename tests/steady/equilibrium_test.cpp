@@ -82,7 +82,7 @@ TEST(Equilibrium, NoEquilibriumBeyondTheFoldIsReportedWithTheWorstEquation) {
   EXPECT_GT(found.report.residual, 1e-3);
 }
 
-/// Series of every order miss the equilibrium ahead with one order more.
+/// The error of a series of order q in the predicted equilibrium is of order q + 1.
 TEST(Equilibrium, SeriesHaveTheirOrder) {
   const Setting setting = make_setting(pushed_pendulum);
   EvaluationCounts counts = setting.model->new_counts();
@@ -223,8 +223,8 @@ TEST_P(RodsAtAnAngle, AreOneConstraintTooManyInAPlane) {
 INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle,
                          testing::Values(1e-2, 1e-4, 1e-6, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9, 1e-10));
 
-/// Rounding of their lengths moves the bob along y by 1e-16 / angle: corrections of that size are no lack of
-/// convergence, at any length.
+/// Rounding of the rods' lengths moves the bob along y by 1e-16 / angle. Corrections of that size must not
+/// count as a failure to converge, at any length.
 TEST(Equilibrium, BetweenNearlyParallelRodsIsFoundAtEveryLength) {
   for (const double angle : {1e-7, 1e-8, 1e-9}) {
     const Setting setting = make_setting(plain_pendulum + rod_at_angle(angle));

@@ -55,7 +55,7 @@ TEST(KktFactorization, RedundantConstraintsNeedNoSpecialCareWhereTheFullSystemIs
   KktFactorization(system.K, system.A).solve(system.r, system.g, dx_single, dl_single);
   EXPECT_LT((dx - dx_single).norm(), tolerance * dx.norm());
   EXPECT_LT((A.transpose() * dl - system.A.transpose() * dl_single).norm(), tolerance * dl.norm());
-  // The rival: elimination on the full matrix has no pivot left.
+  // For comparison, elimination on the full matrix finds no nonzero pivot.
   system.A = A;
   EXPECT_LT(system.full().partialPivLu().rcond(), 1e-15);
 }

@@ -1,4 +1,4 @@
-// Equilibria on a plane across the path: at a fold, beside it, and where p alone would do.
+// Equilibria on a plane across the path: at a fold, close to it, and where the parameter alone would suffice.
 #include "eigentrail/steady/path_plane.hpp"
 
 #include <gtest/gtest.h>
@@ -110,8 +110,8 @@ TEST_P(PlaneThroughPendulum, SeriesEqualTheClosedForm) {
   }
 }
 
-/// K contains the multipliers: where x and p are guessed right and lambda is not, it still has to be that of
-/// the solution.
+/// K depends on the multipliers. It must be that of the solution also if the guess of x and p is exact and
+/// that of lambda is not.
 TEST_P(PlaneThroughPendulum, LinearizationIsThatOfTheSolution) {
   const double z = GetParam();
   OnPlane on(pendulum());
@@ -128,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(Heights, PlaneThroughPendulum,
                          testing::Values(-1.4, -0.5, -1e-3, -1e-8, 0.0, 1e-8, 1e-3, 0.5));
 
 TEST(PathPlane, SolvesAtTheFoldWhereTheParameterAloneDoesNot) {
-  // The rival: p a little behind the fold has no equilibrium. The plane through the same guess has one.
+  // At a constant p slightly beyond the fold there is no equilibrium. The plane through the same guess has
+  // one.
   OnPlane on(pendulum());
   const Vector guess{{1.5, 0.0, -1e-3}};
   const Equilibrium found = on.solve({Vector{{0.0, 0.0, 1.0}}, 0.0}, guess, 1.0 + 1e-6);
@@ -156,7 +157,7 @@ TEST(PathPlane, SeriesInTheParameterDivergeTowardsTheFoldWhereThoseOnThePlaneDoN
   EXPECT_GT(rival.x.col(3).norm(), 1e10);
 }
 
-/// A plane across the path in both x and p: series of order q miss the solution ahead by h^(q+1).
+/// A plane across the path in both x and p: series of order q have an error of order h^(q+1).
 TEST(PathPlane, SeriesHaveTheirOrderOnASlantedPlane) {
   const PathPlane plane{Vector{{-0.3, 0.1, 0.8}}, 0.5};
   OnPlane on(pendulum());
@@ -237,8 +238,7 @@ TEST(PathPlane, LimitLoadOfTheTrussIsAFold) {
   EXPECT_LT(found.kkt.reciprocal_condition(), 1e-10);
 }
 
-/// At a fold the load pushes along the direction in which the stiffness vanishes; where another path crosses
-/// it does not push there at all.
+/// At a fold the load has a component along the null vector of the stiffness. At a branch point it has none.
 TEST(KernelShare, TellsAFoldFromAPitchfork) {
   OnPlane truss(von_mises_truss());
   const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};

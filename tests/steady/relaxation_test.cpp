@@ -1,4 +1,4 @@
-// Equilibria from poor guesses: what KINSOL's line search alone does not find is found after relaxation.
+// Equilibria from poor guesses. Those that KINSOL's line search does not find are found after relaxation.
 #include "eigentrail/steady/relaxation.hpp"
 
 #include <gtest/gtest.h>
@@ -86,12 +86,12 @@ TEST_P(PoorGuesses, OfHangingChainsAllLeadToAnEquilibrium) {
   }
   RecordProperty("found_by_kinsol_alone_of_100", without);
   std::printf("spread %g: KINSOL alone finds %d of %d\n", GetParam(), without, scenes);
-  EXPECT_LT(without, scenes);  // else the scenes prove nothing
+  EXPECT_LT(without, scenes);  // otherwise the scenes do not need relaxation
 }
 
 INSTANTIATE_TEST_SUITE_P(Spreads, PoorGuesses, testing::Values(0.5, 1.0, 2.0, 4.0));
 
-/// From a guess on the far side the bob comes down to where it hangs, not up to where it would stand.
+/// From a guess close to the upright equilibrium, relaxation leads to the hanging one.
 TEST(Relaxation, ComesToRestHanging) {
   const Setting setting = make_setting(R"(
 [parameters]
@@ -136,7 +136,7 @@ TEST(Relaxation, SlowBladeIsFoundFromItsGuess) {
   }
 }
 
-/// Beyond its fold the pushed pendulum has no equilibrium: it turns for ever, and relaxation says so.
+/// Beyond its fold the pushed pendulum has no equilibrium and keeps rotating. Relaxation reports this.
 TEST(Relaxation, WithoutAnEquilibriumDoesNotComeToRest) {
   const Setting setting = pushed_pendulum({.from = 1.2, .to = 1.3, .guess = 0.1});
   EvaluationCounts counts = setting.model->new_counts();

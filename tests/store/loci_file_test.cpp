@@ -237,7 +237,7 @@ TEST_F(LociFileTest, ModesThatDoNotExistAreNotANumber) {
   EXPECT_EQ(missing_at(2.1), 0);
 }
 
-/// Every step is certified, so the share of each mode is one; without the certificate it is none.
+/// If every step is certified, the certified share of each mode is one; without certificate it is zero.
 TEST_F(LociFileTest, KnowsWhatIsCertified) {
   ASSERT_EQ(write(scene_setting("rotating_mass")).status, TraceStatus::completed);
   const LociFile certified = read_loci(path);
@@ -248,7 +248,7 @@ TEST_F(LociFileTest, KnowsWhatIsCertified) {
   for (std::size_t mode = 0; mode < taken.modes.size(); ++mode) EXPECT_EQ(taken.certified_share(mode), 0.0);
 }
 
-/// Behind a fold the path passes a parameter again: von Mises truss, whose load rises, falls and rises.
+/// Beyond a fold the path passes a parameter value again: von Mises truss, whose load rises, falls and rises.
 TEST_F(LociFileTest, ParameterThatThePathPassesAgainHasSeveralSpectra) {
   const Setting setting = make_setting(
       "[parameters]\nload = 0.0\n[trace]\nparameter = \"load\"\nfrom = -0.004\nto = 0.004\n"
@@ -283,8 +283,8 @@ TEST_F(LociFileTest, ParameterOutsideTheRangeIsRefused) {
   EXPECT_EQ(loci.nearest_node(1e9), loci.n_nodes() - 1);
 }
 
-/// In a frame that turns faster than the natural frequency, the whirl's member changes the sign of its
-/// imaginary part.
+/// In a frame that turns faster than the natural frequency, the eigenvalue of a whirl mode has the imaginary
+/// part of other sign.
 TEST_F(LociFileTest, PairsAreReportedByTheMemberInTheUpperHalfPlane) {
   const std::string spring_at_origin = "[[guided_spring]]\npoint = \"disc\"\nstiffness = 25\n";
   const Setting setting = make_setting(

@@ -1,4 +1,4 @@
-// Files that commands write: which may be replaced, and that they appear complete or not at all.
+// Files that commands write: which existing ones may be replaced, and that replacement is atomic.
 #include "eigentrail/store/output_file.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_F(OutputFileTest, WritingReplacesWithAllParts) {
   EXPECT_EQ(files(), 1u);
 }
 
-/// A limit on the size of files stands for a full disk.
+/// A limit on the size of files simulates a full disk.
 TEST_F(OutputFileTest, FailedWritingKeepsTheOldFile) {
   write_text(path, "old");
   const auto write_too_much = [this] {

@@ -1,4 +1,4 @@
-"""What `.eigentrail` adds to the Dataset of a file."""
+"""The accessor `.eigentrail` of Datasets."""
 
 from functools import cached_property
 
@@ -11,7 +11,7 @@ from .selection import Selection
 
 @xarray.register_dataset_accessor("eigentrail")
 class Eigentrail:
-    """Of a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; of a boundary file: `curve`."""
+    """For a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; for a boundary file: `curve`."""
 
     def __init__(self, data):
         self._data = data
@@ -24,17 +24,17 @@ class Eigentrail:
     def sel(self, mode=None, **at):
         """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
 
-        A Dataset of eigenvalue, frequency, damping_ratio and certified along parameter and mode. The values may be
-        a number (no dimension then), a list, an array, or a DataArray with a dimension of its own, which is kept.
-        Where the path turns back there is a dimension `passage`, too: the first, second, ... time that the path takes
-        the value, NaN where it does so less often. `mode` takes labels ("mode 1") or names ("blade lag"), one or a list.
+        Returns a Dataset of eigenvalue, frequency, damping_ratio and certified along parameter and mode. The values may
+        be a number (then without dimension), a list, an array, or a DataArray, whose dimension is kept. If the path
+        turns back, there is also a dimension `passage`: the first, second, ... place of the path with the value; NaN
+        where there are fewer. `mode` is a label ("mode 1") or a name ("blade lag"), or a list of these.
         """
         return self._modes(self._selection.at(self._wanted(at)), mode)
 
     def nearest(self, mode=None, **at):
-        """What is stored at the path point nearest to a value of the parameter: mode shapes, equilibrium, ...
+        """The data of the stored point nearest to a value of the parameter: mode shapes, equilibrium, and others.
 
-        nearest(omega=12.5, mode="blade lag").mode_shape
+        Example: nearest(omega=12.5, mode="blade lag").mode_shape
         """
         loci, value = self._of("loci"), float(self._wanted(at))
         at_points = loci[[name for name, variable in loci.data_vars.items() if "node" in variable.dims]]
@@ -43,16 +43,18 @@ class Eigentrail:
 
     @property
     def events(self):
-        """Special points of a trace, a pandas DataFrame."""
+        """Special points of a trace as a pandas DataFrame."""
         return tables.events(self._of("loci"))
 
     @property
     def stable_ranges(self):
-        """Ranges of a trace on which no mode grows, a pandas DataFrame."""
+        """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
 
     def curve(self, number, points=200):
-        """One curve of a boundary file, counted from 0, smooth between its points: a Dataset along `point`."""
+        """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.
+
+        Returns a Dataset along `point`."""
         return boundary.curve(self._of("boundary"), number, points)
 
     @cached_property
@@ -66,14 +68,14 @@ class Eigentrail:
         return self._data
 
     def _wanted(self, at):
-        """The value of the one keyword that names the parameter."""
+        """The value of the only keyword, which must be the name of the parameter."""
         if list(at) != [self.parameter]:
             found = ", ".join(f"{name}=..." for name in at) or "nothing"
             raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
         return at[self.parameter]
 
     def _modes(self, data, wanted):
-        """The modes of these labels or names; all of them for None."""
+        """`data` of the modes with these labels or names; of all modes for None."""
         if wanted is None:
             return data
         labels = [key for key in ("mode", "mode_name") if key in data.coords]

@@ -1,19 +1,20 @@
-"""Eigenvalues of modes that are followed together, from the functions of their block."""
+"""Eigenvalues ("roots") of a block of modes from the functions of the block (docs/loci-file.md)."""
 
 from itertools import permutations
 
 import numpy as np
 
-# A difference of two roots may change by this share of itself on a piece, or the piece is halved.
+# A piece of a step is halved if the difference of two roots changes on it by more than this fraction of itself.
 LARGEST_CHANGE = 0.5
-COINCIDING = 1e-12  # of the largest root: such roots need not be told apart
-SHORTEST_PIECE = 1e-14  # of a step
-# Roots that differ by rounding only, all along, cannot be told apart: beyond so many new pieces nobody tries.
+COINCIDING = 1e-12  # roots that differ by less, relative to the largest root, need not be distinguished
+SHORTEST_PIECE = 1e-14  # of a step; shorter pieces are not halved
+# Limit of the number of new pieces. It is reached where roots differ only by rounding on a whole step and cannot be
+# distinguished.
 PATIENCE = 2000
 
 
 def roots_of(functions):
-    """Roots of a block, (..., k), from the values of its functions: of 1, of 2, or of k^2 with k >= 3, (..., functions)."""
+    """Roots (..., k) of a block from the values of its functions (..., m): m is 1, 2, or k^2 for k >= 3."""
     count = functions.shape[-1]
     if count == 1:
         return functions
@@ -21,14 +22,16 @@ def roots_of(functions):
         return functions[..., :1] + np.sqrt(functions[..., 1:]) * np.array([1.0, -1.0])
     k = round(count**0.5)
     by_columns = functions.reshape(*functions.shape[:-1], k, k)
-    # Real matrices have exact pairs. (A matrix and its transpose, as it is read here, have the same eigenvalues.)
+    # The eigenvalues of a real matrix are exactly real or exactly conjugate. The functions are the columns of the
+    # matrix; reshape reads them as rows, which gives the transpose with the same eigenvalues.
     return np.linalg.eigvals(by_columns if np.any(by_columns.imag) else by_columns.real).astype(complex)
 
 
 def distinctness(functions):
-    """How well the roots of a block can be distinguished, from the values of its functions (functions): the least
-    distance of two roots, for three and more relative to their condition numbers 1 / |y^H x|. At an exceptional point
-    rounding alone separates the roots, and the condition numbers are large."""
+    """A measure of how well the roots of a block can be distinguished, from the values (m) of its functions.
+
+    It is the least distance of two roots, for three and more roots divided by the larger of their condition numbers
+    1 / |y^H x|. At an exceptional point the roots differ by rounding only, and the condition numbers are large."""
     count = functions.shape[-1]
     if count <= 2:
         roots = roots_of(functions)
@@ -46,7 +49,7 @@ def distinctness(functions):
 
 
 def named(known, roots):
-    """The roots (k) with the least total distance from the m <= k known values first, in their order, the others last."""
+    """The roots (k) in the order of m <= k known values, assigned with the least total distance; the others last."""
     orders = np.array(list(permutations(range(len(roots)))))
     cost = np.abs(known[:, np.newaxis] - roots)
     cost = np.where(np.isfinite(cost), cost, 0.0)
@@ -55,9 +58,9 @@ def named(known, roots):
 
 
 def followed(roots_at, start, roots, t):
-    """Roots at each of the places t (n), (n, k), in the order that `roots` (k) have at the place `start`, 0 or 1.
+    """Roots (n, k) at the places t (n), in the order in which they continue `roots` (k), those at `start`, 0 or 1.
 
-    roots_at(t) gives the roots, (n, k), in any order.
+    roots_at(t) returns the roots (n, k) in any order.
     """
     mesh, found = _resolved(roots_at, np.union1d(t, start))
     if start == 1:
@@ -76,13 +79,15 @@ def followed(roots_at, start, roots, t):
 
 
 def _resolved(roots_at, mesh):
-    """Halves the pieces of an ascending mesh until differences of roots change little on each; mesh and roots there."""
+    """Halves the pieces of an ascending mesh until the differences of the roots change little on each piece.
+
+    Returns the mesh and the roots there."""
     roots = roots_at(mesh)
     unclear = np.ones(len(mesh) - 1, bool)
     most = 2 * len(mesh) + PATIENCE
     while unclear.any() and len(mesh) < most:
         left, right = mesh[:-1][unclear], mesh[1:][unclear]
-        # Seen from its ends alone a piece in which roots change places looks like one in which nothing happens.
+        # The middle is needed: if roots change places within a piece, its ends alone do not show it.
         middle = 0.5 * (left + right)
         at_middle = roots_at(middle)
         clear = _differ_little(roots[:-1][unclear], at_middle) & _differ_little(at_middle, roots[1:][unclear])
@@ -97,14 +102,15 @@ def _resolved(roots_at, mesh):
 def _orders(a, b):
     """The order in which roots b continue roots a (n, k): b[order] has the least sum of squared distances from a.
 
-    Squares, since then the roots may move together by more than they differ: their differences keep their directions.
+    With squares, a common displacement of all roots has no influence, even if it exceeds their differences.
     """
     k = a.shape[1]
     orders = np.array(list(permutations(range(k))))
     centred = a - a.mean(axis=1, keepdims=True), b - b.mean(axis=1, keepdims=True)
     alike = (np.conj(centred[0])[:, :, np.newaxis] * centred[1][:, np.newaxis, :]).real
     best = orders[sum(alike[:, i][:, orders[:, i]] for i in range(k)).argmax(axis=1)]
-    # Two close roots beside a distant one are lost in the rounding of the sum; their difference tells.
+    # If two roots are close and a third is distant, rounding of the sum hides the order of the close ones. It follows
+    # from the direction of their difference.
     for i, j in zip(*np.triu_indices(k, 1)):
         ahead = np.take_along_axis(b, best, axis=1)
         turned = (np.conj(a[:, i] - a[:, j]) * (ahead[:, i] - ahead[:, j])).real < 0.0
@@ -113,7 +119,7 @@ def _orders(a, b):
 
 
 def _differ_little(a, b):
-    """Whether, from a to b (n, k), the difference of no two roots changes by much of itself."""
+    """Whether from a to b (n, k) all differences of two roots change by at most LARGEST_CHANGE of themselves."""
     i, j = np.triu_indices(a.shape[1], 1)
     b = np.take_along_axis(b, _orders(a, b), axis=1)
     before, behind = a[:, i] - a[:, j], b[:, i] - b[:, j]

@@ -1,4 +1,4 @@
-"""Smooth curves of a boundary file, from its dense output."""
+"""Curves of a boundary file, evaluated from its dense output."""
 
 import numpy as np
 import xarray
@@ -7,7 +7,9 @@ from .interpolation import TwoPointTaylor
 
 
 def curve(boundary, number, points):
-    """Both parameters and the eigenvalue at `points` places along one curve, at equal shares of every step."""
+    """Dataset of both parameters and the eigenvalue at `points` places along curve `number`.
+
+    The places are equidistant if every step counts as long as any other."""
     steps = np.flatnonzero(boundary.step_curve.values == number)
     if not len(steps):
         raise ValueError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")

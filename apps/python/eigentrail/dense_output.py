@@ -1,4 +1,4 @@
-"""The dense output of a loci file, as docs/loci-file.md describes it."""
+"""Evaluates the dense output of a loci file (docs/loci-file.md)."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from .path import Path
 
 
 class DenseOutput:
-    """Eigenvalues of all modes anywhere on the path of a trace."""
+    """Eigenvalues of all modes at any place of the path of a trace."""
 
     def __init__(self, loci):
         """`loci` is the Dataset of a loci file."""
@@ -36,14 +36,15 @@ class DenseOutput:
         return s
 
     def certified_at(self, step, t):
-        """Whether modes are certified to be the same at both ends of the step (n, mode): 1, 0, or -1 where they do not
-        exist. At a point it is told of the step before it, and of the step behind it where a mode begins there."""
+        """Whether modes are certified on steps (n): 1 or 0, or -1 where they do not exist (n, mode).
+
+        At the end of a step (t = 1), a mode that begins there has the value of the next step."""
         here = self._certified[step]
         behind = self._certified[np.minimum(step + 1, len(self._certified) - 1)]
         return np.where((t == 1.0)[:, np.newaxis] & (here == -1), behind, here)
 
     def _of_single_modes(self, step, t):
-        """Of modes that are followed by themselves; NaN for all others."""
+        """Eigenvalues (n, mode) of modes in blocks of one. NaN where a mode does not exist; others are not valid."""
         function = self._mode_block[step]
         first = np.maximum(function, 0)
         values = self._functions[step[:, np.newaxis], first](t[:, np.newaxis])
@@ -52,7 +53,7 @@ class DenseOutput:
         return s
 
     def _of_block(self, step, block, modes, t):
-        """Of some modes, which are followed together, at places t (n) on one step: (n, modes)."""
+        """Eigenvalues (n, modes) of the modes in one block, at places t (n) on one step."""
         functions = self._functions[step, self._function_block[step] == block]
         chart = self._chart[step, block]
 
@@ -68,7 +69,9 @@ class DenseOutput:
 
 
 def _from_chart(values, chart):
-    """s from s where `chart` is 0, from 1/s where it is 1 (and the other way round); infinity is (inf, 0)."""
+    """Converts values of a chart to s: unchanged where `chart` is 0, reciprocal where it is 1. Infinity is (inf, 0).
+
+    The function is its own inverse."""
     values = np.asarray(values, complex)
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = np.where(np.isinf(values), 0.0, np.where(values == 0.0, complex(np.inf, 0.0), 1.0 / values))

@@ -7,7 +7,7 @@ import xarray
 
 SCHEMA = 1
 
-# Variables that say what a row of the file is: they go along as coordinates, and label plots and tables.
+# Variables that describe the rows of a file. They become coordinates and label plots and tables.
 COORDINATES = {
     "eigentrail-loci": ["mode_name", "event_kind", "event_modes", "stable_kind", "coordinate_unit",
                         "scene_parameter_unit"],
@@ -18,9 +18,9 @@ COORDINATES = {
 
 
 def open(path):
-    """A file that eigentrail wrote, read into memory, as an xarray Dataset with labels as coordinates.
+    """Reads a file written by eigentrail into memory: an xarray Dataset with labels as coordinates.
 
-    What its accessor `.eigentrail` adds depends on the kind of file; see `Eigentrail`.
+    The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`.
     """
     with _opened(path) as file:
         kind = _checked_format(path, file.attrs)
@@ -52,7 +52,7 @@ def _checked_format(path, attributes):
 
 
 def _with_event_kinds(data):
-    """Adds `event_kind` and `event_modes`, the first and last word of the lines in `events`."""
+    """Adds `event_kind` and `event_modes`, the first and the last field of the lines in `events`."""
     words = [line.split(",") for line in data.events.values]
 
     def texts(place, long_name):

@@ -1,13 +1,13 @@
-"""The polynomial between two power series."""
+"""The polynomial that agrees with power series at both ends of a step."""
 
 import numpy as np
 
 
 class TwoPointTaylor:
-    """Polynomials of degree 2q + 1, each of which shares two series of order q: about t = 0 and about t = 1.
+    """Polynomials of degree 2q + 1 that agree with power series of order q about t = 0 and t = 1 (docs/loci-file.md).
 
-    `length` (...) is the length h of the steps, `series` (..., 2, q + 1) has the coefficients at both ends in powers
-    of the step's own coordinate, which grows by h as t goes from 0 to 1.
+    `length` (...): length h of the steps. `series` (..., 2, q + 1): coefficients at both ends in powers of the
+    coordinate of the step, which increases by h as t goes from 0 to 1.
     """
 
     def __init__(self, length, series):
@@ -16,22 +16,23 @@ class TwoPointTaylor:
         self._from_right = _newton_form(-length, right, left)
 
     def __getitem__(self, index):
-        """Those of the polynomials that `index` takes, as numpy does along the leading axes."""
+        """The polynomials selected by `index`, as in numpy, along the leading axes."""
         part = object.__new__(TwoPointTaylor)
         part._from_left = tuple(table[index] for table in self._from_left)
         part._from_right = tuple(table[index] for table in self._from_right)
         return part
 
     def __call__(self, t):
-        """Values at t in [0, 1], broadcast with the polynomials, each seen from the nearer end.
+        """Values at t in [0, 1], broadcast with the polynomials.
 
-        A function that vanishes at an end keeps its digits there.
+        Each is evaluated in the distance from the nearer end, so that a function that vanishes at an end keeps its
+        relative accuracy there.
         """
         return np.where(t <= 0.5, _horner(*self._from_left, t), _horner(*self._from_right, 1.0 - t))
 
 
 def _newton_form(length, near, far):
-    """F(k + 1, k) and F(k + 1, k + 1), (..., q + 1) each, of docs/loci-file.md."""
+    """The divided differences F(k + 1, k) and F(k + 1, k + 1) of docs/loci-file.md, (..., q + 1) each."""
     n = near.shape[-1]
     powers = np.asarray(length)[..., np.newaxis] ** np.arange(n)
     near, far = near * powers, far * powers

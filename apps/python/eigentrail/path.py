@@ -1,18 +1,18 @@
-"""Where the path of a trace takes a value of the parameter."""
+"""Places on the path of a trace with a given value of the parameter."""
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 
 from .interpolation import TwoPointTaylor
 
-HALVINGS = 64  # of a step: below the spacing of numbers in it
-APART = 4 * np.sqrt(np.finfo(float).eps)  # of places on a step that are one at a fold
+HALVINGS = 64  # bisections of a step, more than the 53 bits of a double
+APART = 4 * np.sqrt(np.finfo(float).eps)  # largest distance in t of two places at a fold that are the same
 
 
 class Path:
     """The parameter along the path.
 
-    `step_length` (step) and `step_parameter` (step, 2, order) are those of the file.
+    `step_length` (step) and `step_parameter` (step, 2, order) are the datasets of the file.
     """
 
     def __init__(self, step_length, step_parameter):
@@ -23,8 +23,9 @@ class Path:
         self.turns_back = not self._straight.all() or len(set(forward)) > 1
 
     def positions(self, values):
-        """All places with these parameter values (n): index of the value, step and t in [0, 1], by value and then along
-        the path. A node belongs to the step that ends there."""
+        """All places with these parameter values (n): arrays of the index of the value, the step and t in [0, 1].
+
+        They are ordered by value and then along the path. A node belongs to the step that ends there."""
         order = np.argsort(values, kind="stable")
         found = [self._positions_on(step, values[order]) for step in range(len(self._length))]
         if not found:
@@ -38,7 +39,7 @@ class Path:
         return which[once], step[once], t[once]
 
     def _positions_on(self, step, values):
-        """Of ascending values: index and t wherever the step takes one of them."""
+        """Places on one step for ascending values: arrays of the index of the value and t."""
         if self._straight[step]:
             a, b = self._series[step, :, 0]
             at = _between(values, a, b)
@@ -47,23 +48,24 @@ class Path:
 
 
 def _between(values, a, b):
-    """Indices of those of ascending values that lie in the closed interval with the ends a and b."""
+    """Indices of the ascending values that lie in the closed interval with the ends a and b."""
     return np.arange(np.searchsorted(values, min(a, b)), np.searchsorted(values, max(a, b), side="right"))
 
 
 def _repeats(which, step, t):
-    """Places that are the end of the step before, which is there already."""
+    """Mask of the places that repeat the one before: the start of a step after the end of the last step."""
     repeats = np.zeros(len(t), bool)
     repeats[1:] = (t[1:] == 0.0) & (t[:-1] == 1.0) & (step[1:] == step[:-1] + 1) & (which[1:] == which[:-1])
     return repeats
 
 
 class _CurvedStep:
-    """A step whose coordinate is the distance along the path: the parameter may turn back on it."""
+    """A step whose coordinate is the distance along the path, on which the parameter may turn back."""
 
     def __init__(self, length, series):
         self._ends = series[:, 0]
-        # p(t) less its value at either end: beside a fold that a step ends at its distance from there has all digits.
+        # p(t) minus its value at each end. At a fold at an end of the step, the difference of p from its value at the
+        # fold then keeps its relative accuracy.
         self._from_end = []
         for p in self._ends:
             shifted = series.copy()
@@ -72,12 +74,12 @@ class _CurvedStep:
         self._degree = 2 * series.shape[-1] - 1
 
     def _miss(self, t, values):
-        """p(t) - values."""
+        """p(t) - values, relative to the value at the nearer end."""
         return np.where(t <= 0.5, self._from_end[0](t) - (values - self._ends[0]),
                         self._from_end[1](t) - (values - self._ends[1]))
 
     def _monotonic_pieces(self):
-        """Places from 0 to 1 between which the parameter goes one way."""
+        """Places from 0 to 1 between which the parameter is monotonic."""
         turning = Chebyshev.interpolate(self._from_end[0], self._degree, domain=[0.0, 1.0]).deriv().roots()
         real = turning.real[np.abs(turning.imag) < 1e-7]
         return np.concatenate([[0.0], np.sort(real[(real > 0.0) & (real < 1.0)]), [1.0]])
@@ -90,7 +92,8 @@ class _CurvedStep:
             found.append(at)
             places.append(self._bisected(values[at], start, end))
         at, t = np.concatenate(found), np.concatenate(places)
-        # A turning point belongs to two pieces, and rounding splits it into two places; ends stay exact.
+        # A turning point is found on two pieces, at two places that differ by rounding. One of them is dropped; the
+        # end of the step, 1, is kept exactly.
         _, first = np.unique(np.column_stack([at, t]), axis=0, return_index=True)
         at, t = at[first], t[first]
         again = (np.diff(at) == 0) & (np.diff(t) <= APART)
@@ -103,7 +106,7 @@ class _CurvedStep:
         return np.flatnonzero((before <= 0.0) & (behind >= 0.0) | (before >= 0.0) & (behind <= 0.0))
 
     def _bisected(self, values, start, end):
-        """Where each of the values, which lie between those of the ends, is taken."""
+        """The places of values between those at the ends of a monotonic piece, by bisection."""
         sign = np.where(self._miss(np.array(end), values) >= self._miss(np.array(start), values), 1.0, -1.0)
         low, high = np.full(len(values), start), np.full(len(values), end)
         for _ in range(HALVINGS):

@@ -1,4 +1,4 @@
-"""Eigenvalues of a loci file at values of its parameter, as a Dataset."""
+"""Eigenvalues of a loci file at given values of its parameter, as a Dataset."""
 
 import numpy as np
 import xarray
@@ -7,7 +7,7 @@ from .dense_output import DenseOutput
 
 
 class Selection:
-    """Evaluates the dense output of a loci file by parameter value."""
+    """Evaluates the dense output of a loci file at parameter values."""
 
     def __init__(self, loci):
         self._loci = loci
@@ -17,8 +17,8 @@ class Selection:
         self._dense_output = DenseOutput(loci)
 
     def at(self, wanted):
-        """Dataset at these values: along their dimension (none for a number), `passage` where the path turns back, and
-        mode."""
+        """Dataset at these values: along their dimension (none for a number), `passage` if the path turns back, and
+        `mode`."""
         dimension, values = self._indexer(wanted)
         which, step, t = self._dense_output.path.positions(values)
         self._refuse_missing(values, which)
@@ -34,7 +34,7 @@ class Selection:
         return found if dimension else found.isel(place=0)
 
     def _indexer(self, wanted):
-        """Dimension (None for a number) and values (n)."""
+        """The name of the dimension (None for a number) and the values (n)."""
         values = np.asarray(wanted, float)
         if values.ndim > 1:
             raise ValueError(f"{self._parameter.name} = an array of shape {values.shape}: expected a number or a list")

@@ -19,7 +19,7 @@ def events(loci):
 
 
 def stable_ranges(loci):
-    """One row per range without growing modes, as the trace goes."""
+    """One row per range without growing modes, in the order of the trace."""
     table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
     for end, name in (("left", "from"), ("right", "to")):
         for what in ("cause", "margin", "mode"):
@@ -30,7 +30,7 @@ def stable_ranges(loci):
 
 
 def _mode_names(loci, text):
-    """'flap; lag', or the labels 'mode 1; mode 3' of modes without a name, from the numbers '1;3'."""
+    """Names of modes from their numbers: 'flap; lag' from '1;3'. Modes without a name have their label, 'mode 1'."""
     labels = loci.mode.values
     names = loci.mode_name.values if "mode_name" in loci.coords else labels
     numbers = [int(number) - 1 for number in text.split(";") if number]

@@ -1,3 +1,3 @@
-"""The version of the reader is that of the program."""
+"""The version of the reader, equal to that of the program."""
 
 __version__ = "0.1.0"

@@ -1,15 +1,17 @@
-// Reference eigenvalues with 113 bits at one parameter value: what errors are measured against.
+// Reference eigenvalues at one parameter value, with a significand of 113 bits. Errors are measured against
+// them.
 //
-// Iterative refinement (Wilkinson 1963; Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-// Ch. 12) at every stage: residuals come from the scene's physics evaluated in binary128, corrections from
-// the factors in double precision, again and again until they no longer shrink.
+// Each stage is an iterative refinement (Wilkinson 1963; Higham, Accuracy and Stability of Numerical
+// Algorithms, 2nd ed., Ch. 12). The residuals are evaluated in binary128 arithmetic from the model. The
+// corrections are solved with the factors in double precision. This is repeated until the corrections no
+// longer decrease.
 //
 //     A^T lambda - f(x) = 0, c(x) = 0         corrected by the KKT factors
 //     A T = 0                                 T - A+ (A T)
 //     M Z Lambda^2 + C Z Lambda + K Z = 0     corrected by the factors of the invariant pair
 //
-// Nothing is taken from a trace but where to look for the equilibrium. The numbers of the scene count as the
-// doubles nearest to them.
+// The result depends on a trace only by the starting value for the equilibrium. The numbers of the scene are
+// the doubles nearest to their decimal texts.
 #pragma once
 
 #include <string>
@@ -22,24 +24,24 @@ namespace eigentrail {
 
 enum class ReferenceStatus {
   converged,
-  no_equilibrium,  ///< in double precision, or its refinement did not converge
+  no_equilibrium,  ///< none found in double precision, or its refinement did not converge
   no_spectrum,     ///< QZ failed, or the pencil is singular
   not_converged,   ///< the refinement of a mode did not converge
-  not_available    ///< the model has no extended precision
+  not_available    ///< the model cannot be evaluated in extended precision
 };
 
 struct [[nodiscard]] ReferenceSpectrum {
   ReferenceStatus status = ReferenceStatus::not_available;
   std::vector<ExtendedComplex> s;  ///< finite eigenvalues, one per complex pair, Im s >= 0
-  double correction = 0.0;         ///< largest last correction of all stages, relative: its accuracy
+  double correction = 0.0;  ///< largest last correction of all stages, relative: an estimate of the error
 };
 
-/// Corrections that stop shrinking above this are no convergence.
+/// The refinement has converged if its last relative correction is at most this.
 inline constexpr double reference_accuracy = 1e-20;
 
-/// All finite eigenvalues at the parameter value p, the equilibrium looked for at `guess`. Cost: a spectrum
-/// by QZ, one LU per mode, and some O(n^3) of software arithmetic, about 50 times as slow as double
-/// precision.
+/// All finite eigenvalues at the parameter value p. `guess`: starting value for the equilibrium. Cost: a
+/// spectrum by QZ, one LU per mode, and O(n^3) operations of binary128 arithmetic in software, which is about
+/// 50 times slower than double precision.
 ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess);
 
 }  // namespace eigentrail

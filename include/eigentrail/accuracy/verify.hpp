@@ -1,5 +1,6 @@
-// Independent check of a loci file: the scene stored in it is solved afresh at random parameters, by QZ with
-// the whole spectrum, and every dense-output value must find an eigenvalue of its own there.
+// Independent check of a loci file. At random parameter values the stored scene is solved again and its
+// whole spectrum is computed by QZ. Each value of the dense output is compared with the eigenvalue assigned
+// to it, one to one.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 namespace eigentrail {
 
 struct VerifyOptions {
-  int samples = 100;       ///< random parameters, >= 1
-  std::uint64_t seed = 1;  ///< of their choice
+  int samples = 100;       ///< number of random parameter values, >= 1
+  std::uint64_t seed = 1;  ///< of the random numbers
 };
 
 /// The sample with the largest discrepancy.
@@ -21,12 +22,12 @@ struct Discrepancy {
   /// moves its eigenvalues by the root of it.
   double relative = 0.0;
   double parameter = 0.0;
-  int mode = -1;  ///< from 0; -1: none was found
+  int mode = -1;  ///< from 0; -1: no sample was solved
 };
 
 struct [[nodiscard]] VerifyReport {
   int samples = 0;
-  int unsolved = 0;  ///< samples without an equilibrium or a spectrum
+  int unsolved = 0;  ///< number of places without an equilibrium or a spectrum
   Discrepancy worst;
   int missing = 0;          ///< largest number of eigenvalues that no mode has, where all modes are followed
   double missing_at = 0.0;  ///< the parameter there
@@ -36,7 +37,7 @@ struct [[nodiscard]] VerifyReport {
   bool passed() const { return unsolved == 0 && samples > 0 && worst.relative <= tolerance && missing == 0; }
 };
 
-/// Throws InputError when the file holds no points or its scene cannot be rebuilt.
+/// Checks a loci file. Throws InputError if the file contains no points or its scene cannot be rebuilt.
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options);
 
 }  // namespace eigentrail

@@ -37,10 +37,10 @@ Spectrum compute_spectrum(const ReducedPencil& pencil);
 Spectrum compute_eigenvalues(const ReducedPencil& pencil);
 
 /// Eigenvector of the eigenvalue nearest to s, of unit length, by inverse iteration with P(sigma)^-1
-/// P'(sigma), sigma = s + 1e-9 max(|s|, scale). Accurate enough as start of the corrector if no other
-/// eigenvalue is nearer than 1e-6 |s|. Real if s is real. `scale` is that of the spectrum. Cost: one LU of
-/// size n.
-ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double scale);
+/// P'(sigma), sigma = s + 1e-9 max(|s|, s_ref). Accurate enough as start of the corrector if no other
+/// eigenvalue is nearer than 1e-6 |s|. Real if s is real. `s_ref` is the reference magnitude of eigenvalues,
+/// 1/s, > 0: it keeps sigma away from an eigenvalue zero. Cost: one LU of size n.
+ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double s_ref);
 
 /// The block of the k eigenvalues nearest to `centre`, by inverse iteration with k vectors on the companion
 /// form; reliable also if eigenvectors coincide. `is_real` requests a real block; `centre` must then be real.

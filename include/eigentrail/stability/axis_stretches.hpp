@@ -1,9 +1,11 @@
-// The path cut where eigenvalues meet the imaginary axis: on each stretch between, the number of growing
-// modes changes only where a growing pair comes apart into two real modes, or the reverse.
+// Splits the path at the places where eigenvalues meet the imaginary axis ("cuts"). Between two cuts lies a
+// stretch. On a stretch the stability is constant. The number of growing modes changes there only if a
+// growing complex pair becomes two growing real modes, or the reverse.
 //
-// The cuts are the located events. What lies between them is told by the stored points, which are accurate to
-// rounding, and by the dense output at several places of every step wherever real parts exceed its tolerance.
-// A sign that changes without an event (an eigenvalue that passes through infinity) makes a cut of its own.
+// The cuts are the located events. The stability of a stretch follows from samples: the stored points, which
+// are accurate to rounding, and the dense output at several places of every step. A sample of the dense
+// output counts only if the real parts exceed its error. Where samples show a sign change without an event
+// (for example an eigenvalue that passes through infinity), a cut is added.
 #pragma once
 
 #include <string>
@@ -15,61 +17,61 @@ namespace eigentrail {
 
 enum class Stability {
   stable,    ///< every mode decays
-  marginal,  ///< no mode grows; some stay on the imaginary axis but for rounding, as without damping
+  marginal,  ///< no mode grows; some are on the imaginary axis within rounding, as without damping
   unstable   ///< some mode grows
 };
 
 std::string stability_name(Stability stability);
 
-/// A place where stability may change: an event, an end of the trace, or a change seen in the dense output.
+/// A place where stability may change: an event, an end of the trace, or a sign change in the dense output.
 struct AxisCut {
   PathPosition at;
   double p = 0.0;
-  Complex s = {};          ///< the eigenvalue there; of an end of the trace: not used
-  std::vector<int> modes;  ///< from 0, ascending: those that meet the axis
+  Complex s = {};          ///< the eigenvalue there, 1/s; not used for an end of the trace
+  std::vector<int> modes;  ///< modes that meet the axis, numbered from 0, ascending
   std::string cause;       ///< name of the event; "start", "end", "infinity" or "sign change"
-  bool on_axis = true;     ///< some eigenvalue is on the imaginary axis there
-  bool passes = false;     ///< the modes pass the axis: flutter and divergence
-  bool turns = false;      ///< the path may turn back here
+  bool on_axis = true;     ///< false for an end of the trace without an event
+  bool passes = false;     ///< the modes pass from one side of the axis to the other: flutter, divergence
+  bool turns = false;      ///< the path may turn back here: fold or branch point
 };
 
 /// All modes at one place.
 struct AxisSample {
   PathPosition at;
   double margin = 0.0;        ///< -max Re s, 1/s
-  int critical = -1;          ///< the mode that has it; -1: no mode exists
-  std::vector<int> unstable;  ///< modes that grow beyond doubt, ascending
-  bool all_decay = false;     ///< every mode decays beyond doubt
-  bool exact = false;         ///< a stored point
+  int critical = -1;          ///< the mode with the largest Re s; -1: no mode exists
+  std::vector<int> unstable;  ///< modes with Re s above its error bound, ascending
+  bool all_decay = false;     ///< Re s of every mode is below minus its error bound
+  bool exact = false;         ///< a stored point, not a place on the dense output
 };
 
 struct AxisStretch {
   AxisCut from, to;
   Stability stability = Stability::marginal;
-  /// false: so short that the error of the dense output hides its real parts; a neighbour told instead, if
-  /// any
+  /// False if at no sample the real parts exceed the error of the dense output, as on very short stretches.
+  /// The stability then follows from a neighbouring stretch if possible, and is marginal otherwise.
   bool seen = true;
-  /// Inside, as the trace goes, and at those ends that are on no axis; at least one.
+  /// Samples inside, in the order of the trace, and at those ends that are not on the axis; at least one.
   std::vector<AxisSample> samples = {};
 
-  /// Whether a mode grows somewhere on the stretch.
+  /// Whether a mode (numbered from 0) grows at some sample of the stretch.
   bool grows(int mode) const;
 };
 
-/// How well eigenvalues are known: the error of the dense output is at most tolerance * max(|s|, reference).
+/// Accuracy of the dense output: the error of s is at most tolerance * max(|s|, reference).
 struct EigenvalueAccuracy {
   double tolerance = 1e-6;
   double reference = 0.0;  ///< 1/s
 };
 
-/// The stretches from the first point of `path` to the last, in the order of the trace; none when there are
-/// fewer than two points. `events` as the trace reports them, in any order.
+/// The stretches from the first point of `path` to the last, in the order of the trace; none if there are
+/// fewer than two points. `events`: all events of the trace, in any order.
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 
-/// Number of modes that grow at a place of a stretch, at t of the path's step `step`, with the eigenvalues
-/// `s` there: those with a positive real part. Where it lies within the error of the dense output, the
-/// stretch as a whole tells.
+/// Number of growing modes at t in [0, 1] on `step`, a place of the stretch with the eigenvalues `s`. A mode
+/// grows if Re s > 0. Where |Re s| is within the error of the dense output, a mode counts as growing if it
+/// grows at a sample of the stretch. The result is 0 if the stretch is not unstable, and at least 1 if it is.
 int count_growing(const AxisStretch& stretch, const PathStep& step, double t, const ComplexVector& s,
                   const EigenvalueAccuracy& accuracy);
 

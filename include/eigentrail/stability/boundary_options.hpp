@@ -11,18 +11,21 @@ namespace eigentrail {
 
 struct BoundaryOptions {
   TraceOptions
-      trace;  ///< parameter, from, to: the first parameter and its range; tolerance; what is followed
+      trace;  ///< the first parameter and its range (parameter, from, to), tolerance, modes to follow
   std::string second;        ///< name of the second parameter
-  double second_from = 0.0;  ///< its range, in its unit; not empty
+  double second_from = 0.0;  ///< range of the second parameter, in its unit; second_from < second_to
   double second_to = 0.0;
-  std::optional<double> damping_ratio;  ///< follow {damping ratio = this} instead, -1 < . < 1, not 0
-  int lines = 5;  ///< inner lines of the window that are searched in either direction, 0 <= . <= 1000
+  /// Follow the curves on which a complex pair has this damping ratio instead of flutter and divergence;
+  /// -1 < . < 1, not 0.
+  std::optional<double> damping_ratio;
+  int lines = 5;  ///< inner lines of the window that are searched in each direction, 0 <= . <= 1000
 };
 
-/// What the command line says; what is not given stands in the scene's [trace] table.
+/// Options of the command line. Those that are not given are taken from the scene's [trace] and [events]
+/// tables.
 struct BoundaryRequest {
   std::string second;
-  double from = 0.0, to = 0.0;  ///< of the second parameter
+  double from = 0.0, to = 0.0;  ///< range of the second parameter
   std::optional<std::string> parameter;
   std::optional<double> first_from, first_to;
   std::optional<double> tolerance;
@@ -30,14 +33,14 @@ struct BoundaryRequest {
   std::optional<int> lines;
 };
 
-/// A scene whose stability boundaries can be looked for.
+/// A scene with checked options and its model, ready for find_boundaries.
 struct BoundarySetup {
   Scene scene;
   BoundaryOptions options;
   std::unique_ptr<Model> model;
 };
 
-/// Reads the options and builds the model. Throws InputError for every fault of either.
+/// Reads the options and builds the model. Throws InputError if an option or the scene is not valid.
 BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request);
 
 }  // namespace eigentrail

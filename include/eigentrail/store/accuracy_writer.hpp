@@ -10,8 +10,8 @@ namespace eigentrail {
 inline constexpr int accuracy_schema_version = 1;
 inline constexpr const char* accuracy_format = "eigentrail-accuracy";
 
-/// Writes the whole study; the file appears under its name complete or not at all, an existing one is
-/// replaced in that moment. Throws std::runtime_error when it cannot be written.
+/// Writes the whole study. The file is replaced atomically: `path` names either the complete new file or what
+/// was there before. Throws std::runtime_error if it cannot be written.
 void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
                  const Study& study);
 

@@ -11,54 +11,58 @@
 
 namespace eigentrail {
 
-/// A line of the `events` dataset.
+/// An event in a loci file.
 struct LociEvent {
   std::string kind;
   double parameter = 0.0;
   Complex s;
-  std::string modes;        ///< numbers from 1, separated by ';'
-  double half_width = 0.0;  ///< veering; NaN otherwise
-  Complex puiseux;          ///< collision of two; NaN otherwise
-  int direction = 0;        ///< as in Event, and the following
+  std::string modes;        ///< numbers of the modes from 1, separated by ';'
+  double half_width = 0.0;  ///< of a veering; NaN otherwise
+  Complex puiseux;          ///< of a collision; NaN otherwise
+  // The following members have the meaning of those of Event.
+  int direction = 0;
   double value = 0.0;
   ComplexVector shape;        ///< per coordinate
-  ComplexVector sensitivity;  ///< per parameter of the scene, NaN where not defined
-  Vector shift;
+  ComplexVector sensitivity;  ///< ds/dq per parameter q of the scene; NaN where not defined
+  Vector shift;               ///< dp*/dq of the event's parameter p*, per parameter; NaN where not defined
 };
 
-/// Contents of a loci file that `eval`, `events` and `info` need; read once, plain data.
+/// Contents of a loci file without eigenvalue derivatives and mode shapes.
 struct LociFile : RecordedPath {
   std::string path;
   std::string parameter;                      ///< name of the traced parameter
-  std::vector<std::string> scene_parameters;  ///< names of all
-  std::string parameter_unit;                 ///< "1" when it has none
-  std::vector<std::string> modes;
-  std::vector<std::string> mode_names;  ///< what moves in each mode; empty where nothing is known
+  std::vector<std::string> scene_parameters;  ///< names of all parameters of the scene
+  std::string parameter_unit;                 ///< unit of the traced parameter; "1" if it has none
+  std::vector<std::string> modes;             ///< labels: "mode 1", ...
+  std::vector<std::string> mode_names;        ///< descriptions such as "blade flap"; empty where unknown
   std::vector<std::string> coordinates, constraints;
   std::vector<LociEvent> events;
-  /// Stable and marginal ranges; absent in a file whose trace did not come to its end, or came before them.
+  /// Stable and marginal ranges; absent if the trace has not ended or the file was written by a version
+  /// without them.
   std::optional<std::vector<StableRange>> ranges;
   std::vector<double> residual, condition;        ///< node x mode, row-major
   Matrix equilibrium;                             ///< node x coordinate
   Matrix multiplier;                              ///< node x constraint
   std::map<std::string, std::string> attributes;  ///< root attributes as text
 
-  /// A root attribute; throws InputError when the file lacks it.
+  /// A root attribute; throws InputError if the file lacks it.
   const std::string& attribute(const std::string& name) const;
 
-  /// The stored point nearest to a parameter value; the file must hold points.
+  /// The stored point nearest to a parameter value; the file must contain points.
   std::size_t nearest_node(double parameter_value) const;
 
   using RecordedPath::eigenvalues_at;
-  /// Eigenvalues of all modes wherever the path passes a parameter value, at least once. Throws InputError
-  /// outside the range.
+  /// Eigenvalues of all modes at each place of the path with this parameter value; several if the path folds.
+  /// Throws InputError outside the traced range.
   std::vector<ComplexVector> eigenvalues_at(double parameter_value) const;
 
-  /// Share of the step covered modes whose identity is certified, of each mode; NaN where it never exists.
+  /// Fraction of the path length on which the mode exists and is certified, of that on which it exists; NaN
+  /// if it exists on no step.
   double certified_share(std::size_t mode) const;
 };
 
-/// Throws InputError when the file is missing, no loci file, of a newer schema or inconsistent.
+/// Reads a loci file. Throws InputError if the file is missing, is no loci file, has another schema version
+/// or is inconsistent.
 LociFile read_loci(const std::string& path);
 
 }  // namespace eigentrail

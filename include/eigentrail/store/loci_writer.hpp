@@ -1,8 +1,8 @@
-// Writes the loci file (HDF5, schema 1) as the trace goes.
+// Writes the loci file (HDF5, schema 1) during a trace.
 //
-// The file grows in memory and is saved from time to time: what stands under its name is complete at every
-// moment, whatever happens to the process, the disk or the power. Behind its HDF5 data it has the state that
-// `trace --resume` goes on from.
+// The file grows in memory. From time to time it is written to the disk and replaces the last version
+// atomically, so the file on the disk is always complete, also after a crash or a power failure. After the
+// HDF5 data the file contains the state of the trace, from which `trace --resume` continues.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,10 @@ namespace eigentrail {
 inline constexpr int loci_schema_version = 1;
 inline constexpr const char* loci_format = "eigentrail-loci";
 
-/// Refuses names of the traced parameter that the loci file uses for something else. Throws InputError.
+/// Throws InputError if the traced parameter has the name of a dataset of the loci file.
 void check_parameter_name(const Scene& scene, const std::string& parameter);
 
-/// The file could not be written on; what was saved before stays.
+/// The file could not be written. The last saved version remains.
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -30,17 +30,19 @@ class WriteError : public std::runtime_error {
 
 class LociWriter {
  public:
-  /// Seconds of work that may be lost at most.
+  /// Seconds between saves, which is the work that may be lost.
   static constexpr double usual_interval = 2.0;
 
-  /// Begins a file, which appears under its name with the first checkpoint; an existing one is replaced in
-  /// that moment. The point `first` tells what directions of motion mean; it is appended by `append`. It is
-  /// saved every `save_every` seconds, or more rarely where saving would take more than a twentieth of the
-  /// time. Throws InputError when the file cannot be created or another process writes it.
+  /// Begins a file. The first checkpoint writes it to the disk and replaces an existing file. The first point
+  /// of the trace, `first`, defines the directions of motion for the names of modes; it must be appended
+  /// with `append` as well. The file is saved every `save_every` seconds, or less often if saving would take
+  /// more than a twentieth of the time. Throws InputError if the file cannot be created or another process
+  /// writes it.
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, const TracePoint& first, double save_every = usual_interval);
 
-  /// Goes on with the file that `saved` was read from. Throws InputError when it does not fit, likewise.
+  /// Continues the file that `saved` was read from. Throws InputError if it does not fit the model or another
+  /// process writes it.
   LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
              const SavedTrace& saved, double save_every = usual_interval);
 
@@ -48,21 +50,24 @@ class LociWriter {
   LociWriter(const LociWriter&) = delete;
   LociWriter& operator=(const LociWriter&) = delete;
 
-  // All of the following throw WriteError when they cannot write; the writer is then of no more use.
+  // `checkpoint`, `interrupt` and `finish` throw WriteError if they cannot write the file. The writer must
+  // not be used after that.
 
   /// Adds a point and the step that led to it.
   void append(const TracePoint& point);
 
-  /// Saves what there is, when it is time; at the first call in any case. Returns whether it has.
+  /// Saves the file and the state of the trace if the interval has passed, and always at the first call.
+  /// Returns whether it has saved.
   bool checkpoint(const Checkpoint& checkpoint);
 
-  /// Saves what there is, as a trace that was interrupted.
+  /// Saves the file and the state of the trace, with status "interrupted".
   void interrupt(const Checkpoint& checkpoint);
 
-  /// A name for each mode that says what moves in it; empty where nothing is known.
+  /// A description of each mode by the masses that move in it; empty where unknown.
   std::vector<std::string> mode_names() const;
 
-  /// Writes what is left, the events, the stable ranges, and the outcome and counts of the run.
+  /// Writes the remaining points, the events, the stable ranges, and the outcome and counts of the run, and
+  /// saves the file without a state of the trace.
   void finish(const TraceResult& result, const std::vector<StableRange>& ranges);
 
  private:

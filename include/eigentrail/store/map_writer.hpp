@@ -11,12 +11,12 @@ namespace eigentrail {
 inline constexpr int map_schema_version = 1;
 inline constexpr const char* map_format = "eigentrail-map";
 
-/// Refuses names of the two parameters that the file uses for something else. Throws InputError.
+/// Throws InputError if one of the two parameters has the name of a dataset of the file.
 void check_map_names(const MapSetup& setup);
 
-/// Writes the whole map; the file appears under its name complete or not at all, an existing one is replaced
-/// in that moment. `notes` is what the user should know, in words. Throws std::runtime_error when it cannot
-/// be written.
+/// Writes the whole map. The file is replaced atomically: `path` names either the complete new file or what
+/// was there before. `notes`: sentences for the user, stored as an attribute. Throws std::runtime_error if
+/// the file cannot be written.
 void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map,
                const std::vector<std::string>& notes);
 

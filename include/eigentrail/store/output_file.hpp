@@ -1,4 +1,4 @@
-// Files that commands write: what may be written over, and files that appear complete or not at all.
+// Files that commands write: which existing files may be replaced, and atomic replacement of files.
 #pragma once
 
 #include <initializer_list>
@@ -7,18 +7,18 @@
 
 namespace eigentrail {
 
-/// Whether an existing file may be replaced by one of this format: it is one itself. A scene, a file of
-/// matrices, a damaged file or anything else that somebody wrote may not.
+/// Whether an existing file may be replaced by one of this format: only if it has this format itself. All
+/// other files (scenes, files of matrices, damaged files) are protected.
 bool may_be_replaced(const std::string& path, const std::string& format);
 
-/// Tries whether a file can be created under that name, and leaves nothing behind. Throws InputError when
-/// not: better before the work than after it.
+/// Throws InputError if no file can be created in the folder of `path`. To be called before a long
+/// computation. Leaves no file behind.
 void check_can_create(const std::string& path);
 
-/// Writes `parts`, one after the other, under a name beside `path` that nobody else uses, and renames it: the
-/// file appears complete or not at all, and an existing one is replaced in that moment. The contents reach
-/// the disk first, the new name after: also without power either file is there. Throws std::system_error, and
-/// leaves nothing behind then.
+/// Replaces the file atomically by `parts`, one after the other: writes them to a temporary file in the same
+/// folder, flushes it to the disk, and renames it to `path`. After a crash or a power failure `path` names
+/// either the complete new file or the old one. Throws std::system_error on failure; the temporary file is
+/// then removed.
 void write_durably(const std::string& path, std::initializer_list<std::string_view> parts);
 
 }  // namespace eigentrail

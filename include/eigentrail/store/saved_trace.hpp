@@ -1,4 +1,4 @@
-// What a loci file holds for a trace that goes on with it.
+// The state of an unfinished trace that a loci file contains, from which the trace can be resumed.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@
 namespace eigentrail {
 
 struct SavedTrace {
-  std::string trace;   ///< for resume_trace
-  std::string writer;  ///< for LociWriter
-  std::string image;   ///< the HDF5 file
-  RecordedPath path;   ///< what was traced
+  std::string trace;   ///< state of the trace, for resume_trace
+  std::string writer;  ///< state of the LociWriter
+  std::string image;   ///< bytes of the HDF5 data
+  RecordedPath path;   ///< points and steps that were computed
 };
 
-/// Reads the state of a trace that was not finished, after checking that it was a trace of this scene with
-/// these options by this version of the program. Empty when the trace was finished. Throws InputError that
-/// names what differs, or why the file cannot be read.
+/// Reads the state of an unfinished trace; empty if the trace was finished. Throws InputError if the file
+/// cannot be read, or was written for another scene, with other options or by another version of the program;
+/// the message names the difference.
 std::optional<SavedTrace> read_saved_trace(const std::string& path, const Scene& scene,
                                            const TraceOptions& options);
 

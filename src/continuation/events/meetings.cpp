@@ -158,9 +158,10 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
 
 /// Whether two eigenvalues coincide everywhere: a bound of their half distance within reach, from the
 /// coefficients of the discriminant, is at most `resolution`.
-bool vanishes(const ComplexVector& gap, double reach, double resolution) {
+bool vanishes(const ComplexVector& discriminant, double reach, double resolution) {
   double size = 0.0;
-  for (Eigen::Index k = gap.size() - 1; k >= 0; --k) size = size * std::abs(reach) + std::abs(gap[k]);
+  for (Eigen::Index k = discriminant.size() - 1; k >= 0; --k)
+    size = size * std::abs(reach) + std::abs(discriminant[k]);
   return std::sqrt(size) <= resolution;
 }
 
@@ -294,21 +295,21 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   if (auto meeting = meeting_in_one_point(track, members, with_bystanders(track.roots, members), reach))
     return *meeting;
   Meeting meeting;
-  const ComplexVector gap = discriminant_of(track, a, b);
-  if (gap.size() == 0) return meeting;
-  if (vanishes(gap, reach, member_resolution(track, members, reach))) {
+  const ComplexVector discriminant = discriminant_of(track, a, b);
+  if (discriminant.size() == 0) return meeting;
+  if (vanishes(discriminant, reach, member_resolution(track, members, reach))) {
     // The two coincide everywhere. They may meet others together: those within the square root of rounding,
     // to which multiple eigenvalues are known.
     constexpr double nearby = 1e-7;
     const std::vector<int> others = with_bystanders(track.roots, members, nearby);
     return meeting_in_one_point(track, members, others, reach).value_or(meeting);
   }
-  const std::vector<Complex> roots = roots_by_magnitude(gap, reach);
+  const std::vector<Complex> roots = roots_by_magnitude(discriminant, reach);
   constexpr double farthest = 2.0;  // in units of the reach: the series is inaccurate beyond
   if (roots.empty() || std::abs(roots[0]) > farthest * std::abs(reach)) return meeting;
   meeting.found = true;
   meeting.members = members;
-  meeting.puiseux = std::sqrt(gap[1]);
+  meeting.puiseux = std::sqrt(discriminant[1]);
   const std::vector<ComplexMatrix> part = part_of_track(track, members);
   const std::vector<ComplexMatrix>& Lambda = part.empty() ? track.series.Lambda : part;
   const Rounding rounding = rounding_of(track, Lambda);
@@ -317,9 +318,10 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   // which have no rounding error of their own.
   constexpr double coordinate_rounding = 1e-14;
   double resolution = coordinate_rounding * std::abs(reach);
-  const double noise = std::abs(gap[1]) > 0.0 ? rounding_margin * rounding.lambda *
-                                                    std::max(distance, rounding.lambda) / std::abs(gap[1])
-                                              : 0.0;
+  const double noise = std::abs(discriminant[1]) > 0.0
+                           ? rounding_margin * rounding.lambda * std::max(distance, rounding.lambda) /
+                                 std::abs(discriminant[1])
+                           : 0.0;
   // The discriminant of a part that is not a multiple of the unit matrix has an error of about four times the
   // error of Lambda times the norm of the centred part. A single root, whose parabola has no other root
   // within reach, moves by this error over the slope; a double root by the square root of the error over the
@@ -330,12 +332,12 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   // which the part is defective at a double root; below it the double eigenvalue is semisimple.
   constexpr double scalar = 1e-6;
   constexpr double share_of_change = 1e-3;
-  const double curvature = std::abs(gap[2]);
-  const bool is_single = std::abs(gap[1]) > 2.0 * std::abs(reach) * curvature;
+  const double curvature = std::abs(discriminant[2]);
+  const bool is_single = std::abs(discriminant[1]) > 2.0 * std::abs(reach) * curvature;
   const bool defective = distance > scalar * std::max(track.pair.Lambda.norm(),
                                                       share_of_change * rounding.slope * std::abs(reach));
   if (defective && is_single) {
-    resolution = std::max(resolution, error_factor * rounding.lambda * distance / std::abs(gap[1]));
+    resolution = std::max(resolution, error_factor * rounding.lambda * distance / std::abs(discriminant[1]));
   } else if (defective && curvature > 0.0) {
     resolution = std::max(resolution, std::sqrt(error_factor * rounding.lambda * distance / curvature));
   } else if (rounding.slope > 0.0) {
@@ -349,10 +351,10 @@ double earlier_meeting(const Track& track, const std::vector<int>& a, const std:
   constexpr double nearby = 0.2;    // share of the step up to which the series is accurate
   constexpr double apart = 1e-6;    // share of the step: a nearer root is the meeting at the point itself
   constexpr double on_axis = 1e-2;  // largest |Im| / |Re| of a root on the axis, since double roots split
-  const ComplexVector gap = discriminant_of(track, a, b);
+  const ComplexVector discriminant = discriminant_of(track, a, b);
   double offset = 0.0;
-  if (gap.size() == 0) return offset;
-  for (const Complex root : polynomial_roots(gap)) {
+  if (discriminant.size() == 0) return offset;
+  for (const Complex root : polynomial_roots(discriminant)) {
     const bool is_earlier = root.real() * h < 0.0 && std::abs(root.imag()) <= on_axis * std::abs(root.real());
     const double distance = std::abs(root.real());
     if (is_earlier && distance > std::max(std::abs(offset), apart * std::abs(h)) &&

@@ -14,12 +14,14 @@ constexpr double function_rounding_level = 1e-13;
 /// A trace promises its tolerance for eigenvalues of a block that are this far apart, relatively.
 constexpr double promised_gap = 0.1;
 
-/// Errors of the functions of a block at a place of a step of a trace. At a stored point they are rounding.
+/// Error bounds of the functions of a block (invariants.hpp) at a place on a step. At a stored point
+/// (`at_node`) they are rounding errors.
 Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& functions, bool at_node,
                        double scale, double tolerance) {
   const Eigen::Index k = block_size(functions.size());
-  // Rounding of Lambda, and of delta for two: that times |Lambda - tau I|, which is of the size of the
-  // largest sqrt(delta) on the step. If this is rounding itself, so is delta.
+  // An error e of Lambda changes tau and the entries of Lambda by e, and delta by about e |Lambda - tau I|.
+  // That norm is estimated by the largest sqrt(|delta|) on the step. If the largest |delta| is itself within
+  // the rounding error of s^2, delta is entirely unknown.
   Vector errors = Vector::Constant(functions.size(), function_rounding_level * scale);
   if (k == 2) {
     double largest = 0.0;
@@ -28,7 +30,8 @@ Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& fun
     if (largest <= function_rounding_level * scale * scale) errors[1] += largest;
   }
   if (at_node) return errors;
-  // The estimate is for a lower order than that of the dense output; the trace has promised the tolerance.
+  // error_without_last() belongs to the interpolant of one order less and so overestimates the error. The
+  // step control has kept the error within the tolerance. The smaller of the two bounds holds.
   Vector promised = Vector::Constant(functions.size(), tolerance * scale / static_cast<double>(k));
   if (k == 2) promised << tolerance * scale, tolerance * promised_gap * scale * scale;
   return errors + dense.error_without_last().cwiseMin(promised);

@@ -1,5 +1,5 @@
 "use strict";
-// Work-precision: the largest error of every run against its time, a line per method.
+// Work-precision diagram: the largest error of every run over its wall time, one line per method.
 
 class AccuracyView {
   constructor(file) {

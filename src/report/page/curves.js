@@ -1,7 +1,7 @@
 "use strict";
-// Eigenvalues anywhere on a path. A place on the path is the distance from its beginning.
+// Evaluates eigenvalues anywhere on a path. A place on the path is given by the distance from its beginning.
 
-/** Chebyshev-Lobatto places on [0, 1] and their barycentric weights. */
+/** Chebyshev-Lobatto points on [0, 1] and their barycentric weights. */
 function chebyshevPlaces(degree) {
   const places = [], weights = [];
   for (let j = 0; j <= degree; ++j) {
@@ -11,7 +11,10 @@ function chebyshevPlaces(degree) {
   return { places, weights };
 }
 
-/** A function as polynomials on pieces between `knots`; `value(i)` is its i-th value, `degree` per piece. */
+/**
+ * A piecewise polynomial (src/report/piecewise.hpp) with `width` components. The pieces lie between `knots` and have
+ * the given degree. `value(i)` is the i-th of degree * pieces + 1 values.
+ */
 class Piecewise {
   constructor(knots, degree, width, value) {
     Object.assign(this, { knots, degree, width, value }, chebyshevPlaces(degree));
@@ -20,7 +23,7 @@ class Piecewise {
   get to() { return this.knots[this.knots.length - 1]; }
   covers(place) { return place >= this.from && place <= this.to; }
 
-  /** The piece that a place lies on. */
+  /** Number of the piece on which a place lies, by bisection. */
   piece(place) {
     let low = 0, high = this.knots.length - 2;
     while (low < high) {
@@ -45,7 +48,7 @@ class Piecewise {
     return above.map((sum) => sum / below);
   }
 
-  /** Places that show the shape of the function: those of its values, or fewer where there are many pieces. */
+  /** Places for drawing the function: those of its values, or fewer if there are many pieces. */
   samples() {
     const n = this.knots.length - 1, list = [this.from];
     const inner = n > 600 ? [1] : n > 200 ? [0.5, 1] : this.places.slice(1);
@@ -78,13 +81,13 @@ class Path {
   }
   parameterAt(place) { return this.parameter.at(place)[0]; }
 
-  /** [Re s, Im s] of a mode at a place; null where it does not exist, or is too large to show. */
+  /** [Re s, Im s] of a mode at a place; null where the mode does not exist or is too large to show. */
   eigenvalue(mode, place) {
     const stretch = this.modes[mode].find((candidate) => candidate.covers(place));
     return stretch ? stretch.at(place) : null;
   }
 
-  /** Where the path passes a value of the parameter, in its order. */
+  /** The places at which the path passes a value of the parameter, ascending; several if the path folds. */
   placesOf(value) {
     const found = [], samples = this.parameter.samples();
     const miss = (place) => this.parameterAt(place) - value;
@@ -105,7 +108,7 @@ class Path {
   }
 }
 
-/** A zero of a monotonic function, or null. */
+/** The zero of a monotonic function by secants and bisection in turn; null if it does not change its sign. */
 function rootBetween(f, from, to) {
   let low = f(from), high = f(to);
   if (low === 0) return from;

@@ -1,5 +1,5 @@
 "use strict";
-// Arrays of numbers as they stand in the page: base64, lowest byte first.
+// Decodes the arrays of numbers in the page: base64, little-endian.
 
 function decodedBytes(text) {
   const binary = atob(text);

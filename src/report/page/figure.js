@@ -1,5 +1,5 @@
 "use strict";
-// What all figures have in common: colours, marks, layout.
+// Colours, marks and layout that all figures share.
 
 /** Okabe and Ito's colours without yellow, which is too light for lines on white. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
@@ -40,7 +40,7 @@ function figureLayout(more) {
   };
 }
 
-/** The range of the values; where few of them are far larger than all others (a mode goes to infinity), of the others. */
+/** The range of the values, without a few that are far larger than all others, as where a mode goes to infinity. */
 function usualRange(values) {
   if (!values.length) return [0, 1];
   const sorted = Float64Array.from(values).sort(), n = sorted.length;
@@ -56,7 +56,7 @@ function padded([low, high], share) {
   return [low - share * (high - low), high + share * (high - low)];
 }
 
-/** Pixels of a place in a figure, from its upper left corner. */
+/** The position in pixels, from the upper left corner of the figure, of data coordinates. */
 function toPixels(figure, xaxis, yaxis, x, y) {
   const { [xaxis]: ax, [yaxis]: ay } = figure._fullLayout;
   return [ax._offset + ax.l2p(ax.d2l ? ax.d2l(x) : x), ay._offset + ay.l2p(ay.d2l ? ay.d2l(y) : y)];
@@ -67,7 +67,7 @@ function insideAxes(figure, xaxis, yaxis, [px, py]) {
   return px >= ax._offset - 1 && px <= ax._offset + ax._length + 1 && py >= ay._offset - 1 && py <= ay._offset + ay._length + 1;
 }
 
-/** A small picture of a line with its mark, for lists. */
+/** A small picture of a line with its mark, for tables. */
 function swatch(colour, symbol) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   for (const [name, value] of Object.entries({ width: 30, height: 12, viewBox: "0 0 30 12", "aria-hidden": "true" }))

@@ -9,7 +9,7 @@ class LociFile {
     const { label, name } = this.data.modes[mode] || { label: `mode ${mode + 1}` };
     return name ? `${label}, ${name}` : label;
   }
-  /** For the ends of lines. */
+  /** The short name of a mode, for the end of its line. */
   shortText(mode) { return [mode + 1, this.data.modes[mode].name].filter(Boolean).join(": "); }
   eventNumber(event) { return `E${this.firstEvent + this.data.events.indexOf(event) + 1}`; }
 }

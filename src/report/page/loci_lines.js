@@ -1,12 +1,12 @@
 "use strict";
-// Lines as they are drawn: the curves evaluated so densely that no corner shows at the present zoom.
+// Converts curves to polylines, with so many points that they look smooth at the present zoom.
 
-const LARGEST_CORNER = 0.25;  // px between a chord and the curve
-const SAME_LINE = 0.3;        // px within which points in between are dropped
+const LARGEST_CORNER = 0.25;  // largest distance in px of the curve from a chord
+const SAME_LINE = 0.3;        // points closer to a line than this, in px, are dropped
 
 /**
- * Points {place, x, y} of one stretch. `project(place, s)` gives [x, y]; `view` has pixels per unit and the
- * visible window, outside of which nothing is refined; `spacing` is the largest distance of points in px.
+ * Points {place, x, y} of one stretch. `project(place, s)` gives [x, y]. `view` has the pixels per unit and the
+ * visible window; lines outside of it are not refined. `spacing` is the largest distance of points in px.
  */
 function drawnLine(stretch, project, view, spacing) {
   const point = (place) => {
@@ -37,7 +37,7 @@ function drawnLine(stretch, project, view, spacing) {
   return thinned(line, view, spacing);
 }
 
-/** Drops points that lie on the line between their neighbours, as long as those are near each other. */
+/** Drops points that lie on the line between the points kept, unless these would be farther apart than `spacing`. */
 function thinned(line, view, spacing) {
   const kept = [line[0]];
   let first = 0;
@@ -64,7 +64,7 @@ function canSkip(line, from, to, view, spacing) {
   return true;
 }
 
-/** The parts of a line within, and outside of, stretches [from, to] of the path; neighbours share a point. */
+/** The parts of a line inside and outside of stretches [from, to] of the path. Neighbouring parts share a point. */
 function splitLine(line, stretches, pointAt) {
   const inside = [], outside = [];
   let current = null, currentIn = null;
@@ -86,7 +86,7 @@ function splitLine(line, stretches, pointAt) {
   return { inside, outside };
 }
 
-/** Arrays for Plotly; lines are parted by null. */
+/** The coordinates of several lines as arrays for Plotly, with null between the lines. */
 function joined(lines) {
   const x = [], y = [];
   for (const line of lines) {
@@ -96,7 +96,7 @@ function joined(lines) {
   return { x, y };
 }
 
-/** Where lines pass nearest to a pixel: { distance, line, from, to, share }. */
+/** The line nearest to a pixel, its distance in px, and the place on the path there: { distance, line, place }. */
 function nearestOnLines(lines, px, py) {
   let best = null;
   for (const line of lines) {

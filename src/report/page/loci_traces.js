@@ -1,11 +1,11 @@
 "use strict";
-// What Plotly draws of the loci: Campbell diagram (frequency above, damping below) and root locus.
+// The traces that Plotly draws: Campbell diagram (frequency above, damping below) and root locus.
 
 const PARAMETER_COLOURS = 24;
 const MOST_LABELLED = 14;  // modes with marks and names on their lines
 const MOST_EVENT_NAMES = 12;
 
-/** The three charts: axes, and where an eigenvalue lies in them. `settings` as LociView has them. */
+/** The three charts: their axes and the coordinates of an eigenvalue in them. `settings`: those of LociView. */
 const CHARTS = {
   frequency: {
     xaxis: "xaxis", yaxis: "yaxis",
@@ -49,7 +49,7 @@ function chartLines(files, chart, settings, view, spacing) {
 const lineTrace = (lines, line, more = {}) =>
   ({ ...joined(lines), type: "scatter", mode: "lines", line, hoverinfo: "skip", showlegend: false, ...more });
 
-/** Lines in the colour of their mode or file; those that others are isolated from are faint. */
+/** Traces of the lines in the colour of their mode or file. If some modes are isolated, all others are faint. */
 function modeTraces(lines, isActive, style, axes) {
   const traces = [];
   const faint = lines.filter((line) => !isActive(line)).flatMap((line) => line.certified.concat(line.uncertified));
@@ -70,7 +70,7 @@ function modeTraces(lines, isActive, style, axes) {
   return traces;
 }
 
-/** A few marks on every line, so that they can be told apart without colours. */
+/** A few marks on every line, by which lines can be distinguished without colours. */
 function markTrace(lines, isActive, style, axes) {
   const x = [], y = [], symbol = [], color = [];
   for (const line of lines.filter(isActive)) {
@@ -86,7 +86,7 @@ function markTrace(lines, isActive, style, axes) {
   return { x, y, type: "scatter", mode: "markers", marker: { symbol, color, size: 7 }, hoverinfo: "skip", showlegend: false, ...axes.plot };
 }
 
-/** Names at the right ends of lines, moved apart where they would overlap. */
+/** Names at the right ends of lines, shifted where they would overlap. */
 function nameTrace(lines, isActive, style, view, short) {
   const ends = new Map();
   for (const line of lines.filter(isActive)) {
@@ -117,7 +117,7 @@ function eventPoint(event, chart, settings) {
   return [event.parameter, (settings.frequency === "abs" ? size : Math.abs(event.imag)) * settings.unitFactor];
 }
 
-/** One trace of marks per kind of event. */
+/** The marks of events: one trace per kind. */
 function eventTraces(files, chart, settings, isActive, axes, showLegend) {
   const kinds = new Map();
   for (const file of files) {
@@ -149,7 +149,7 @@ function eventTraces(files, chart, settings, isActive, axes, showLegend) {
 const SIDES = { "top center": [0, -1], "bottom center": [0, 1], "middle right": [1, 0], "middle left": [-1, 0], "top right": [1, -1],
   "top left": [-1, -1], "bottom right": [1, 1], "bottom left": [-1, 1] };
 
-/** Gives every mark a `name` and a `side` for it where it covers no other name or mark; an empty name where there is none. */
+/** Sets the `name` of every mark and the `side` on which it covers no other name or mark; the name is empty if there is no such side. */
 function placeNames(marks, view) {
   const at = (mark) => [mark.x * view.perX, -mark.y * view.perY];
   const taken = marks.map((mark) => { const [x, y] = at(mark); return [x - 6, x + 6, y - 6, y + 6]; });
@@ -172,7 +172,7 @@ function placeNames(marks, view) {
   }
 }
 
-/** Shaded ranges of the parameter: the whole height for one file, a strip above for each of several. */
+/** Shaded stable ranges of the parameter: of the whole height for one file, a strip at the top for each of several files. */
 function rangeShapes(files) {
   const shapes = [];
   files.forEach((file, row) => {
@@ -188,7 +188,7 @@ function rangeShapes(files) {
   return shapes;
 }
 
-/** Rays n p, each with its name at the end that the window has. */
+/** Lines of the harmonics n times the excitation frequency, each with its name at its end in the window. */
 function rayTraces(files, settings, view) {
   const source = files.find((file) => file.data.excitation);
   if (!source) return [];
@@ -207,7 +207,7 @@ function rayTraces(files, settings, view) {
   });
 }
 
-/** The root locus in colours of the parameter: a trace per colour, and one for the scale. */
+/** The root locus coloured by the parameter: one trace per colour, and one for the colour scale. */
 function parameterTraces(lines, isActive, range) {
   const traces = [];
   const faint = lines.filter((line) => !isActive(line)).flatMap((line) => line.certified.concat(line.uncertified));
@@ -232,7 +232,7 @@ function parameterTraces(lines, isActive, range) {
   return traces;
 }
 
-/** Cividis without its lightest fifth: even in lightness, the same to all eyes. */
+/** The colour map Cividis without its lightest fifth: uniform in lightness, suitable for colour-blind readers. */
 const CIVIDIS = [[0, 34, 78], [18, 53, 112], [59, 73, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120], [165, 156, 116], [195, 179, 105]];
 
 function parameterColour(share) {
@@ -250,7 +250,7 @@ function parameterScale(range, title) {
   };
 }
 
-/** Where every line begins (a ring) and ends (a dot), so that its direction shows. */
+/** The beginning (a ring) and the end (a dot) of every line, which show its direction. */
 function endTraces(lines, isActive) {
   const shown = lines.filter(isActive);
   const marks = (pick, symbol) => ({

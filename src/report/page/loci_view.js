@@ -1,7 +1,7 @@
 "use strict";
-// Loci files with the same parameter: charts, the place that is looked at, modes, shapes, events.
+// View of loci files with the same parameter: charts, the selected place and mode, mode shapes, events.
 
-const REACH = 22;  // px within which a line is meant by the pointer
+const REACH = 22;  // distance in px from the pointer within which a line is selected
 
 class LociView {
   constructor(datas) {
@@ -110,7 +110,7 @@ class LociView {
       element("button", { type: "button", text: "point ›", title: "next stored point", click: step(1) }), this.passage);
   }
 
-  // The place that is looked at.
+  // The selected place.
 
   goToValue(text) {
     const value = Number(text.replace(",", ".").replace("−", "-"));
@@ -121,7 +121,7 @@ class LociView {
       return;
     }
     const now = places.findIndex((place) => Math.abs(place - this.place[file.index]) < 1e-9 * file.path.length);
-    this.moveTo(file, places[(now + 1) % places.length], mode);  // the same value again: its next passage
+    this.moveTo(file, places[(now + 1) % places.length], mode);  // if the value is entered again, go to its next passage
     this.value.value = text;
   }
 
@@ -154,7 +154,7 @@ class LociView {
     this.showDots();
   }
 
-  /** Rings around the chosen mode at the chosen place, in all charts. */
+  /** Draws rings around the selected mode at the selected place, in all charts. */
   showDots() {
     const { file, mode } = this.current, place = this.place[file.index];
     const s = place === null ? null : file.path.eigenvalue(mode, place);
@@ -286,7 +286,7 @@ class LociView {
     this.timer = setTimeout(() => this.draw(), 120);
   }
 
-  /** The window that shows all active modes: of x, frequency and damping, or of the locus. */
+  /** The window of a chart that shows all active modes. */
   wholeWindow(chart) {
     const xs = [], ys = [];
     for (const file of this.files) {

@@ -1,10 +1,10 @@
 "use strict";
-// Stability over two parameters: maps, and boundaries on them.
+// View of stability over two parameters: maps with boundaries drawn on them.
 
 const MAP_QUANTITIES = { unstable: "growing modes", margin: "margin −max Re s, 1/s", damping_ratio: "least damping ratio" };
 const CELL_KINDS = [["unknown", "#bdbdbd"], ["stable", "#dff0e8"], ["marginal", "#fbf3d3"], ["1", "#f6c08a"], ["2", "#e08a3c"], ["3", "#b3531c"], ["4+", "#6d2a0c"]];
 
-/** Which of CELL_KINDS a cell is, by its growing modes and its margin. */
+/** Index into CELL_KINDS for a cell with this number of growing modes (-1: unknown) and this margin. */
 function cellKind(growing, margin) {
   if (growing < 0) return 0;
   return growing > 0 ? 2 + Math.min(growing, 4) : margin > 0 ? 1 : 2;

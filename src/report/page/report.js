@@ -1,5 +1,5 @@
 "use strict";
-// Puts the page together from the data in it.
+// Builds the page from the data in it.
 
 const PAPER = { width: "690px", height: "480px" };
 
@@ -15,7 +15,7 @@ function summary(file) {
   return `${file.name}: ${what}${attributes.status ? `, ${attributes.status}` : ""}${attributes.message ? `: ${attributes.message}` : ""}`;
 }
 
-/** Items that have the same key, in the order of the first of each. */
+/** Groups of items with the same key, in the order of their first items. */
 function grouped(items, key) {
   const groups = new Map();
   for (const item of items) {
@@ -26,7 +26,7 @@ function grouped(items, key) {
   return [...groups.values()];
 }
 
-/** Figures have the width of the window; on paper that of the sheet. */
+/** Changes the width of the figures from that of the window to that of the sheet while the page is printed. */
 function fitToPaper(views) {
   const resize = (size) => {
     for (const chart of document.querySelectorAll(".chart")) {
@@ -60,7 +60,7 @@ function startReport() {
   fitToPaper(views);
   return {
     views, loci,
-    /** Eigenvalues as `eigentrail eval` tells them, in the browser's console: report.eval(12.5). */
+    /** For the browser's console: report.eval(12.5) returns the same eigenvalues as `eigentrail eval`. */
     eval(value, file = 0) {
       const { path, data } = loci.flatMap((view) => view.files)[file];
       return path.placesOf(value).flatMap((place) => data.modes.flatMap((mode, i) => {

@@ -1,8 +1,8 @@
 "use strict";
-// The motion of a mode: a stick figure that can be turned, or bars where the scene has no points and bodies.
+// Animation of a mode shape: a stick figure that can be rotated, or bars if the scene has no points and bodies.
 
 const VIEWS = { "3D": [-0.6, 0.42], "x–y": [0, Math.PI / 2], "x–z": [0, 0], "y–z": [-Math.PI / 2, 0] };
-const PERIOD = 2400;  // ms
+const PERIOD = 2400;  // of the animation, ms
 
 class ShapeView {
   constructor(files) {
@@ -118,7 +118,7 @@ class ShapeView {
     this.paintNames(pen, at, project);
   }
 
-  /** Names beside the middle of what belongs to them, where there is room. */
+  /** Draws the names of points and bodies beside their middle, where they do not overlap. */
   paintNames(pen, at, project) {
     const { carriers, places } = this.shapes.geometry, taken = [];
     if (carriers.length > 24) return;
@@ -152,7 +152,7 @@ class ShapeView {
     });
   }
 
-  /** The directions of the frame, in a corner. */
+  /** Draws the axes of the frame in the lower left corner. */
   paintAxes(pen, [ca, sa, cb, sb], height) {
     const origin = [34, height - 34];
     [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]].forEach(([name, [u, v, w]]) => {
@@ -184,7 +184,7 @@ class ShapeView {
   }
 }
 
-/** Scale and middle that show all points, with a margin; nothing smaller than `least` fills the picture. */
+/** Scale and middle with which all points are visible, with a margin. The picture shows at least the extent `least`. */
 function fitted(points, width, height, least) {
   const low = [0, 1].map((k) => Math.min(...points.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...points.map((p) => p[k])));
   const room = [width - 90, height - 70];

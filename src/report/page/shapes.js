@@ -1,6 +1,6 @@
 "use strict";
 
-/** Mode shapes and equilibria of a file; their largest component is one. */
+/** Mode shapes and equilibria of a file. The largest component of a shape is one. */
 class Shapes {
   constructor(data, modes, coordinates) {
     Object.assign(this, { nodes: data.nodes, geometry: data.geometry, modes, n: coordinates });
@@ -28,7 +28,7 @@ class Shapes {
     return best;
   }
 
-  /** Origins, axes and places when the mode has this amplitude and phase. */
+  /** Positions of origins, axes and places, displaced by the mode with this amplitude and phase. */
   positions(row, mode, amplitude, phase) {
     const x = (i) => this.equilibrium[row * this.n + i] + amplitude * this.component(row, mode, i, phase);
     const triple = (i) => [x(i), x(i + 1), x(i + 2)];
@@ -43,7 +43,7 @@ class Shapes {
     return { origins, axes, places: at };
   }
 
-  /** Centre and radius of the figure at rest, and the displacement that is a sixth of it. */
+  /** Centre and radius of the figure at rest, and the amplitude with which the largest displacement is 0.3 radii. */
   figure(row, mode) {
     if (this.cached && this.cached.row === row && this.cached.mode === mode) return this.cached;
     const rest = this.positions(row, mode, 0, 0), all = [...rest.origins, ...rest.places];

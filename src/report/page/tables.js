@@ -9,7 +9,7 @@ function table(heads, rows, caption) {
 
 const cell = (content, kind) => element("td", kind ? { class: kind } : {}, content);
 
-/** Events of all files; choosing one shows it. */
+/** Table of the events of all files; selecting one moves the view to it. */
 function eventTable(files, choose) {
   const several = files.length > 1;
   const rows = files.flatMap((file) => file.data.events.map((event, i) => {
@@ -41,7 +41,7 @@ function rangeTable(files) {
   return table([...(several ? ["file"] : []), "kind", "from", "to", "margin −max Re s, 1/s"], rows, "Stable ranges");
 }
 
-/** The modes: a button that isolates each, its values at the chosen place, its certified share. */
+/** Table of the modes: a button that isolates the mode, its values at the selected place, its certified share. */
 class ModeTable {
   constructor(files, style, toggle) {
     const several = files.length > 1, named = files.some((file) => file.data.modes.some((mode) => mode.name));
@@ -73,7 +73,7 @@ class ModeTable {
   }
 }
 
-/** How a file was made: what people look for first, then everything. */
+/** How a file was made: the most important attributes first, then all. */
 function runDetails(file) {
   const attributes = file.attributes;
   const first = ["status", "message", "notes", "tolerance", "series_order", "seconds", "program_version", "parameter"];

@@ -1,7 +1,7 @@
 "use strict";
-// Elements and texts. What comes from a file becomes text nodes here, never markup.
+// Creates elements and texts. Texts from files become text nodes, never markup.
 
-/** An element with attributes (functions are listeners, "text" its text) and children. */
+/** Creates an element with children. Attributes that are functions become listeners; "text" is the text content. */
 function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -16,20 +16,20 @@ function element(tag, attributes = {}, ...children) {
 
 const SAME_AS_ZERO = 1e-9;
 
-/** The number with so many significant digits, without zeros that say nothing. */
+/** A number with this many significant digits, without trailing zeros. */
 function number(value, digits = 6) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e−", "e-");
 }
 
-/** Real parts that count as zero everywhere in eigentrail are shown as zero. */
+/** A complex number. Real parts below 1e-9 of the imaginary part are rounding, as in the stability analysis, and shown as zero. */
 function complexText(real, imag, digits = 7) {
   if (Math.abs(real) < SAME_AS_ZERO * Math.abs(imag)) real = 0;
   return `${number(real, digits)} ${imag < 0 ? "−" : "+"} ${number(Math.abs(imag), digits)}j`;
 }
 
-/** For Plotly, which reads some markup in its texts. */
+/** Escapes a text for Plotly, which interprets some markup in texts. */
 function plotText(text) {
   return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
