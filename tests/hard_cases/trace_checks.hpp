@@ -1,4 +1,4 @@
-// Comparisons of a recorded trace with what is known about its spectrum: values, special points, labels.
+// Compares a recorded trace with reference data of its case: eigenvalues, special points, labels.
 #pragma once
 
 #include <functional>
