@@ -10,8 +10,8 @@
 namespace eigentrail::test {
 
 struct BenchOptions {
-  bool smoke = false;  ///< sizes that take seconds: to see that everything runs, not for figures
-  int repeats = 5;     ///< of every timed run, >= 1; medians are reported
+  bool smoke = false;  ///< small sizes that take seconds: a test that everything runs, without valid figures
+  int repeats = 5;     ///< repetitions of every timed run, >= 1; medians are reported
 };
 
 using Figures = std::vector<Figure>;
@@ -43,7 +43,7 @@ Figures blades(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 
-/// All of them, in the order of the table.
+/// All benchmarks, in the order of the table.
 const std::vector<Benchmark>& benchmarks();
 
 }  // namespace eigentrail::test

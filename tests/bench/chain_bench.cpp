@@ -1,4 +1,4 @@
-// Multibody models with many coordinates and few freedoms: by sparse matrices, and by dense ones.
+// Multibody models with many coordinates and few freedoms: time with sparse and with dense matrices.
 #include <memory>
 
 #include "bench/benchmarks.hpp"

@@ -10,8 +10,9 @@ namespace eigentrail::test {
 constexpr double close = 0.1, apart = 1.0;  ///< distances of frequencies, rad/s
 
 /// Undamped frequencies from 3 rad/s on, equally spaced, that a random symmetric stiffness moves for p from 0
-/// to 1, with skew-symmetric C growing like p and light damping. Close neighbours veer, at half-widths of
-/// some percent of the range; those that are apart do not meet. Local statistics do not depend on n.
+/// to 1, with light damping and a skew-symmetric C proportional to p. If the spacing is `close`, neighbours
+/// veer with half-widths of some percent of the range; if it is `apart`, they do not meet. The spacing of
+/// modes and the widths of veerings do not depend on n.
 Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides, double spacing = close);
 
 /// The same without C, neighbours close.

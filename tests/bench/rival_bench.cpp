@@ -1,4 +1,4 @@
-// Time ratios to a grid of spectra at the same achieved error.
+// Time of spectra on a grid divided by the time of a trace with the same achieved error.
 #include "bench/benchmarks.hpp"
 #include "bench/families.hpp"
 #include "bench/grid_rival.hpp"
@@ -12,11 +12,11 @@ namespace {
 
 constexpr unsigned seed = 7;
 
-/// A trace and the grid that does as well.
+/// A trace, and the number of points of a grid with the same error.
 struct Contest {
   Recording exact;
-  double error = 0.0;  ///< achieved by both
-  int points = 0;      ///< of the grid
+  double error = 0.0;  ///< achieved error of both
+  int points = 0;      ///< number of grid points
 };
 
 Contest contest(const Setting& setting, const TraceOptions& traced, const BenchOptions& options) {

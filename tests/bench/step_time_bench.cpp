@@ -34,7 +34,7 @@ double lu_seconds(int n, Factor&& factor) {
   return sink > 0.0 ? seconds / inner : 0.0;
 }
 
-/// Time of one complex LU as the engine does it.
+/// Time of one complex LU with the library's implementation.
 double own_lu_seconds(int n) {
   return lu_seconds(n, [](const ComplexMatrix& matrix) {
     const ComplexLu lu(matrix);
@@ -49,7 +49,7 @@ double eigen_lu_seconds(int n) {
   });
 }
 
-/// Where the time of a run went.
+/// Shares of the stages in the time of a run.
 std::string stages(const TimedTrace& timed) {
   const RunCounts& c = timed.result.counts;
   const double all = timed.result.seconds;

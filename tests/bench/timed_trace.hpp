@@ -19,14 +19,14 @@ struct TimedTrace {
 /// Throws std::runtime_error unless the trace is completed.
 TimedTrace time_trace(const Setting& setting, const TraceOptions& options);
 
-/// The dense output, with the trace's magnitude below which an eigenvalue counts as zero.
+/// The dense output of a trace, and the reference of its relative errors.
 struct Recording {
   RecordedPath path;
   double s_ref = 0.0;
 };
 Recording record(const Setting& setting, const TraceOptions& options);
 
-/// A recording to compare others with: order 4, the tolerance 1e-3 of the one to be judged.
+/// A reference recording: order 4, with a tolerance of 1e-3 times that of the trace that is compared with it.
 Recording reference_of(const Setting& setting, const TraceOptions& judged);
 
 /// Eigenvalues of all modes (columns) at parameters in the direction of the trace (rows), on a path that does

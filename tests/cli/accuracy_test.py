@@ -1,4 +1,4 @@
-"""`eigentrail accuracy`: the file that others open, what is said, and bad input."""
+"""`eigentrail accuracy`: its file as other software reads it, its output, and bad input."""
 
 import unittest
 
@@ -36,7 +36,7 @@ LAYOUT = {
 
 class Accuracy(CommandTest):
     def study(self, *options, grids="10,20"):
-        """Studies BLADE; returns what is said."""
+        """Runs a study of BLADE; returns the printed output."""
         self.write("scene.toml", BLADE)
         return self.run_well("accuracy", "scene.toml", *NARROW, "--grids", grids, *options)
 

@@ -1,4 +1,4 @@
-"""`eigentrail boundary`: its file as h5py and xarray see it, the curves by closed forms, and what it refuses."""
+"""`eigentrail boundary`: its file as h5py and xarray read it, its curves compared with closed forms, and bad input."""
 
 import unittest
 
@@ -14,7 +14,7 @@ ROUNDING = 1e-12
 
 
 def freedoms(*damping_and_stiffness, extra=""):
-    """Scene of independent freedoms s^2 + c s + k in P from -1 to 1 and Q."""
+    """A scene of independent freedoms s^2 + c s + k, with P from -1 to 1 and Q."""
     def diagonal(entries):
         return [["0"] * i + [entry] + ["0"] * (len(entries) - i - 1) for i, entry in enumerate(entries)]
 
@@ -97,7 +97,7 @@ def hermite(near, far, h, t):
 
 class BoundaryTest(CommandTest):
     def boundary(self, scene, second, low, high, *options, output="boundary.h5"):
-        """Runs quietly on a scene given as text; returns every dataset."""
+        """Runs the command with --quiet on a scene given as text; returns all datasets of its file."""
         self.write("scene.toml", scene)
         self.run_well("boundary", "scene.toml", "--second", second, "--from", low, "--to", high, "-o", output, "-q",
                       *options)
@@ -108,7 +108,7 @@ class BoundaryTest(CommandTest):
         return self.boundary(scene, "Q", -1, 1, *options, **keywords)
 
     def places(self, data, curve, per_step=20):
-        """Dense output all along a curve: P, Q, tau, delta."""
+        """The dense output at places along a whole curve: P, Q, tau, delta."""
         return np.array([hermite(data["dense_output"][i, :, 0], data["dense_output"][i, :, 1],
                                  data["step_length"][i], t)
                          for i in np.flatnonzero(data["step_curve"] == curve) for t in np.linspace(0, 1, per_step)])

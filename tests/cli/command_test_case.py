@@ -1,4 +1,4 @@
-"""What the tests of the commands share: tracing a scene that is given as text, and reading `eval` back."""
+"""Shared by the tests of the commands: tracing a scene that is given as text, and reading the output of `eval`."""
 
 import csv
 import io

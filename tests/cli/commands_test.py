@@ -1,4 +1,4 @@
-"""The contract of the commands that read: what eval, events, info and explain print and return."""
+"""Output and exit codes of the commands that only read: eval, events, info and explain."""
 
 import csv
 import io

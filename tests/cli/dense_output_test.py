@@ -1,4 +1,4 @@
-"""The dense output of loci files, also where modes meet, evaluated in numpy as docs/loci-file.md says."""
+"""The dense output of loci files, evaluated in numpy by the formulas of docs/loci-file.md, also where modes meet."""
 
 import csv
 import io
@@ -25,7 +25,7 @@ def between(h, left, right, t):
 
 
 def roots_of_block(functions):
-    """Of one function, or of tau and delta."""
+    """The roots from the values of one function, or of tau and delta."""
     if len(functions) == 1:
         return functions
     tau, delta = functions
@@ -40,7 +40,7 @@ def in_order_of(known, roots):
 
 
 def followed(roots_at, start, a, b):
-    """The roots at b in the order of those at a; in halves, until they move little compared with their gap."""
+    """The roots at b in the order of those at a. Intervals are halved until roots move little compared with their distance."""
     middle = in_order_of(start, roots_at(0.5 * (a + b)))
     end = in_order_of(middle, roots_at(b))
     moved = max(np.max(np.abs(middle - start)), np.max(np.abs(end - middle)))

@@ -1,4 +1,4 @@
-"""Every kind of file opens in other people's software: xarray, h5py, and netCDF's own ncdump."""
+"""Every kind of file can be opened with xarray, h5py, and ncdump of netCDF."""
 
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""Loci files compared bit for bit."""
+"""Compares loci files bit for bit."""
 
 import h5py
 import numpy as np

@@ -1,4 +1,4 @@
-"""The loci file of the rotating mass, opened by other people's software: h5py, and xarray without extra code."""
+"""The loci file of the rotating mass, read with h5py, and with xarray without additional code."""
 
 import pathlib
 import shutil
@@ -223,7 +223,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(data["stable_mode"][0, 1], 1)
 
     def test_series_leads_to_the_next_point(self):
-        """The remainder is of the first order that is left out, far below the linear term."""
+        """The truncation error of the series is far below their linear term."""
         series = self.data["dense_output"][:, :, 0]
         step = self.data["step_length"][:, np.newaxis]
         predicted = sum(series[..., k] * step**k for k in range(series.shape[-1]))

@@ -1,4 +1,4 @@
-"""`eigentrail map`: the file that others open, what is said, and bad input."""
+"""`eigentrail map`: its file as other software reads it, its output, and bad input."""
 
 import unittest
 
@@ -61,7 +61,7 @@ def circle_unstable(q, p):
 
 class Map(CommandTest):
     def map(self, scene, *options, output="map.h5", grid="9x31"):
-        """Maps a scene given as text; returns what is said."""
+        """Maps a scene given as text; returns the printed output."""
         self.write("scene.toml", scene)
         return self.run_well("map", "scene.toml", "--grid", grid, "-o", output, *options)
 

@@ -142,7 +142,7 @@ def edited(scene, old, new):
 
 
 def each_case(cases):
-    """Gives a class one test per case, so that each is reported by its name."""
+    """Adds one test per case to a class, so that each is reported by its name."""
     def add(test_class):
         for name, *details in cases:
             method = "test_" + re.sub(r"\W+", "_", name)
@@ -158,7 +158,7 @@ def datasets(file):
 
 
 class ProgramTest(unittest.TestCase):
-    """Each test runs in an empty folder, so that names in messages are short and leftovers show."""
+    """Each test runs in an empty folder, so that names in messages are short and remaining files are detected."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="eigentrail-"))
@@ -172,7 +172,7 @@ class ProgramTest(unittest.TestCase):
             self.fail(f"{' '.join(map(str, arguments))}: hangs")
 
     def run_well(self, *arguments):
-        """Standard output of a run that must succeed without a word on stderr."""
+        """Standard output of a run that must succeed and print nothing on stderr."""
         run = self.run_program(*arguments)
         self.assertEqual((run.returncode, run.stderr), (EXIT_DONE, ""), run.args)
         return run.stdout

@@ -1,4 +1,4 @@
-"""Traces that are interrupted, killed, or left without room on the disk, and go on."""
+"""Resuming traces that were interrupted, killed, or stopped by a full disk."""
 
 import os
 import resource
@@ -27,7 +27,7 @@ class Interrupted(ProgramTest):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **settings)
 
     def wait_for(self, name):
-        """Until the running trace has published something."""
+        """Waits until the running trace has saved its file for the first time."""
         end = time.monotonic() + 20
         while not (self.folder / name).exists():
             self.assertLess(time.monotonic(), end, "nothing is published")
@@ -106,7 +106,7 @@ class Interrupted(ProgramTest):
         self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
 
     def test_disk_that_fills_up_keeps_what_was_saved(self):
-        """A limit on the size of files stands for the disk: the system refuses to write beyond it."""
+        """A limit on the size of files simulates a full disk: the system refuses to write beyond it."""
         size = (self.whole()).stat().st_size
 
         def limit():

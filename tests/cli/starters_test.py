@@ -1,4 +1,4 @@
-"""`eigentrail new` writes scenes that work; `eigentrail reference` says what a scene may have."""
+"""`eigentrail new` writes valid scenes; `eigentrail reference` lists the tables and keys of scenes."""
 
 import itertools
 import re
@@ -48,7 +48,7 @@ class New(ProgramTest):
 
 class Reference(ProgramTest):
     def tables(self):
-        """Keys of every table, in print."""
+        """The keys of every table, as printed."""
         tables = {}
         for line in self.run_well("reference").splitlines():
             if heading := re.match(r"\[+(\w+)\]+  \S", line):
@@ -58,7 +58,7 @@ class Reference(ProgramTest):
         return tables
 
     def test_tables_and_keys_are_those_the_reader_knows(self):
-        """The reader, given a key that nothing resembles, lists what it knows; `name` may stand everywhere."""
+        """For a key unlike all others, the error message lists the known keys. `name` is allowed in every table."""
         tables = self.tables()
         self.assertGreater(len(tables), 30)
         scene = "[parameters]\nq = 1\n[trace]\nparameter = \"q\"\nfrom = 1\nto = 2\n"

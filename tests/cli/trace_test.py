@@ -1,4 +1,4 @@
-"""The contract of `eigentrail trace`: its options, its summary, its file, and traces that end early."""
+"""`eigentrail trace`: its options, its summary, its file, and traces that end early."""
 
 import csv
 import io
@@ -197,7 +197,7 @@ class TraceThatEndsEarly(CommandTest):
             self.assertAlmostEqual(float(row["imag"]), expected, places=7)
 
     def test_at_a_pitchfork_another_branch_can_be_taken(self):
-        """On from the pitchfork straight down, where s^2 = -(m g / l - k) / m; the run says what there was to choose."""
+        """From the pitchfork on the straight path, s^2 = -(m g / l - k) / m. The output lists the paths to choose from."""
         run = self.run_program("trace", SCENES / "spring_pendulum.toml", "-o", "loci.h5", "--to", "10", "--branch", "2")
         self.assertEqual(run.returncode, 0, run.stderr)
         for text in ("branch 1 is straight on", "branch 2 leaves it (k falls)", "branch 3", "the trace took 2"):

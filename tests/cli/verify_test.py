@@ -1,4 +1,4 @@
-"""verify: an honest file passes, and every kind of wrong file fails with exit code 1."""
+"""verify: a correct file passes, and every kind of wrong file fails with exit code 1."""
 
 import unittest
 
@@ -43,7 +43,8 @@ class Verify(ProgramTest):
         self.assert_passes(CROSSING)
 
     def test_a_path_that_turns_back_passes(self):
-        """Long steps round the fold at p = 1: the equilibrium nearest in p may be that of the way back."""
+        """Long steps around the fold at p = 1, where Newton's method at constant p could find the equilibrium of the
+        path behind the fold."""
         self.assert_passes(PUSHED_PENDULUM)
 
     def assert_fails(self):

@@ -1,4 +1,4 @@
-"""Code blocks of a Markdown document, with what the comments before them say about testing them.
+"""Code blocks of a Markdown document, with the instructions for testing them in the comments before them.
 
 A comment `<!-- test: ... -->` before a block says
 

@@ -1,4 +1,4 @@
-"""The tests of the documents tell what they should: which lines count as printed, and what a document may not hide."""
+"""Tests of the tests of documents: which lines count as printed, and what a document must not omit."""
 import unittest
 
 from blocks import blocks, commands

@@ -20,7 +20,7 @@ class Mistake(Exception):
 
 
 def prepare(folder):
-    """What a reader has at hand: the scenes, the documents, and the program as built or on the path."""
+    """The files and programs that a reader has: scenes, documents, and the program as built or on the path."""
     for name in ("data", "docs"):
         (folder / name).symlink_to(ROOT / name)
     for place in (folder / "build" / "release" / "apps", folder / "bin"):
@@ -41,7 +41,7 @@ def full_scene(block):
 
 
 class Reader:
-    """Follows a document in a folder of its own."""
+    """Runs the blocks of a document in a folder of its own."""
 
     def __init__(self, folder):
         self.folder, self.last_output = folder, None
@@ -117,7 +117,7 @@ class Reader:
 
 
 def read_document(path, folder):
-    """Prints what became of every block; returns the number of mistakes."""
+    """Prints the result for every block; returns the number of errors."""
     prepare(folder)
     reader, mistakes = Reader(folder), 0
     for block in blocks(path.read_text(encoding="utf-8")):

@@ -1,4 +1,4 @@
-"""Links between the documents hold on a code host too: files are there, and headings that links name."""
+"""Links between the documents also work on a code host: the files and the headings that they name exist."""
 import pathlib
 import re
 import unittest

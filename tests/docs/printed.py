@@ -1,4 +1,4 @@
-"""Whether a document shows what a command prints: its lines in order, others may lie between; numbers to the digits shown."""
+"""Whether a command prints the lines of a document, in order but possibly with others between; numbers to the digits shown."""
 import re
 
 NUMBER = r"[-−+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
@@ -11,7 +11,7 @@ DIGITS, ZERO = 1e-9, 1e-12
 
 
 def parts(line):
-    """Words and numbers of a line by turns."""
+    """The words and numbers of a line, alternating."""
     line = "time" if line.split()[:1] == ["time"] else TIME.sub("some time", line)
     pieces = PART.split(line)
     return [" ".join(words.split()) for words in pieces[::2]], pieces[1::2]

@@ -10,14 +10,14 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double allowed_displacement = 0.2;  // of the distance to the next eigenvalue
-constexpr double shortest_step = 1e-13;       // of the range
-constexpr double end_margin = 1e-11;          // of the range, before a coincidence
-constexpr double shortest_stretch = 1e-9;     // of the range
+constexpr double allowed_displacement = 0.2;  // relative to the distance to the next eigenvalue
+// Relative to the range:
+constexpr double shortest_step = 1e-13;
+constexpr double end_margin = 1e-11;  // labels end at this distance before a coincidence
+constexpr double shortest_stretch = 1e-9;
 constexpr int max_depth = 50;
 
-/// Distance from s to the next eigenvalue that is another one. Equal ones are the members of a permanent
-/// multiplet.
+/// Distance from s to the nearest eigenvalue that differs from it. Equal ones coincide at all parameters.
 double gap(Complex s, const std::vector<Complex>& spectrum) {
   double nearest = INFINITY;
   for (const Complex other : spectrum) {
@@ -27,7 +27,7 @@ double gap(Complex s, const std::vector<Complex>& spectrum) {
   return nearest;
 }
 
-/// The modes of `there` in the order of the labels `here`, or nothing when the match is in doubt.
+/// The modes of `there` in the order of the labels `here`; empty if the match is doubtful.
 std::optional<std::vector<Complex>> match(const std::vector<Complex>& here,
                                           const std::vector<Complex>& all_here,
                                           const std::vector<Complex>& all_there) {
@@ -45,7 +45,7 @@ std::optional<std::vector<Complex>> match(const std::vector<Complex>& here,
   return labelled;
 }
 
-/// With its conjugates: the members of a stretch are complete pairs and real roots.
+/// The modes with their conjugates, so that pairs are complete.
 std::vector<Complex> with_conjugates(const std::vector<Complex>& modes) {
   std::vector<Complex> all = modes;
   for (const Complex s : modes) {

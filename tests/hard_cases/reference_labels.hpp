@@ -1,4 +1,4 @@
-// Which mode is which, without any eigenvector: a fine tracker over the catalogue's spectra.
+// Reference labels of modes: the spectra of the catalogue are followed in fine steps, without eigenvectors.
 //
 // Spectra at two parameters are matched by the nearest eigenvalue. A match counts only when every
 // displacement is below a fifth of the distance to the next other eigenvalue, at both ends; otherwise the

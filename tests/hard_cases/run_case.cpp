@@ -42,7 +42,8 @@ LabelCount compare_labels(const CaseReference& reference, const RecordedTrace& t
   return count;
 }
 
-/// A model with another starting guess: the equilibrium at the end of a trace, to begin the way back from.
+/// A model with another starting guess: the equilibrium at the end of a trace, where the reverse trace
+/// starts.
 class StartingElsewhere : public Model {
  public:
   StartingElsewhere(const Model& model, Vector guess)
@@ -63,8 +64,8 @@ class StartingElsewhere : public Model {
   Vector guess_;
 };
 
-/// The trace from the other end. Where the path has an equilibrium to be found, that of the end is taken from
-/// a trace there; a path that ran back to where it began is travelled again from its own end.
+/// The trace from the other end. If the equilibrium must be computed, a trace to that end gives the starting
+/// value. If the path returns to the parameter value at which it begins, its own end is the start.
 RecordedTrace trace_back(const Setting& scene) {
   const RecordedTrace there = record_trace(scene);
   Setting back = make_setting(scene.scene.text, {});

@@ -12,8 +12,8 @@ namespace eigentrail::test {
 
 struct RunSetting {
   double tolerance = 1e-6;
-  bool reversed = false;    ///< from the other end of the range
-  double first_step = 0.0;  ///< share of the range; 0: chosen by the program
+  bool reversed = false;    ///< traced from the other end of the range
+  double first_step = 0.0;  ///< relative to the range; 0: chosen by the program
   int order = 3;
   Thresholds thresholds = {};
 };
@@ -23,15 +23,15 @@ struct CaseReport {
   std::string message;
   int nodes = 0;
   double lu_per_mode_step = 0.0;
-  double worst_error = 0.0;  ///< over the tolerance, in the smooth functions of blocks
-  double worst_at = 0.0;     ///< parameter
+  double worst_error = 0.0;  ///< largest error of the functions of blocks divided by the tolerance
+  double worst_at = 0.0;     ///< parameter value of that error
   int expected_events = 0;
   int found_events = 0;
   std::vector<std::string> missing, invented;
   int most_retrackings = 0;        ///< points computed to locate one event; veerings aside
-  double uncertified_share = 0.0;  ///< of modes times steps
-  int labels = 0;                  ///< certified labels compared
-  int wrong_labels = 0;            ///< of them, on another mode
+  double uncertified_share = 0.0;  ///< share of all pairs of mode and step that are not certified
+  int labels = 0;                  ///< number of certified labels that were compared
+  int wrong_labels = 0;            ///< number of these that are on another mode
 
   bool passed() const {
     return completed && worst_error <= 4.0 && missing.empty() && invented.empty() && wrong_labels == 0 &&
@@ -47,7 +47,7 @@ struct CaseReference {
 };
 CaseReference make_reference(const HardCase& hard_case, int random_samples);
 
-/// The trace of a case, from its other end where the setting says so.
+/// The trace of a case, from the other end if the setting is `reversed`.
 RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting);
 
 CaseReport run_case(const CaseReference& reference, const RunSetting& setting);

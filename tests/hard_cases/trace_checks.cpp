@@ -17,9 +17,9 @@ namespace {
 /// Veerings are events up to this share of the range.
 constexpr double widest_veering = 0.01;
 
-/// Beside a fold eigenvalues vary like the root of the distance. Numbers of the scene and residuals are
-/// rounded, which moves the fold by this, in units of the range or the parameter; nothing in double precision
-/// tells eigenvalues at p from those at p +- this.
+/// Close to a fold eigenvalues vary like the square root of the distance. Rounding of the scene's numbers and
+/// of residuals moves the fold by this, relative to the range or the parameter. In double precision
+/// eigenvalues at p cannot be distinguished from those at p +- this.
 constexpr double fold_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double beside_fold = 1e-5;  ///< of the range: where that matters at the tolerances tried
 
@@ -123,8 +123,8 @@ Complex upper(Complex s) {
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
 
-/// The mode of `labelled` nearest to s, if it is clearly nearer than any other. Where modes coincide to
-/// rounding nobody tells them apart.
+/// The mode of `labelled` nearest to s, if it is clearly nearer than any other. Modes that coincide within
+/// rounding cannot be distinguished.
 int clear_label(Complex s, const std::vector<LabelledMode>& labelled) {
   int best = -1;
   double nearest = INFINITY;
@@ -224,7 +224,7 @@ Accuracy measure_accuracy(const std::vector<Sample>& samples, const RecordedTrac
         const PathStep& step = trace.steps[place.step];
         best = std::min(best, error_at(step, place.t, sample, branch, trace.result.s_ref, s_max));
       }
-      // Behind a fold there is nothing to compare with.
+      // Beyond a fold there is no reference to compare with.
       if (!std::isfinite(best) || best / tolerance <= accuracy.worst_error) continue;
       accuracy = {best / tolerance, sample.p};
     }

@@ -1,4 +1,4 @@
-// Comparisons of a recorded trace with what is known about its spectrum: values, special points, labels.
+// Compares a recorded trace with reference data of its case: eigenvalues, special points, labels.
 #pragma once
 
 #include <functional>
@@ -29,8 +29,8 @@ Sample sample_at(const HardCase& hard_case, double p);
 std::vector<double> sample_parameters(const HardCase& hard_case, int random_samples);
 
 struct Accuracy {
-  double worst_error = 0.0;  ///< over the tolerance, in the smooth functions of blocks
-  double worst_at = 0.0;     ///< parameter
+  double worst_error = 0.0;  ///< largest error of the functions of blocks divided by the tolerance
+  double worst_at = 0.0;     ///< parameter value of that error
 };
 /// Dense output against the samples, block by block: tau and the power means of the distances from it,
 /// relative to the size of the block's eigenvalues.

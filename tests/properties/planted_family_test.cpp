@@ -239,8 +239,8 @@ TEST(RunFamily, NoticesAValueThatIsOff) {
 }
 
 TEST(RunFamily, NoticesLabelsThatAreExchanged) {
-  // With the coupling of a veering of half-width 1e-9 each mode keeps its side: to someone who takes it for a
-  // crossing the labels are wrong.
+  // With a coupling that makes it a veering of half-width 1e-9, each mode keeps its side. If the veering is
+  // taken for a crossing, the labels are wrong.
   PlantedFamily family = one_crossing();
   PlantedFamily veering = family;
   veering.blocks = {{"veering", 2, family.blocks[0].damping, {}, {}}};

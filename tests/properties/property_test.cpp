@@ -20,8 +20,8 @@ TEST_P(PlantedFamilyTrace, HasExactValuesEventsAndLabels) {
 INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
-/// Two crossings of one pair so close to each other that the second was passed unnoticed, and labels behind
-/// it were swapped.
+/// Regression test: two crossings of one pair are so close that the second one was missed, and labels behind
+/// it were exchanged.
 INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263, 637, 659),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 

@@ -12,7 +12,8 @@ namespace {
 constexpr int random_samples = 40;
 constexpr double allowed_error = 4.0;  ///< tolerances, as for the hard cases
 
-/// A grid, and the middle between every two special points: labels are clear there if anywhere.
+/// Parameters at which labels are compared: a grid, and the middle between neighbouring special points, where
+/// modes are distinguished best.
 std::vector<double> label_parameters(const HardCase& hard_case) {
   const auto [low, high] = std::minmax(hard_case.from, hard_case.to);
   constexpr int n = 199;
@@ -56,7 +57,7 @@ bool belongs_to(const std::vector<LabelledMode>& modes, const std::vector<int>& 
   return !(own > 10.0 * other);
 }
 
-/// Events found whose modes are not those that meet there.
+/// The events that name other modes than those that meet there.
 std::vector<std::string> wrong_modes(const PlantedFamily& family, const RecordedTrace& trace,
                                      const EventComparison& events) {
   std::vector<std::string> wrong;
@@ -68,7 +69,8 @@ std::vector<std::string> wrong_modes(const PlantedFamily& family, const Recorded
     const bool right = std::all_of(event.modes.begin(), event.modes.end(), [&](int mode) {
       return values.empty() || belongs_to(modes, family.meeting[i], values.front()[mode]);
     });
-    // A pair is one mode: two meet unless it is alone in crossing an axis or meets its own conjugate.
+    // A pair is one mode. Two modes take part unless one pair crosses the imaginary axis or meets its
+    // conjugate.
     const std::string& kind = family.special[i].kind;
     const bool alone = kind == "flutter" || kind == "divergence";
     const bool own_conjugate = kind == "collision" && family.special[i].s.imag() == 0.0;

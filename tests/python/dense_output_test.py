@@ -1,4 +1,4 @@
-"""The reader's dense output is that of `eigentrail eval`, on every scene and where modes are hard to tell apart."""
+"""The reader's dense output equals that of `eigentrail eval`, on every scene and where modes are hard to distinguish."""
 
 import csv
 import io

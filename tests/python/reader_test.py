@@ -1,4 +1,4 @@
-"""What a user of the reader meets: opening, selecting, tables, curves, and what is said when something is wrong."""
+"""The functions of the reader: opening, selecting, tables, curves, and error messages."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-// Tangent basis, its series and the projection with sparse matrices, against the dense route.
+// Tangent basis, its series and the projection with sparse matrices, compared with dense matrices.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -72,7 +72,7 @@ class BadKey(BadScene):
 
 
 class GoodScene(ProgramTest):
-    """What the bad ones are made from."""
+    """The good inputs from which the bad ones are made."""
 
     def test_it_is_good(self):
         for scene in (BLADE, FAMILY, MACHINE, *keys.GOOD):
@@ -104,7 +104,7 @@ class WithFiles(ProgramTest):
         return path
 
     def contents(self):
-        """Every path below the folder with what changes when somebody writes to it."""
+        """Every path below the folder, with data that change if the file is written to."""
         status = {path: path.lstat() for path in self.folder.rglob("*")}
         return {path: (s.st_ino, s.st_size, s.st_mtime_ns, s.st_mode) for path, s in status.items()}
 
@@ -141,7 +141,7 @@ class BadUsage(WithFiles):
 
 
 def print_counts():
-    """How many rows there are, of each table."""
+    """The number of rows of each table."""
     by_hand = collections.Counter({"scenes": sum(len(module.SCENES) for module in (texts, values, bodies, matrices)),
                                    "files": len(files.ROWS), "command lines": len(usage.ROWS)})
     made = {"from the reference": len(keys.SCENES), "from the datasets of files": len(files.EACH_DATASET)}

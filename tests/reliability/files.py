@@ -1,4 +1,4 @@
-"""Files of results that are damaged, or that are others than what a command takes."""
+"""Result files that are damaged, or of another kind than a command reads."""
 
 import functools
 import os
@@ -70,7 +70,7 @@ ALL = [*READERS, report]
 # Damage: functions of the path.
 
 def cut(size):
-    """The first bytes only; a share of them where `size` is below one."""
+    """Truncates the file to its first `size` bytes, or to this fraction of it if `size` is below one."""
     def damage(path):
         whole = path.read_bytes()
         path.write_bytes(whole[:int(size * len(whole)) if 0 < size < 1 else size])
@@ -164,12 +164,12 @@ def loci(name, damage, *fragments, commands=tuple(ALL)):
 
 
 def inside_loci(name, damage, *fragments):
-    """What all commands read alike: two of them stand for all."""
+    """A fault in data that all commands read in the same way; only two of them are tested."""
     return loci(name, damage, *fragments, commands=[evaluate, report])
 
 
 def reported(name, file, damage, *fragments):
-    """A fault that only the report can meet."""
+    """A fault in data that only the report reads."""
     return name, file, damage, [report], fragments
 
 

@@ -1,5 +1,5 @@
-"""Rows made from what `eigentrail reference` says: every table with each required key missing, each key of a wrong kind, and
-a key that it has not."""
+"""Rows made from the output of `eigentrail reference`: every table with each required key missing, with each key of a wrong
+kind, and with an unknown key."""
 
 import functools
 import re
@@ -71,7 +71,7 @@ def scene(heading, lines, mark_heading=False):
 
 
 def label(heading):
-    """As messages call the table: lists are numbered."""
+    """The name of the table in messages: tables of a list are numbered."""
     return f"{heading} {BASE.count(heading) + 1}" if heading.startswith("[[") else heading
 
 

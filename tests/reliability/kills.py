@@ -111,7 +111,7 @@ def kill_once(trace, chance, counts):
 
 
 class SmallDisk:
-    """A file system of a given size where one can be mounted; else a limit on the size of files."""
+    """A file system of a given size if one can be mounted; otherwise a limit on the size of files."""
 
     def __init__(self, trace, size):
         self.trace, self.limit = trace, size

@@ -1,4 +1,4 @@
-"""Families of matrices that are wrong, in the scene and in HDF5."""
+"""Matrix families with faults, in the scene and in HDF5 files."""
 
 import h5py
 import numpy as np
@@ -45,14 +45,14 @@ def linked(link):
 
 
 def in_raw_file(path):
-    """Writes a good file whose /K/0 lies as bytes in another one."""
+    """Writes a good file whose /K/0 is stored as raw bytes in another file (external storage)."""
     matrix_file(K_0=None)(path)
     with h5py.File(path, "r+") as file:
         file.create_dataset("K/0", (2, 2), "f8", external=[("scene.toml", 0, 32)])
 
 
 def virtual(path):
-    """Writes a good file whose /K/0 is put together from another file."""
+    """Writes a good file whose /K/0 is composed of data in another file (virtual dataset)."""
     matrix_file(K_0=None)(path)
     layout = h5py.VirtualLayout((2, 2), "f8")
     layout[:] = h5py.VirtualSource("good.h5", "K/0", (2, 2))
@@ -127,7 +127,7 @@ FILES = {
 
 
 def write_files(folder, scene):
-    """Those that the scene names."""
+    """The matrix files that the scenes name."""
     for name, write in FILES.items():
         if f'"{name}"' in scene:
             write(folder / name)
@@ -139,12 +139,12 @@ def in_file(name, file, *fragments):
 
 
 def unfit(name, file, *fragments):
-    """Matrices in a file that are none of a family: the place is that of the family."""
+    """A file whose matrices are no family: the message must point to the table of the family."""
     return family(name, "[matrix_family]\n" + MATRICES, f'§[matrix_family]\nfile = "{file}"', "[matrix_family]", *fragments)
 
 
 def unreadable(name, file, *fragments):
-    """The same, the message having the name of the file."""
+    """The same, with the name of the file in the message."""
     return in_file(name, file, file, *fragments)
 
 MODELS = [
@@ -180,7 +180,7 @@ MATRIX_FILES = [
 
 
 def in_family(name, old, new, *fragments):
-    """The place is the key in front of which "§" stands."""
+    """The message must point to the key behind "§"."""
     return family(name, old, new, "[matrix_family]", *fragments)
 
 

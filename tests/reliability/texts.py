@@ -1,4 +1,4 @@
-"""Scenes whose tables and keys are wrong: TOML, names, kinds of values, what is missing."""
+"""Scenes with faults in tables and keys: TOML syntax, names, kinds of values, missing keys."""
 
 from good import BLADE, blade, blade_with, family
 from program import PLACE

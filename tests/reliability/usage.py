@@ -27,7 +27,7 @@ def link(name, to):
 
 
 def rewrite(path, text):
-    """The files are links, which others share."""
+    """Replaces a file by a new one. The old one is a link that other tests share."""
     path.unlink()
     path.write_text(text)
 
@@ -37,7 +37,7 @@ def edit(name, old, new):
 
 
 def as_anybody(prepare):
-    """Permissions bind everybody but root."""
+    """Skips the test for root, whom permissions do not restrict."""
     def unless_root(folder):
         if os.geteuid() == 0:
             raise unittest.SkipTest("permissions do not bind root")
@@ -72,7 +72,7 @@ def by_parser(command, name, flag, value, *fragments):
 
 
 def outputs(command, kind):
-    """What can be wrong with an output, for a command without its output."""
+    """Faults of an output file, for a command line without its output option."""
     others = {"loci.h5", "map.h5", "boundary.h5", "study.h5", "page.html", "scene.toml"}
     own = {"trace": "loci.h5", "map": "map.h5", "boundary": "boundary.h5", "accuracy": "study.h5",
            "report": "page.html"}[command[0]]

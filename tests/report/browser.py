@@ -29,7 +29,7 @@ def resize(driver, size):
 
 
 def show(driver, path, size=DESKTOP):
-    """Opens a page and waits until all figures are drawn; messages of pages before are forgotten."""
+    """Opens a page and waits until all figures are drawn. Console messages of earlier pages are discarded."""
     with contextlib.suppress(Exception):
         driver.get_log("browser")
     resize(driver, size)

@@ -1,4 +1,4 @@
-"""`eigentrail report` as a command: what it writes, what it refuses, and that nothing in a file becomes markup."""
+"""The command `eigentrail report`: its output, its errors, and that texts of a file do not become markup."""
 
 import re
 import unittest

@@ -1,4 +1,4 @@
-"""The data in a report: they agree with `eval`, say what is not certified, and stay small."""
+"""The data in a report: they agree with `eval`, contain the steps that are not certified, and are limited in size."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""The report in a real browser: it draws what `eval` says, and does what a hand on mouse or keyboard asks for."""
+"""The report in a real browser: it draws the eigenvalues of `eval` and reacts to mouse and keyboard."""
 
 import os
 import pathlib

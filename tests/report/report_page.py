@@ -1,4 +1,4 @@
-"""What a report page holds, read without a browser."""
+"""Reads the data of a report page without a browser."""
 
 import base64
 import json

@@ -1,4 +1,4 @@
-"""Every scene of the library pays only for what it names, and less for every effect that is left out."""
+"""A scene evaluates only the effects that it names, and less if an effect is left out."""
 import re
 import unittest
 

@@ -1,4 +1,4 @@
-"""Beck's column as a chain of rigid links: the spectrum of the chain, and its convergence to the column."""
+"""Beck's column as a chain of rigid links: the spectrum of the chain, and its convergence to that of the column."""
 
 import math
 import unittest
@@ -83,7 +83,7 @@ class BeckColumn(RotorTest):
             self.assert_same_spectrum(s, expected, message=f"load {load}")
 
     def flutter_load(self, n):
-        """Two frequencies meet; the pair that grows and the one that decays come from there."""
+        """At the flutter load two frequencies meet and become a growing and a decaying pair."""
         file = self.trace_text(self.links(n), "--modes", "3", "--from", "15", "--to", "24", tolerance=1e-8)
         return min(load for load, s in self.special_points(file, "collision"))
 

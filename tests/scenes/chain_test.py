@@ -58,7 +58,7 @@ class Chains(SceneTest):
         self.assertLess(found[0], 1e-4)
 
     def test_second_order(self):
-        """The error falls to a quarter when the links are halved, the more exactly the shorter they are."""
+        """If the links are half as long, the error is a quarter; this holds more exactly for shorter links."""
         errors = chain.converging(PROGRAM, NUMBERS)
         self.assertEqual(len(errors), 7)
         for name, values in errors.items():
@@ -69,7 +69,7 @@ class Chains(SceneTest):
                 self.assertLess(abs(orders[1] - 2.0), abs(orders[0] - 2.0) + 1e-3)
 
     def test_extrapolated_to_the_continuum(self):
-        """Richardson from 10 and 20 links is ten times nearer than 20 links are."""
+        """Richardson extrapolation from 10 and 20 links has at most a tenth of the error of 20 links."""
         for name, (_, coarse, fine) in chain.converging(PROGRAM, NUMBERS).items():
             with self.subTest(name):
                 self.assertLess(abs(fine - (coarse - fine) / 3.0), 0.2 * fine)

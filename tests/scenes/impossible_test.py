@@ -1,4 +1,4 @@
-"""Mechanisms that cannot be: the message names the constraint or the freedom, and no file is left."""
+"""Mechanisms that cannot be assembled or solved: the message names the constraint or the freedom, and no file is left."""
 import unittest
 
 from program import ProgramTest

@@ -1,5 +1,5 @@
-"""`explain --sensitivity` on the scenes: what each effect does to a mode where the trace begins, the equilibrium and the
-constraint forces following, against differences of the closed forms."""
+"""`explain --sensitivity` on the scenes: the influence of each effect on a mode at the start of the trace, with the change of
+the equilibrium and the constraint forces, compared with differences of closed forms."""
 
 import cmath
 import math

@@ -1,4 +1,4 @@
-"""What the tests of rotor scenes share: the scene with other parameters, and its spectra beside those of other models."""
+"""Shared by the tests of rotor scenes: the scene with other parameters, and comparison with the spectra of other models."""
 
 import re
 import tomllib

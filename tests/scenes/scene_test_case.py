@@ -1,5 +1,5 @@
-"""What the tests of the scenes share: a scene of the library traced tightly, its numbers at nodes and between them,
-its special points, and which effects were simulated."""
+"""Shared by the tests of the scenes: tracing a scene of data/scenes with a tight tolerance, its eigenvalues at and between
+nodes, its special points, and the effects that were simulated."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""The scene of the benchmarks, 40 bodies: blades on a hub that is held do not know of each other."""
+"""The scene of the benchmarks with 40 bodies: the hub is held, so the blades are independent of each other."""
 
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-// The sparse route of KktFactorization against the null-space one.
+// The sparse method of KktFactorization compared with the null-space method.
 #include "steady/sparse_kkt.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(SparseKkt, AgreesWithTheNullSpaceRoute) {
 }
 
 TEST(SparseKkt, ReciprocalConditionFallsLikeTheLeastTangentStiffness) {
-  // K - mu I loses its regularity on the null space where mu is an eigenvalue of Q2^T K Q2.
+  // If mu is an eigenvalue of Q2^T K Q2, K - mu I is singular on the null space of the constraints.
   System system;
   system.K = (0.5 * (system.K + system.K.transpose())).eval();
   const Matrix Q2 = ConstraintFactorization(system.A).null_basis();

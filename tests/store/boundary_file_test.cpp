@@ -45,7 +45,7 @@ Found find_in(const std::string& scene) {
   return all;
 }
 
-/// Two curves that cross.
+/// Two curves that intersect.
 Found two_lines() {
   return find_in(freedoms({{"Q / 2 - P", "1"}, {"0.3 - Q - P", "4"}}));
 }

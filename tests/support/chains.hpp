@@ -1,5 +1,5 @@
-// Rotating chains of point masses, of any size, and models that answer with the other
-// kind of matrices.
+// Rotating chains of point masses, of any size, and models that convert the matrices of another model from
+// sparse to dense or the reverse.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace eigentrail::test {
 /// outwards; forces and drag on their tips bend them. Three freedoms for every three points.
 std::string rotating_chains(int points);
 
-/// A model whose linearizations are dense, or sparse, whatever those of the model that it repeats are.
+/// A model that returns the linearizations of another model as dense or as sparse matrices.
 class OtherKind final : public Model {
  public:
   enum class Kind { dense, sparse };

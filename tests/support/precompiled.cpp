@@ -1,1 +1,1 @@
-// Nothing: CMake wants a file to precompile a header for.
+// Empty: CMake needs a source file for which the header is precompiled.

@@ -1,4 +1,4 @@
-// What most tests include, parsed once. No file depends on it.
+// The headers that most tests include, precompiled. No file needs this header to compile.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -109,7 +109,7 @@ SavedRun run_and_save(const Model& model, const TraceOptions& options) {
   SavedRun run;
   TraceObserver observer = recording(run.bits);
   observer.checkpoint = [&run](const Checkpoint& checkpoint) {
-    // The loop comes back without a new point where a step is tried again.
+    // If a step is rejected, there are several checkpoints without a new point between them.
     run.states.resize(run.bits.points.size());
     run.states.back() = checkpoint.save();
     return true;

@@ -1,4 +1,4 @@
-// Leaving a trace and going on with it, compared bit for bit with one that was never left.
+// Interrupts and resumes traces, and compares them bit for bit with uninterrupted ones.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace eigentrail::test {
 
-/// All numbers of a trace as text that tells every bit: a line per point, and the result without times.
+/// All numbers of a trace as text that represents every bit: a line per point, and the result without times.
 struct TraceBits {
   std::vector<std::string> points;
   std::string result;
@@ -23,11 +23,11 @@ struct SavedRun {
 
 SavedRun run_and_save(const Model& model, const TraceOptions& options);
 
-/// What a trace that goes on from a state adds: the points after it, and the result.
+/// The part of a trace that is resumed from a state: the points after it, and the result.
 TraceBits run_from(const Model& model, const TraceOptions& options, const std::string& state);
 
-/// Compares the traces that go on from at most `most` states, spread over the whole, with the whole; returns
-/// the first difference in words, or nothing.
+/// Compares the traces that are resumed from at most `most` states, spread over the whole trace, with the
+/// whole. Returns the first difference in words; empty if there is none.
 std::string first_resumed_difference(const Model& model, const TraceOptions& options, std::size_t most);
 
 }  // namespace eigentrail::test

@@ -21,7 +21,7 @@ struct Setting : TraceSetup {
 Setting make_setting(const std::string& text, const OptionTexts& overrides = {});
 
 /// Builds from data/scenes/<name>.toml after replacing texts in it: pairs of (what, with what). Every "what"
-/// must occur, or std::invalid_argument is thrown: a stale replacement may not pass unnoticed.
+/// must occur; otherwise std::invalid_argument is thrown, so that outdated replacements are detected.
 Setting scene_setting(const std::string& name, const OptionTexts& overrides = {},
                       const std::vector<std::pair<std::string, std::string>>& replacements = {});
 
@@ -29,7 +29,7 @@ Setting scene_setting(const std::string& name, const OptionTexts& overrides = {}
 /// p = 1 where it stands level. x = length p, z = -length cos(angle), s^2 = -g cos(angle) / length.
 struct PushedPendulum {
   double mass = 1.0, length = 1.0;
-  double unit = 1.0;  ///< what p is counted in
+  double unit = 1.0;  ///< unit of p
   double from = 0.0, to = 1.2;
   double guess = 0.0;  ///< x of the guess, whose z is -length
 };

@@ -24,7 +24,7 @@ struct LociEvent {
   double value = 0.0;
   ComplexVector shape;        ///< per coordinate
   ComplexVector sensitivity;  ///< ds/dq per parameter q of the scene; NaN where not defined
-  Vector shift;               ///< dp*/dq of the event's parameter p*, per parameter; NaN where not defined
+  Vector shift;  ///< derivative of the event's `parameter` with respect to q; NaN where not defined
 };
 
 /// Contents of a loci file without eigenvalue derivatives and mode shapes.
