@@ -1,0 +1,217 @@
+// The coordinate along the path: p or the distance across a plane, how far the path goes on in it, and the
+// change from one to the other near a fold in closed form.
+#include "continuation/path/path_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "continuation/planted_search.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double rounding = 1e-13;
+
+/// A point on the parabola p = 1 - x^2, in the coordinate p or in x.
+PathNode on_parabola(double x, bool in_p) {
+  PathNode node;
+  node.p = 1.0 - x * x;
+  if (in_p) {
+    node.path.parameters = Matrix{{node.p, 1.0}};
+    const double s = -0.5 / x;  // dx/dp
+    // x(p) = sqrt(1 - p): derivatives of the root.
+    node.path.x = Matrix{{x, s, -0.125 / std::pow(x, 3), -0.0625 / std::pow(x, 5)}};
+  } else {
+    node.path.parameters = Matrix{{node.p, -2.0 * x, -1.0}};
+    node.path.x = Matrix{{x, 1.0}};
+  }
+  node.path.lambda = Matrix::Zero(0, 1);
+  return node;
+}
+
+/// The plane x = constant: its coordinate is x.
+PathFrame across_x(double from = 0.0, double to = 2.0) {
+  PathFrame frame{PathRange{0, from, to}};
+  frame.plane = PathPlane{Vector{{1.0}}, 0.0};
+  frame.largest_position = 1.0;
+  return frame;
+}
+
+TEST(PathFrame, CoordinateIsPOrTheDistanceAcrossThePlane) {
+  PathFrame frame{PathRange{0, 3.0, -1.0}};
+  const PathNode node = on_parabola(0.5, true);
+  EXPECT_EQ(frame.coordinate(node), 0.75);
+  EXPECT_EQ(frame.coordinate_range(), 4.0);
+  EXPECT_EQ(frame.speed(node), 1.0);
+  frame.plane = PathPlane{Vector{{2.0}}, -1.0};
+  EXPECT_NEAR(frame.coordinate(node), 1.0 - 0.75, rounding);
+  EXPECT_EQ(frame.coordinate_range(), 1.0);
+}
+
+TEST(PathFrame, ScalesAreTheLargestPositionAndTheRange) {
+  PathFrame frame{PathRange{0, 3.0, -1.0}};
+  EXPECT_EQ(frame.scales().x, 1.0) << "nothing has moved";
+  EXPECT_EQ(frame.scales().p, 4.0);
+  frame.largest_position = 0.2;
+  EXPECT_EQ(frame.scales().x, 0.2);
+}
+
+/// p = 1 - x^2 turns back at x = 0, which is -x away from every point: the estimate is exact.
+TEST(FoldDistance, IsExactOnAParabola) {
+  const PathFrame frame = across_x();
+  for (const double x : {-0.7, -1e-3, 0.0, 0.3})
+    EXPECT_NEAR(fold_distance(frame, on_parabola(x, false)), -x, rounding) << x;
+}
+
+TEST(Heading, IsTheSlopeOfPAndOnAFoldThatBesideIt) {
+  const PathFrame frame = across_x();
+  EXPECT_EQ(heading(frame, on_parabola(0.3, false), 1.0), -0.6);
+  // On the fold, where the slope is rounding, it is the side asked for that decides.
+  for (const double x : {0.0, 1e-10, -1e-10}) {
+    EXPECT_NEAR(heading(frame, on_parabola(x, false), 0.1), -0.2, rounding);
+    EXPECT_NEAR(heading(frame, on_parabola(x, false), -0.1), 0.2, rounding);
+  }
+}
+
+TEST(Remaining, IsTheWayToTheEndAndToABranchPointAhead) {
+  PathFrame frame{PathRange{0, 0.0, 2.0}};
+  const PathNode node = on_parabola(0.5, true);
+  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
+  frame.bridge = Bridge();
+  frame.branch_point = {1.0, 1.0};
+  EXPECT_NEAR(remaining(frame, node), 0.25, rounding);
+  // Behind, and at the point itself, it does not count.
+  frame.branch_point = {0.5, 0.5};
+  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
+  frame.branch_point = {0.75, 0.75};
+  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
+  // Going down, what is above lies behind.
+  frame.range = {0, 2.0, 0.0};
+  frame.direction = -1.0;
+  frame.branch_point = {1.0, 1.0};
+  EXPECT_NEAR(remaining(frame, node), 0.75, rounding);
+  frame.branch_point = {0.5, 0.5};
+  EXPECT_NEAR(remaining(frame, node), 0.25, rounding);
+  EXPECT_EQ(remaining(across_x(), on_parabola(0.5, false)), std::numeric_limits<double>::max());
+}
+
+TEST(ReachedEnd, IsAtTheEndAndAtTheBeginOnTheWayBack) {
+  PathFrame frame{PathRange{0, 0.0, 0.75}};
+  EXPECT_TRUE(reached_end(frame, on_parabola(0.5, true)));
+  frame.range.to = 0.75 + 1e-12;
+  EXPECT_FALSE(reached_end(frame, on_parabola(0.5, true)));
+  // On planes with p growing until x = 0. The same p lies on both sides of the fold.
+  EXPECT_TRUE(reached_end(across_x(0.0, 0.75), on_parabola(-0.5, false)));
+  EXPECT_FALSE(reached_end(across_x(0.75, 2.0), on_parabola(-0.5, false))) << "where the trace begins";
+  EXPECT_TRUE(reached_end(across_x(0.75, 2.0), on_parabola(0.5, false)));
+  EXPECT_FALSE(reached_end(across_x(0.0, 2.0), on_parabola(0.5, false)));
+}
+
+TEST(PathFrame, KnowsTheBranchPointOnItsBridge) {
+  PathFrame frame{PathRange{0, 0.0, 2.0}};
+  frame.branch_point = {1.0, 1.0};
+  EXPECT_FALSE(frame.on_branch_point(1.0)) << "without a bridge there is none";
+  // x = p^2 as a straight path would not do: the series are those of a parabola.
+  const auto at = [](double p) {
+    return Path{Matrix{{p, 1.0, 0.0}}, Matrix{{p * p, 2.0 * p, 1.0}}, Matrix(0, 3)};
+  };
+  frame.bridge = Bridge(0.8, 1.3, at(0.8), at(1.3), 0, false);
+  EXPECT_TRUE(frame.on_branch_point(1.0 + 1e-12));
+  EXPECT_FALSE(frame.on_branch_point(1.0 + 3e-12));
+  // There the coordinate and p are exact.
+  const Path there = frame.path_on_bridge(1.0 + 1e-12, 2);
+  EXPECT_EQ(there.parameters(0, 0), 1.0);
+  EXPECT_NEAR(there.x(0, 0), 1.0, rounding);
+  const Path beside = frame.path_on_bridge(1.1, 2);
+  EXPECT_NEAR(beside.x(0, 0), 1.21, rounding);
+  EXPECT_NEAR(beside.x(0, 1), 2.2, rounding);
+  PathNode node;
+  node.path = at(1.2);
+  node.p = 1.2;
+  EXPECT_TRUE(frame.on_bridge(node));
+  node.path = at(1.4);
+  node.p = 1.4;
+  EXPECT_FALSE(frame.on_bridge(node));
+}
+
+/// A pendulum with sin(angle) = p: the series in p converge up to the fold at p = 1.
+struct Pendulum {
+  explicit Pendulum(double p)
+      : setting(pushed_pendulum({})),
+        problem(setting.problem()),
+        frame{PathRange{problem.traced, 0.0, 1.2}},
+        node(differentiate_point(problem, point_from_guess(problem, p, counts), counts).value()) {
+    frame.largest_position = 1.0;
+  }
+  Setting setting;
+  PathProblem problem;
+  PathFrame frame;
+  RunCounts counts;
+  PathNode node;
+};
+
+TEST(TurnToPlane, IsDoneBeforeAFoldAndNotFarFromIt) {
+  Pendulum far(0.1);
+  EXPECT_FALSE(turn_to_plane(far.problem, far.frame, far.node, 0.01));
+  EXPECT_FALSE(far.frame.plane);
+  Pendulum near(0.99);
+  const double slope_in_p = near.node.s(0, 1).imag();
+  const auto length = turn_to_plane(near.problem, near.frame, near.node, 0.008);
+  ASSERT_TRUE(length);
+  ASSERT_TRUE(near.frame.plane);
+  EXPECT_EQ(near.frame.direction, 1.0);
+  // The same step, and the same slope, in the other coordinate.
+  const double speed = near.frame.speed(near.node);
+  EXPECT_NEAR(*length, 0.008 / speed, rounding);
+  EXPECT_NEAR(near.node.s(0, 1).imag(), slope_in_p * speed, 1e-11);
+  EXPECT_FALSE(turn_to_plane(near.problem, near.frame, near.node, 0.008)) << "it is turned already";
+}
+
+TEST(TurnToPlane, IsNotDoneWhereTheEquilibriumIsKnownOrOnABridge) {
+  Pendulum bridged(0.99);
+  const Path path = bridged.node.path;
+  bridged.frame.bridge = Bridge(0.98, 0.995, path, path, bridged.problem.traced, false);
+  EXPECT_FALSE(turn_to_plane(bridged.problem, bridged.frame, bridged.node, 0.008));
+  Pendulum known(0.99);
+  known.problem.structure.known_equilibrium = true;
+  EXPECT_FALSE(turn_to_plane(known.problem, known.frame, known.node, 0.008));
+  Pendulum fixed(0.99);
+  fixed.problem.structure.fixed_equilibrium = true;
+  EXPECT_FALSE(turn_to_plane(fixed.problem, fixed.frame, fixed.node, 0.008));
+}
+
+TEST(RenewPlane, FollowsThePathOnceItIsSlantedEnough) {
+  Pendulum pendulum(0.5);
+  EXPECT_FALSE(renew_plane(pendulum.frame, pendulum.node)) << "there is no plane to renew";
+  const int traced = pendulum.problem.traced;
+  pendulum.frame.plane = plane_along(pendulum.node.path, traced, pendulum.frame.scales(), 1.0);
+  reparametrize(pendulum.node, *pendulum.frame.plane, traced);
+  const PointSolver solver(pendulum.problem, pendulum.frame, pendulum.counts);
+  int renewed = 0;
+  PathNode node = pendulum.node;
+  node.tracks.clear();  // behind the fold the pair is real
+  // Around half of the circle the tangent turns by 120 degrees.
+  for (int i = 0; i < 16; ++i) {
+    auto there = solver.follow(all_tracks(node), 0.1);
+    ASSERT_TRUE(there) << i;
+    node = std::move(there->node);
+    const double before = slant(*pendulum.frame.plane, node.path, traced, pendulum.frame.scales());
+    const bool did = renew_plane(pendulum.frame, node);
+    EXPECT_EQ(did, before <= 0.7) << i;
+    if (!did) continue;
+    ++renewed;
+    EXPECT_NEAR(slant(*pendulum.frame.plane, node.path, traced, pendulum.frame.scales()), 1.0, 1e-12);
+    // The coordinate grows the way that the path goes.
+    EXPECT_GT(pendulum.frame.plane->x.dot(node.path.x.col(1)) +
+                  pendulum.frame.plane->p * pendulum.frame.speed(node),
+              0.0);
+  }
+  EXPECT_GE(renewed, 1);
+  EXPECT_LT(node.p, 0.95) << "it has passed the fold";
+  EXPECT_GT(node.path.x(2, 0), 0.0);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
