@@ -130,6 +130,16 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
   return PairStatus::not_converged;
 }
 
+/// Entries below this share of the reference are what rounding leaves of a zero. Products of such numbers
+/// leave the range of a double.
+constexpr double remnant = 1e-60;
+
+void remove_remnants(double reference, ComplexMatrix& Lambda) {
+  for (Complex& entry : Lambda.reshaped()) {
+    if (std::abs(entry) < remnant * reference) entry = 0.0;
+  }
+}
+
 }  // namespace
 
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
@@ -147,6 +157,7 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   }
   pair.status = newton(pencil, reference, options, pair, counts);
   if (pair.status != PairStatus::converged) return pair;
+  remove_remnants(reference, pair.Lambda);
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   pair.backward_error = backward_error(pencil, pair);
   pair.condition = pair.factors->sensitivity() * residual_scale(pencil, pair) / std::max(size, reference);

@@ -88,10 +88,27 @@ TEST(Checksum, LeavesOutTheSumsOfASingularMass) {
   // One freedom without mass: a real eigenvalue, and one at infinity.
   const auto diagonal = [](double a, double b) { return Matrix(Vector{{a, b}}.asDiagonal()); };
   Followed all({{diagonal(1.0, 0.0)}, {diagonal(0.2, 1.0)}, {diagonal(4.0, 3.0)}});
-  // The sums of 1/s do not help: the infinite eigenvalue, whose 1/s is zero, is missing among the four of two
-  // freedoms.
+  // In the sums of 1/s the infinite eigenvalue counts zero.
   EXPECT_EQ(all.node.tracks.size(), 2U);
+  EXPECT_TRUE(all.holds());
+  all.node.tracks[1].roots[0] *= 1.01;
   EXPECT_FALSE(all.holds());
+  all.node.tracks.pop_back();
+  EXPECT_FALSE(all.holds());
+}
+
+/// With a singular stiffness, too: sums of 1 / (s - shift).
+TEST(Checksum, HoldsWithRigidBodyMotionAndSingularMass) {
+  const auto diagonal = [](double a, double b, double c) { return Matrix(Vector{{a, b, c}}.asDiagonal()); };
+  Followed all({{diagonal(1.0, 0.0, 1.0)}, {diagonal(0.2, 1.0, 0.3)}, {diagonal(4.0, 3.0, 0.0)}});
+  ASSERT_EQ(all.node.tracks.size(), 4U);
+  EXPECT_TRUE(all.holds());
+  for (int i = 0; i < 4; ++i) {
+    const Track first = all.node.tracks.front();
+    all.node.tracks.erase(all.node.tracks.begin());
+    EXPECT_FALSE(all.holds()) << i;
+    all.node.tracks.push_back(first);
+  }
 }
 
 TEST(MissingModes, OfACompleteSetAreNone) {

@@ -12,8 +12,10 @@ namespace {
 
 using Kind = Verdict::Kind;
 
-Verdict verdict_on(PlantedSearch& planted, const Step& step) {
-  return judge(planted.family.problem(), planted.frame, planted.options, step, planted.family.counts);
+Verdict verdict_on(PlantedSearch& planted, const Step& step,
+                   Uncertified uncertified = Uncertified::is_rejected) {
+  return judge(planted.family.problem(), planted.frame, planted.options, step, uncertified,
+               planted.family.counts);
 }
 
 /// Frequencies 2 + p, 2 - p and 5: two lines that cross at p = 0, and one far away.
@@ -113,11 +115,23 @@ TEST(Judge, AnExchangeOfModesHasNoCertificate) {
   EXPECT_EQ(verdict.track, 0);
   EXPECT_LT(verdict.error, 1.0) << "the error is known, and accepted";
   EXPECT_EQ(verdict.certified, (std::vector<bool>{false, false, false}));
-  // So short a step is accepted nevertheless. Then the others' certificates count.
-  planted.frame.range.to = planted.frame.range.from + 2e-3 / uncertified_share;
-  EXPECT_EQ(verdict_on(planted, exchanged()).certified, (std::vector<bool>{false, false, true}));
+  // If the step may pass, the others' certificates count.
+  EXPECT_EQ(verdict_on(planted, exchanged(), Uncertified::passes).certified,
+            (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(verdict_on(planted, exchanged(), Uncertified::passes_by_shape).kind, Kind::mismatch);
   planted.options.certify = false;
   EXPECT_EQ(verdict_on(planted, exchanged()).kind, Kind::mismatch);
+}
+
+/// The same without the exchange: no certificate closes through the crossing, but the shapes agree.
+TEST(Judge, LetsAStepPassByTheShapesOfItsModes) {
+  PlantedSearch planted(lines());
+  const PathNode left = planted.family.point(-1e-3, alone(on_lines(-1e-3)));
+  const auto step = [&] { return planted.step(left, 1e-3, alone(on_lines(1e-3))); };
+  EXPECT_EQ(verdict_on(planted, step()).kind, Kind::uncertified);
+  const Verdict verdict = verdict_on(planted, step(), Uncertified::passes_by_shape);
+  EXPECT_EQ(verdict.kind, Kind::uncertified);
+  EXPECT_EQ(verdict.certified, (std::vector<bool>{false, false, true}));
 }
 
 TEST(MayStayUncertified, IsAShareOfTheRangeOfTheCoordinate) {
@@ -162,7 +176,7 @@ TEST(Judge, FindsThatAnEquilibriumLiesOnAnotherPath) {
   TraceOptions options = on_this.setting.options;
   options.certify = false;
   const auto verdict_to = [&](const PathNode& right) {
-    return judge(on_this.problem, frame, options, {&left, right, 0.5}, on_this.counts);
+    return judge(on_this.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, on_this.counts);
   };
   const Verdict verdict = verdict_to(on_other.at(20.5));
   EXPECT_EQ(verdict.kind, Kind::no_equilibrium);
@@ -181,7 +195,8 @@ TEST(Judge, RoundingOfAnEquilibriumThatDoesNotMoveIsNoOtherPath) {
   right.path.x.col(1) += 1e-7 * Vector::LinSpaced(n, 1.0, -1.0);
   TraceOptions options = hanging.setting.options;
   options.certify = false;
-  const Verdict verdict = judge(hanging.problem, frame, options, {&left, right, 0.5}, hanging.counts);
+  const Verdict verdict =
+      judge(hanging.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, hanging.counts);
   EXPECT_NE(verdict.kind, Kind::no_equilibrium);
 }
 

@@ -40,6 +40,9 @@ struct Track {
   /// Number of the track. It stays the same from point to point until the track is joined, separated or
   /// changes its chart. 0: not yet numbered.
   std::uint64_t lineage = 0;
+  /// Eigenvalues of a block that are closer than this stay together, because no certificate could keep them
+  /// apart.
+  double inseparable = 0.0;
   bool passed = false;   ///< accepted as extrapolated from the last step, without correction
   std::vector<int> met;  ///< indices of the roots that coincide at the point or have a narrow veering there
 

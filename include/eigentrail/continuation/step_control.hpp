@@ -32,6 +32,9 @@ class StepControl {
   /// Call after a rejected step of length h: too inaccurate (`error` > 1), or failed (`error` infinite).
   void reject(double h, double error);
 
+  /// Begins again with steps of length h, when what made them short is gone.
+  void restart(double h);
+
   /// Whether the next step would be shorter than `min_step`.
   bool exhausted() const { return step_ < min_step_; }
 

@@ -41,8 +41,9 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
 Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
 
 /// Distance (1/s) below which the eigenvalues of a block cannot be distinguished. Nonzero only for blocks of
-/// three and more whose `roots` all coincide within rounding, for example several rigid-body modes. Their
-/// matrix is far from normal, so the eigenvalues are known only to the square root of its rounding error.
+/// three and more whose `roots` all coincide within rounding, for example several rigid-body modes or an
+/// exceptional point of that order. A matrix of size k that is far from normal determines its eigenvalues
+/// only to the k-th root of its rounding error (Henrici, Numer. Math. 4, 1962).
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
 
 /// The values `to` in the order of `from`: the assignment with the least total distance.

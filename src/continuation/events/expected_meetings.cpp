@@ -135,7 +135,7 @@ class RootsOnStep {
       return 0.25 * d * d;
     };
     const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
-    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution()) return;
+    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length)) return;
     if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
       const double middle = begin + 0.5 * length;
       search(begin, middle);

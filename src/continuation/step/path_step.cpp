@@ -259,7 +259,13 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
     work += 2 * static_cast<std::size_t>(roots.size());
     const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
-    if (!differences.are_resolved(sets) && std::abs(piece) > shortest) {
+    const auto coincide = [&](double place, const ComplexVector& there) {
+      return there.size() > 2 && root_resolution(functions(place), there) > 0.0;
+    };
+    // Where all coincide within rounding, shorter pieces distinguish nothing.
+    const bool may_halve =
+        std::abs(piece) > shortest && !coincide(t + 0.5 * piece, middle) && !coincide(t + piece, ahead);
+    if (!differences.are_resolved(sets) && may_halve) {
       piece *= 0.5;
       continue;
     }

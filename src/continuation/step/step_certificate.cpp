@@ -8,6 +8,7 @@
 #include "continuation/step/modal_certificate.hpp"
 #include "core/parallel.hpp"
 #include "eigentrail/continuation/certificate.hpp"
+#include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
@@ -22,8 +23,11 @@ double gap_of(const PathNode& node, std::size_t index) {
     if (!track.pair.is_real) gap = std::min(gap, 2.0 * std::abs(root.imag()));
     for (std::size_t j = 0; j < node.tracks.size(); ++j) {
       const Track& other = node.tracks[j];
-      if (j == index || other.pair.chart != track.pair.chart || other.pair.part != track.pair.part) continue;
-      for (const Complex s : other.roots) gap = std::min(gap, std::abs(s - root));
+      if (j == index || other.pair.part != track.pair.part) continue;
+      for (const Complex s : other.roots) {
+        const Complex here = other.pair.chart == track.pair.chart ? s : chart_value(s, other.pair.chart);
+        if (std::isfinite(here.real())) gap = std::min(gap, std::abs(here - root));
+      }
     }
   }
   return gap;

@@ -60,6 +60,12 @@ void StepControl::accept(double h, double error) {
   rejected_ = false;
 }
 
+void StepControl::restart(double h) {
+  step_ = std::clamp(h, min_step_, max_step_);
+  last_step_ = 0.0;
+  rejected_ = false;
+}
+
 void StepControl::reject(double h, double error) {
   step_ = h * (std::isfinite(error) ? std::clamp(growth(error), smallest_growth, largest_share_of_rejected)
                                     : share_of_failed);

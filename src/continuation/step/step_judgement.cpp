@@ -49,24 +49,33 @@ bool have_merged(const PathProblem& problem, const Track& a, const Track& b, con
   return false;
 }
 
-/// Whether all tracks are at different eigenpairs and, without a certificate, the shapes of single modes
-/// resemble those at the begin of the step.
-Verdict check_identity(const PathProblem& problem, bool certify, const Step& step) {
+Verdict rejection(Verdict::Kind kind, std::size_t track, const char* reason) {
+  return {kind, static_cast<int>(track), INFINITY, reason};
+}
+
+/// Whether all tracks are at different eigenpairs.
+Verdict check_distinct(const PathProblem& problem, const Step& step) {
   const SystemMatrix& mass = step.right.linearization.M[0];
-  for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
-    const Track& a = step.right.tracks[i];
-    const auto verdict = [i](Verdict::Kind kind, const char* reason) {
-      return Verdict{kind, static_cast<int>(i), INFINITY, reason};
-    };
-    if (a.size() > 1) continue;
+  const std::vector<Track>& tracks = step.right.tracks;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks[i].size() > 1) continue;
     for (std::size_t j = 0; j < i; ++j) {
-      if (have_merged(problem, a, step.right.tracks[j], mass))
-        return verdict(Verdict::Kind::merged, "two modes arrived at the same eigenpair");
+      if (have_merged(problem, tracks[i], tracks[j], mass))
+        return rejection(Verdict::Kind::merged, i, "two modes arrived at the same eigenpair");
     }
-    if (certify) continue;
-    const double assurance = modal_assurance(a.series.Z[0], step.left->tracks[i].series.Z[0], mass)(0, 0);
-    if (assurance < problem.thresholds.identity.least_assurance)
-      return verdict(Verdict::Kind::mismatch, "a mode is not recognized by its shape");
+  }
+  return {};
+}
+
+/// Whether the shapes of single modes that are not certified resemble those at the begin of the step.
+Verdict check_shapes(const PathProblem& problem, const Step& step, const std::vector<bool>& certified) {
+  const SystemMatrix& mass = step.right.linearization.M[0];
+  for (std::size_t i = 0; i < certified.size(); ++i) {
+    const Track& track = step.right.tracks[i];
+    if (track.size() > 1 || certified[i]) continue;
+    const ComplexMatrix& before = step.left->tracks[i].series.Z[0];
+    if (modal_assurance(track.series.Z[0], before, mass)(0, 0) < problem.thresholds.identity.least_assurance)
+      return rejection(Verdict::Kind::mismatch, i, "a mode is not recognized by its shape");
   }
   return {};
 }
@@ -78,27 +87,30 @@ bool may_stay_uncertified(const PathFrame& frame, double h) {
 }
 
 Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOptions& options,
-              const Step& step, RunCounts& counts) {
+              const Step& step, Uncertified uncertified, RunCounts& counts) {
   if (Verdict verdict = check_path(problem, frame, step); !verdict.accepted()) return verdict;
   Verdict verdict = judge_error(problem, frame, options.tolerance, step);
   if (!verdict.accepted()) return verdict;
-  const double error = verdict.error;
   {
     const StageTimer timer(counts.matching_seconds);
-    verdict = check_identity(problem, options.certify, step);
+    if (Verdict distinct = check_distinct(problem, step); !distinct.accepted()) return distinct;
   }
-  if (verdict.accepted() && options.certify) {
-    verdict.certified = certify(problem, step, may_stay_uncertified(frame, step.h), counts);
-    const auto open = std::find(verdict.certified.begin(), verdict.certified.end(), false);
-    if (open != verdict.certified.end()) {
+  std::vector<bool> certified(step.right.tracks.size(), false);
+  if (options.certify && uncertified != Uncertified::is_not_tested) {
+    certified = certify(problem, step, uncertified != Uncertified::is_rejected, counts);
+    const auto open = std::find(certified.begin(), certified.end(), false);
+    if (open != certified.end()) {
       verdict.kind = Verdict::Kind::uncertified;
-      verdict.track = static_cast<int>(open - verdict.certified.begin());
+      verdict.track = static_cast<int>(open - certified.begin());
       verdict.reason = "the certificate does not close";
     }
   }
-  // If the step is rejected for another reason, its error does not determine the next length.
-  const bool is_known = verdict.accepted() || verdict.kind == Verdict::Kind::uncertified;
-  verdict.error = is_known ? error : INFINITY;
+  if (!options.certify || uncertified == Uncertified::passes_by_shape ||
+      uncertified == Uncertified::is_not_tested) {
+    const StageTimer timer(counts.matching_seconds);
+    if (Verdict shapes = check_shapes(problem, step, certified); !shapes.accepted()) return shapes;
+  }
+  if (options.certify) verdict.certified = std::move(certified);
   return verdict;
 }
 

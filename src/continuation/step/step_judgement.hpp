@@ -17,8 +17,17 @@ constexpr double uncertified_share = 1e-6;
 /// Whether a step of length h is so short that it is accepted although a certificate fails.
 bool may_stay_uncertified(const PathFrame& frame, double h);
 
-/// Judges a step whose points have been computed. An accepted verdict has the error and the certified tracks.
+/// What becomes of a step whose certificate fails.
+enum class Uncertified {
+  is_rejected,
+  passes,           ///< because a shorter step would fail as well
+  passes_by_shape,  ///< if the shapes of the modes at both ends resemble each other
+  is_not_tested     ///< as passes_by_shape, without a test: the certificate would cost too much
+};
+
+/// Judges a step whose points have been computed. A verdict that is accepted or `uncertified` has the error
+/// and the certified tracks; those behind the first that failed are tested only if the step may pass.
 Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOptions& options,
-              const Step& step, RunCounts& counts);
+              const Step& step, Uncertified uncertified, RunCounts& counts);
 
 }  // namespace eigentrail

@@ -73,7 +73,10 @@ AttemptedStep StepSolver::attempt(double h) {
     return {{}, {Verdict::Kind::mode_lost, point.lost_track, INFINITY, point.message}};
   std::optional<PathNode> next = differentiate_point(problem, point, solver_.counts());
   if (!next) return {{}, {Verdict::Kind::mode_lost, -1, INFINITY, "a series is not finite"}};
-  for (std::size_t i = 0; i < node.tracks.size(); ++i) next->tracks[i].lineage = node.tracks[i].lineage;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    next->tracks[i].lineage = node.tracks[i].lineage;
+    next->tracks[i].inseparable = node.tracks[i].inseparable;
+  }
   AttemptedStep attempted{Step{&node, std::move(*next), h}, {}};
   order_arrival(*attempted.step);
   return attempted;

@@ -39,8 +39,10 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<Track> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, passed, met] = self;
-  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, passed, met);
+  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable, passed,
+         met] = self;
+  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable, passed,
+        met);
 }
 
 template <SameAs<Linearization> Self, class Visit>
@@ -158,8 +160,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<StepMemory> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [joins, longest_step, turned_step] = self;
-  visit(joins, longest_step, turned_step);
+  auto& [joins, ended, patience, longest_step, turned_step] = self;
+  visit(joins, ended, patience, longest_step, turned_step);
 }
 
 template <SameAs<ModeNumbers> Self, class Visit>
@@ -168,10 +170,17 @@ static void fields(Self& self, Visit& visit) {
   visit(count, partners);
 }
 
+template <SameAs<EndedTrack> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [track, looks] = self;
+  visit(track, looks);
+}
+
 template <SameAs<TraceState> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps] = self;
-  visit(settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps);
+  auto& [settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps, ended] =
+      self;
+  visit(settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps, ended);
 }
 
 std::string save_state(const TraceState& state) {
@@ -280,6 +289,12 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   if (!fits(origin.node, sizes)) return "another size of the last point";
   if (origin.last_step != 0.0 && !fits(origin.previous, sizes)) return "another size of the point before it";
   if (origin.tried && !fits(*origin.tried, sizes)) return "another size of a point that was tried";
+  for (const EndedTrack& one : state.ended) {
+    const auto parts = static_cast<int>(std::max<std::size_t>(origin.node.pencil.parts.size(), 1));
+    const int part = one.track.pair.part;
+    if (part < 0 || part >= parts || !fits(one.track, sizes, origin.node.pencil.of(part).size()))
+      return "another size of a mode that ended";
+  }
   if (state.frame.plane && state.frame.plane->x.size() != sizes.coordinates) return "another size of a plane";
   const std::size_t criteria = criteria_of(options.events).size();
   for (const auto& [key, history] : state.histories) {

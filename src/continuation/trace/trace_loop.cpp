@@ -1,5 +1,4 @@
 #include "continuation/trace/trace_loop.hpp"
-#include <iostream>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +22,9 @@ namespace eigentrail {
 namespace {
 
 /// Shortest step, as a share of the range; the trace gives up below it. Even where an eigenvalue varies like
-/// the square root of the distance it changes by only 3e-6 over such a step. With a larger value traces end
+/// the square root of the distance it changes by only 3e-7 over such a step. With a larger value traces end
 /// that a shorter step would carry on; with a smaller one hopeless traces try longer before they end.
-constexpr double shortest_step = 1e-11;
+constexpr double shortest_step = 1e-13;
 /// The shortest step moves p by at least this many units in its last place. With fewer, the step length
 /// itself would be dominated by rounding.
 constexpr double units_in_last_place = 8.0;
@@ -41,6 +40,8 @@ constexpr double uncertified_error = 30.0;
 /// Largest number of attempts to join blocks at one point. It limits how often a step of the same length is
 /// tried before it is shortened. Fewer may miss a useful block, more may waste attempts.
 constexpr int most_joins = 12;
+/// Largest number of tracks that end at one point, before the trace does.
+constexpr int most_ended = 3;
 /// Factor by which the stored longest step decreases with each step, so that it covers about the last ten
 /// steps (0.85^10 = 0.2). Nearer to one, old long steps count for longer.
 constexpr double forgetting = 0.85;
@@ -192,23 +193,19 @@ bool TraceLoop::advance() {
   const PathNode* next = attempted.step ? &attempted.step->right : nullptr;
   if (bridge_branch_point(points_, state_.frame, state_.origin.node, h, next, state_.branches.tries))
     return true;
-  const auto is_taken = [this](const Verdict& verdict, double of_length) {
-    return verdict.accepted() ||
-           (verdict.kind == Verdict::Kind::uncertified && may_stay_uncertified(state_.frame, of_length));
+  const auto if_uncertified = [this](double of_length) {
+    const StepMemory& memory = state_.steps;
+    const TraceResult& result = state_.result;
+    const double progress = std::abs(state_.origin.node.p - options_.from) / state_.frame.range.length();
+    return memory.patience.treatment(
+        state_.frame, of_length, memory.longest_step, result.nodes,
+        certificate_may_cost(result.counts, result.n_independent, std::min(progress, 1.0)));
   };
-  const Verdict verdict = attempted.step ? judge(*attempted.step) : attempted.verdict;
-  if (getenv("DBG")) {
-    std::cerr.precision(12);
-    std::cerr << "try p=" << state_.origin.node.p << " h=" << h << " verdict " << (int)verdict.kind << " err "
-              << verdict.error << " " << verdict.reason;
-    if (verdict.track >= 0) {
-      std::cerr << " track";
-      for (Complex r : state_.origin.node.tracks[verdict.track].roots) std::cerr << " " << r;
-    }
-    std::cerr << " sizes";
-    for (auto& t : state_.origin.node.tracks) std::cerr << " " << t.size();
-    std::cerr << "\n";
-  }
+  const auto is_taken = [&](const Verdict& verdict, double of_length) {
+    return verdict.accepted() || (verdict.kind == Verdict::Kind::uncertified &&
+                                  if_uncertified(of_length) != Uncertified::is_rejected);
+  };
+  const Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
@@ -216,7 +213,7 @@ bool TraceLoop::advance() {
   }
   StepSolver solver = steps();
   std::optional<LandedStep> landed =
-      land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
+      land(solver, std::move(*attempted.step), if_uncertified(h) == Uncertified::passes);
   if (!landed) {
     return shorten(
         {verdict.kind, verdict.track, INFINITY, "a place where the step has to end was not reached"}, length);
@@ -227,7 +224,7 @@ bool TraceLoop::advance() {
   }
   const double cut = landed->step.h;
   landed->step.whole = h;  // its error was accepted; if it is uncertified, too
-  const Verdict anew = judge(landed->step);
+  const Verdict anew = judge(landed->step, if_uncertified(cut));
   if (!is_taken(anew, cut)) {
     if (find_remedy(anew, cut, std::move(landed->step))) return true;
     return shorten(anew, std::abs(cut));
@@ -236,16 +233,20 @@ bool TraceLoop::advance() {
   return commit(std::move(*landed), anew.certified);
 }
 
-Verdict TraceLoop::judge(const Step& step) {
-  return eigentrail::judge(problem_, state_.frame, options_, step, state_.result.counts);
+Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
+  return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, state_.result.counts);
 }
 
 bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {
   count(verdict, state_.result.rejections);
   StepMemory& memory = state_.steps;
+  const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
+  if (uncertified) memory.patience.count_failure();
+  const Shorter shorter =
+      uncertified && memory.patience.is_in_vain(verdict.error) ? Shorter::in_vain : Shorter::may_help;
   const Remedy remedy =
       eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step ? &*step : nullptr,
-                              memory.joins < most_joins, state_.origin.node, state_.result.counts);
+                              memory.joins < most_joins, shorter, state_.origin.node, state_.result.counts);
   if (remedy.tried_to_join) ++memory.joins;
   if (!remedy.helps()) return false;
   if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
@@ -256,12 +257,23 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   return true;
 }
 
+/// Shortens the next attempt. A track for which no length is short enough ends here, and the others go on.
 bool TraceLoop::shorten(const Verdict& verdict, double length) {
   const bool open = verdict.kind == Verdict::Kind::uncertified;
   state_.control.reject(length, open ? uncertified_error : verdict.error);
   if (!state_.control.exhausted()) return true;
-  return stop(TraceStatus::step_too_small,
-              too_small_message(problem_, options_, state_.origin.node, verdict));
+  StepMemory& memory = state_.steps;
+  PathNode& node = state_.origin.node;
+  // If several modes fail at one place, it is not their fault.
+  const bool one_fails = verdict.track >= 0 && node.tracks.size() > 1 && ++memory.ended <= most_ended;
+  if (!one_fails)
+    return stop(TraceStatus::step_too_small, too_small_message(problem_, options_, node, verdict));
+  const std::string who = end_track(problem_, node, static_cast<std::size_t>(verdict.track), state_.ended);
+  if (!who.empty())
+    state_.result.notes.push_back(who + " ends at " + place_text(options_, node.p) + ": " + verdict.reason);
+  state_.origin.tried.reset();
+  state_.control.restart(memory.longest_step);
+  return true;
 }
 
 /// Takes a step: finds its events, stores and emits it, checks that no mode is missing, chooses what is
@@ -272,6 +284,9 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
   const PathStep stored = stored_step(problem_, step, certified);
+  for (const std::string& who : find_again(problem_, step.right, state_.ended, result.counts))
+    result.notes.push_back(who + " was found again at " + place_text(options_, step.right.p) +
+                           ", by its shape");
   const Completion found =
       complete(problem_, state_.settings.follows_all, step.right, state_.numbers, result.counts);
   const std::string where = "at " + place_text(options_, step.right.p);
@@ -353,6 +368,8 @@ void TraceLoop::move_on(Step step) {
   PathFrame& frame = state_.frame;
   memory.longest_step = std::max(std::abs(step.h), forgetting * memory.longest_step);
   memory.joins = 0;
+  memory.ended = 0;
+  memory.patience.count_step();
   state_.branches.tries = 0;
   origin.previous = std::move(origin.node);
   origin.node = std::move(step.right);

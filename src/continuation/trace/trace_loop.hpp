@@ -5,8 +5,10 @@
 #include <chrono>
 
 #include "continuation/events/landing.hpp"
+#include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
+#include "continuation/tracks/remedy.hpp"
 #include "eigentrail/continuation/trace_observer.hpp"
 
 namespace eigentrail {
@@ -31,7 +33,7 @@ class TraceLoop final : private Checkpoint {
   void follow();
   bool advance();
 
-  Verdict judge(const Step& step);
+  Verdict judge(const Step& step, Uncertified uncertified);
   /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if
   /// they were solved. Returns whether something was changed, so that the step shall be tried again.
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
@@ -44,7 +46,9 @@ class TraceLoop final : private Checkpoint {
   bool leave_path();
 
   StepSolver steps() { return {points_, state_.origin, reach_}; }
-  JoiningRules joining_rules() const { return {options_.tolerance, reach_, state_.steps.longest_step}; }
+  JoiningRules joining_rules() const {
+    return {options_.tolerance, reach_, state_.steps.longest_step, state_.settings.follows_all};
+  }
   double longest_allowed_step() const;
   bool leaves_path_at(const PathNode& node) const;
   void log(FoundEvents found);

@@ -148,10 +148,10 @@ std::optional<StartFailure> Start::find_modes() {
   if (auto failure = check_spectrum(spectrum)) return failure;
   result_.n_modes = std::min(options_.modes.value_or(result_.n_available), result_.n_available);
   result_.n_columns = state_.numbers.count = result_.n_modes;
-  // With infinite eigenvalues, which are not followed, the checksum of all eigenvalues cannot hold.
   TraceSettings& settings = state_.settings;
-  settings.follows_all = result_.n_modes == result_.n_available && spectrum.n_infinite == 0;
-  const bool at_once = settings.follows_all && pencil.parts.empty();  // else every part by itself
+  settings.follows_all = result_.n_modes == result_.n_available;
+  // Infinite eigenvalues are not followed, and independent parts are followed each by itself.
+  const bool at_once = settings.follows_all && spectrum.n_infinite == 0 && pencil.parts.empty();
   settings.route =
       cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, settings.order});
   settle_magnitudes(spectrum);

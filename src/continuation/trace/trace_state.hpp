@@ -4,7 +4,9 @@
 
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/path/other_path.hpp"
+#include "continuation/step/certificate_patience.hpp"
 #include "continuation/step/step_solver.hpp"
+#include "continuation/tracks/ended_modes.hpp"
 #include "continuation/tracks/mode_order.hpp"
 #include "eigentrail/continuation/step_control.hpp"
 #include "eigentrail/continuation/trace_result.hpp"
@@ -16,7 +18,7 @@ struct TraceSettings {
   int order = 3;
   double s_ref = 1.0, s_max = 1e300;
   ModeRoute route = ModeRoute::one_by_one;
-  bool follows_all = false;  ///< every mode is followed and none is infinite
+  bool follows_all = false;  ///< every finite mode is followed
 };
 
 /// Branch points along the trace.
@@ -29,7 +31,9 @@ struct BranchPassage {
 
 /// What is remembered of the last steps.
 struct StepMemory {
-  int joins = 0;              ///< attempts to join blocks at the last point
+  int joins = 0;  ///< attempts to join blocks at the last point
+  int ended = 0;  ///< tracks that ended at the last point
+  CertificatePatience patience = {};
   double longest_step = 0.0;  ///< of about the last ten steps, in the coordinate along the path
   double turned_step = 0.0;   ///< length of the next step if the coordinate has just changed, else 0
 };
@@ -46,6 +50,7 @@ struct TraceState {
   CriterionHistories histories = {};
   std::vector<Event> dismissed = {};  ///< predicted veerings that turned out to be none
   StepMemory steps = {};
+  std::vector<EndedTrack> ended = {};  ///< tracks that are looked for
 };
 
 /// The problem of a trace: the model along the traced parameter with the values in the options. `apply` adds

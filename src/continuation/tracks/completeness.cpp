@@ -35,12 +35,13 @@ constexpr double shared_distance = 1e-8;
 /// the angle.
 constexpr double shared_angle = 0.03;
 
-/// All eigenvalues that the tracks represent, with the conjugates of complex pairs.
+/// All finite eigenvalues that the tracks represent, with the conjugates of complex pairs.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
   std::vector<Complex> all;
   for (const Track& track : node.tracks) {
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       const Complex s = chart_value(track.roots[i], track.pair.chart);
+      if (!std::isfinite(s.real())) continue;
       all.push_back(s);
       if (!track.pair.is_real) all.push_back(std::conj(s));
     }
@@ -48,24 +49,22 @@ std::vector<Complex> all_eigenvalues(const PathNode& node) {
   return all;
 }
 
-/// Whether the sums of mu and mu^2 agree with the traces, for mu in a chart. In the reciprocal chart, M and K
-/// are exchanged by the caller. True also if M is too ill-conditioned for the test.
+/// Whether the sums of mu and mu^2 over the eigenvalues mu of mu^2 M + mu C + K agree with the traces. True
+/// also if M is too ill-conditioned for the test. Eigenvalues zero may be left out.
 bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::vector<Complex>& all,
-                Chart chart, double reference) {
+                double reference) {
   const Eigen::PartialPivLU<Matrix> lu(M);
   if (!(reciprocal_condition(lu) > singular)) return true;
   Complex sum = 0.0;
   Complex squares = 0.0;
   double magnitude = reference;
   double square_magnitude = reference * reference;
-  for (const Complex s : all) {
-    const Complex mu = chart_value(s, chart);
+  for (const Complex mu : all) {
     sum += mu;
     squares += mu * mu;
     magnitude += std::abs(mu);
     square_magnitude += std::norm(mu);
   }
-  if (static_cast<Eigen::Index>(all.size()) != 2 * M.rows()) return false;
   const Matrix G = lu.solve(C);
   const double trace = -G.trace();
   const double square_trace = G.cwiseProduct(G.transpose()).sum() - 2.0 * lu.solve(K).trace();
@@ -73,14 +72,33 @@ bool sums_agree(const Matrix& M, const Matrix& C, const Matrix& K, const std::ve
          std::abs(squares - square_trace) <= checksum_tolerance * square_magnitude;
 }
 
+bool is_regular(const Matrix& K) {
+  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(K)) > singular;
+}
+
+/// Median of the magnitudes of the eigenvalues, at least `reference`.
+double typical_size(const std::vector<Complex>& all, double reference) {
+  if (all.empty()) return reference;
+  std::vector<double> sizes;
+  for (const Complex s : all) sizes.push_back(std::abs(s));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return std::max(*middle, reference);
+}
+
 }  // namespace
 
 bool checksum_holds(const PathNode& node, const PathProblem& problem) {
-  const std::vector<Complex> all = all_eigenvalues(node);
   const ReducedPencil& pencil = node.pencil;
-  return sums_agree(pencil.M[0], pencil.C[0], pencil.K[0], all, Chart::finite,
-                    problem.reference(Chart::finite)) &&
-         sums_agree(pencil.K[0], pencil.C[0], pencil.M[0], all, Chart::reciprocal,
+  const Matrix& M = pencil.M[0];
+  const Matrix& C = pencil.C[0];
+  const Matrix& K = pencil.K[0];
+  std::vector<Complex> all = all_eigenvalues(node);
+  if (!sums_agree(M, C, K, all, problem.reference(Chart::finite))) return false;
+  // The sums of 1 / (s - shift), in which infinite eigenvalues count zero.
+  const double shift = is_regular(K) ? 0.0 : typical_size(all, problem.s_ref);
+  for (Complex& s : all) s = 1.0 / (s - shift);
+  return sums_agree(shift * shift * M + shift * C + K, 2.0 * shift * M + C, M, all,
                     problem.reference(Chart::reciprocal));
 }
 
@@ -133,8 +151,9 @@ ComplexVector vector_of(const Track& track, Eigen::Index root) {
   return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
 }
 
-/// Whether two tracks have an eigenpair in common.
-bool share_eigenpair(const Track& a, const Track& b, double reference) {
+}  // namespace
+
+bool have_common_eigenpair(const Track& a, const Track& b, double reference) {
   if (a.pair.chart != b.pair.chart || a.pair.part != b.pair.part) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double scale = std::max(std::abs(a.roots[i]), reference);
@@ -146,14 +165,12 @@ bool share_eigenpair(const Track& a, const Track& b, double reference) {
   return false;
 }
 
-}  // namespace
-
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& track = node.tracks[i];
     if (track.pair.backward_error > largest_backward_error) return true;
     for (std::size_t j = 0; j < i; ++j) {
-      if (share_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart))) return true;
+      if (have_common_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart))) return true;
     }
   }
   return false;

@@ -6,15 +6,21 @@
 
 namespace eigentrail {
 
-/// Checksum for a trace that follows every mode: sum s = -tr(M^-1 C), sum s^2 = tr((M^-1 C)^2) - 2 tr(M^-1
-/// K), and with M and K exchanged the same for the sums of 1/s and 1/s^2. The sums of s are sensitive to high
-/// modes, those of 1/s to low ones. If M or K is nearly singular, the sums that need its inverse are left
-/// out. Detects lost and doubled modes, but not exchanged ones. Cost O(n^3) in real arithmetic.
+/// Checksum for a trace that follows every finite mode: sum s = -tr(M^-1 C), sum s^2 = tr((M^-1 C)^2) - 2
+/// tr(M^-1 K), and the same for the sums of 1/s and 1/s^2, with M and K exchanged. If K is nearly singular,
+/// as with rigid-body modes, these are the sums of 1 / (s - shift). The sums of s are sensitive to high
+/// modes, those of 1/s to low ones. Infinite eigenvalues count zero in the latter; the former are left out if
+/// M is nearly singular. Detects lost and doubled modes, but not exchanged ones. Cost O(n^3) in real
+/// arithmetic.
 bool checksum_holds(const PathNode& node, const PathProblem& problem);
 
 /// The modes of a full spectrum that no track follows. Tracks and modes are assigned to each other one to
 /// one. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
 std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref);
+
+/// Whether two tracks at a point have an eigenpair in common: eigenvalues that differ by at most 1e-8,
+/// relative to their size or to `reference`, and a vector of one in the space of the other.
+bool have_common_eigenpair(const Track& a, const Track& b, double reference);
 
 /// Whether the backward error of a track is so large that it is no eigenpair, or two tracks have the same
 /// eigenpair: eigenvalues that differ by at most 1e-8, relatively, and a vector of one in the space of the

@@ -19,14 +19,16 @@ constexpr double worthwhile = 0.05;
 constexpr double limiting_error = 0.1;
 /// As `worthwhile`, for the change to the other chart, which has no extra cost.
 constexpr double better_chart = 0.3;
-/// Blocks of more than two are formed only if the step is shorter than this share of the longest one of the
-/// last steps. In large blocks the eigenvalues are harder to identify, and more events are close to each
-/// other.
+/// Blocks of more than two, to six, are formed only if the step is shorter than this share of the longest one
+/// of the last steps. In large blocks the eigenvalues are harder to identify, and more events are close to
+/// each other.
 constexpr double shrinking = 0.25;
+/// The same for blocks of more than six: at exceptional points of a higher order steps shrink towards zero.
+constexpr double much_shrinking = 0.1;
 /// Meetings farther away than this many times the distance of the nearest one have little influence on the
 /// error.
 constexpr double as_near = 1.5;
-constexpr std::size_t most_partners = 5;  ///< of one track: the largest block has six eigenvalues
+constexpr Eigen::Index most_together = 16;
 
 /// A track to be joined, with its partners. All choices are made before the first tracks are joined. Since
 /// joining changes the indices of the tracks, they are identified by their lineages.
@@ -63,13 +65,16 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   const Track& there = tracks[track];
   const double scale = std::max(there.roots.cwiseAbs().mean(), problem.reference(there.pair.chart));
   const double accepted = accepted_share * rules.tolerance * scale;
-  const bool may_be_large = std::abs(step.h) < shrinking * rules.longest_step;
+  const double length = std::abs(step.h);
+  const Eigen::Index largest = length < much_shrinking * rules.longest_step ? most_together
+                               : length < shrinking * rules.longest_step    ? 6
+                                                                            : 2;
   std::vector<Partner> chosen;
   Eigen::Index size = there.size();
   for (const Partner& candidate : candidates) {
-    if (candidate.track >= tracks.size() || chosen.size() >= most_partners) break;
+    if (candidate.track >= tracks.size()) break;
     size += tracks[candidate.track].size();
-    if (size > 2 && !may_be_large) break;
+    if (size > largest) break;
     if (candidate.distance > as_near * candidates.front().distance) break;
     chosen.push_back(candidate);
     const double together =

@@ -13,6 +13,7 @@ struct JoiningRules {
   double tolerance = 1e-6;     ///< of the trace
   double parting_reach = 3.0;  ///< in steps: meetings within this distance keep a block together
   double longest_step = 0.0;   ///< of about the last ten steps, in the coordinate along the path
+  bool follows_all = true;     ///< every finite mode is followed
 };
 
 /// The partners with which a block reduces the error of a track so much that it is worth its cost: the

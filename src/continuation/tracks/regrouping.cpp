@@ -118,6 +118,13 @@ bool settle(const PathProblem& problem, const PathNode& node, const InvariantPai
   return true;
 }
 
+/// The largest distance below which members of these tracks are inseparable.
+double inseparable(const PathNode& node, const std::vector<std::size_t>& members) {
+  double largest = 0.0;
+  for (const std::size_t i : members) largest = std::max(largest, node.tracks[i].inseparable);
+  return largest;
+}
+
 }  // namespace
 
 std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
@@ -152,9 +159,10 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
 
 namespace {
 
-/// How far the mean eigenvalue of a track moves on a step of length h.
+/// How far the mean eigenvalue of a track moves on a step of length h; at most by its own size, since on
+/// longer steps the series says nothing.
 double movement(const Track& track, double h) {
-  return std::abs(mean_series(track.series.Lambda)[1] * h);
+  return std::min(std::abs(mean_series(track.series.Lambda)[1] * h), track.roots.cwiseAbs().maxCoeff());
 }
 
 /// Smallest distance of an eigenvalue of one track from one of another.
@@ -196,6 +204,20 @@ std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, 
   std::sort(partners.begin(), partners.end(),
             [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
   return partners;
+}
+
+std::optional<Partner> nearest_partner(const PathNode& node, std::size_t index) {
+  const Track& track = node.tracks[index];
+  Partner nearest{false, index, INFINITY};
+  if (!track.pair.is_real) nearest = {true, index, gap_between(track.roots, track.roots.conjugate())};
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& other = node.tracks[i];
+    if (i == index || other.pair.chart != track.pair.chart || other.pair.part != track.pair.part) continue;
+    const double gap = gap_between(track.roots, other.roots);
+    if (gap < nearest.distance) nearest = {false, i, gap};
+  }
+  if (!std::isfinite(nearest.distance)) return std::nullopt;
+  return nearest;
 }
 
 namespace {
@@ -267,6 +289,7 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
   if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
   joined.met = std::move(met);
+  joined.inseparable = inseparable(node, members);
   if (departure) {
     joined.departure =
         Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
@@ -321,10 +344,10 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
   return result;
 }
 
-/// Unites groups whose eigenvalues are crowded on a step of length h.
+/// Unites groups whose eigenvalues are crowded on a step of length h, or inseparable.
 std::vector<std::vector<int>> without_crowding(const Track& track, std::vector<std::vector<int>> groups,
                                                double h) {
-  const double least = crowding_hysteresis * crowding * movement(track, h);
+  const double least = std::max(crowding_hysteresis * crowding * movement(track, h), track.inseparable);
   const auto crowded = [&](const std::vector<int>& a, const std::vector<int>& b) {
     return std::any_of(a.begin(), a.end(), [&](int i) {
       return std::any_of(b.begin(), b.end(),
@@ -397,6 +420,7 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
     Track track;
     if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
       return {};
+    track.inseparable = members.size() > 1 ? block.inseparable : 0.0;
     if (block.departure) {
       ComplexVector departing(known.size());
       for (std::size_t i = 0; i < members.size(); ++i)

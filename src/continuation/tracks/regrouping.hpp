@@ -20,6 +20,10 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t track, doub
 /// Empty if with them the block would be too large.
 std::vector<Partner> crowding_partners(const PathNode& node, std::size_t track, double h);
 
+/// The track with the eigenvalue nearest to one of `track`, or its own conjugate; the distance is that of the
+/// eigenvalues. Empty if there is none in its chart.
+std::optional<Partner> nearest_partner(const PathNode& node, std::size_t track);
+
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
 /// change the node, if the block does not converge or would be too large.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,

@@ -1,5 +1,9 @@
 #include "continuation/tracks/remedy.hpp"
 
+#include <cmath>
+
+#include "continuation/tracks/silent_partners.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -8,11 +12,53 @@ namespace {
 /// distant ones only reduce the accuracy.
 constexpr double join_reach = 1.0;
 
+/// Eigenvalues that no certificate kept apart stay together up to this multiple of their distance. With a
+/// smaller one they are joined again soon; a larger one keeps blocks, which cost more than single modes.
+constexpr double kept_together = 3.0;
+
+/// Modes that are not followed are looked for only if the step is shorter than this share of the longest one
+/// of the last steps: each look costs a large factorization.
+constexpr double shrinking = 0.25;
+
+/// Joins a track that is not certified with the nearest other one, and keeps both together. A block that was
+/// formed at this point already, without effect, is not made larger.
+bool join_nearest(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
+  if (node.tracks[track].size() > 1 && node.tracks[track].arriving.empty()) return false;
+  const std::optional<Partner> nearest = nearest_partner(node, track);
+  if (!nearest || !join(problem, node, track, {*nearest}, counts)) return false;
+  Track& joined = node.tracks.back();
+  joined.inseparable = std::max(joined.inseparable, kept_together * nearest->distance);
+  return true;
+}
+
+/// Joins a track with a mode that is not followed, if it meets one near the step, or if the nearest one is
+/// closer than all that are followed.
+bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t track, double h, double reach,
+                     RunCounts& counts) {
+  const std::size_t followed = node.tracks.size();
+  add_neighbours(problem, node, track, counts);
+  std::vector<Partner> partners = find_partners(node, track, h, reach);
+  std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
+  double kept = 0.0;
+  if (partners.empty()) {
+    const std::optional<Partner> nearest = nearest_partner(node, track);
+    if (nearest && !nearest->conjugate && nearest->track >= followed) {
+      partners.push_back(*nearest);
+      kept = kept_together * nearest->distance;
+    }
+  }
+  if (!partners.empty()) partners.resize(1);
+  const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
+  if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
+  remove_guests(node);
+  return joined;
+}
+
 }  // namespace
 
 Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRules& rules,
-                   const Verdict& verdict, double h, const Step* step, bool may_join, PathNode& node,
-                   RunCounts& counts) {
+                   const Verdict& verdict, double h, const Step* step, bool may_join, Shorter shorter,
+                   PathNode& node, RunCounts& counts) {
   Remedy remedy;
   remedy.turned_step = turn_to_plane(problem, frame, node, h);
   if (remedy.turned_step) ++remedy.changes.planes;
@@ -36,7 +82,20 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     if (partners.size() > 1) partners.resize(1);
   }
   remedy.tried_to_join = !partners.empty();
-  if (remedy.tried_to_join && join(problem, node, track, partners, counts)) ++remedy.changes.joined;
+  if (remedy.tried_to_join) {
+    if (join(problem, node, track, partners, counts)) ++remedy.changes.joined;
+    return remedy;
+  }
+  const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
+  const bool has_shrunk = std::abs(h) < shrinking * rules.longest_step;
+  if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : has_shrunk)) {
+    remedy.tried_to_join = true;
+    if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
+  }
+  if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
+    remedy.tried_to_join = true;
+    if (join_nearest(problem, node, track, counts)) ++remedy.changes.joined;
+  }
   return remedy;
 }
 

@@ -55,6 +55,12 @@ const ComplexVector& StrandSampler::operator()(double t) {
   return known_.emplace(t, follow_roots(functions_, nearest->second, nearest->first, t)).first->second;
 }
 
+double StrandSampler::resolution_at(double t) {
+  if (functions_.size() <= 4) return resolution_;  // blocks of one and two
+  const ComplexVector& roots = (*this)(t);
+  return std::max(resolution_, root_resolution(functions_(t), roots));
+}
+
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {

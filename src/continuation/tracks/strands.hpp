@@ -26,8 +26,11 @@ class StrandSampler {
   /// Smooth functions of the track on the step (modes/invariants.hpp).
   const HermiteInterpolant& functions() const { return functions_; }
 
-  /// Distance within which two eigenvalues cannot be distinguished.
+  /// Distance within which two eigenvalues cannot be distinguished at the left end.
   double resolution() const { return resolution_; }
+
+  /// The same at t, where more of them may coincide.
+  double resolution_at(double t);
 
   /// Eigenvalues at t. The reference is valid until the next call.
   const ComplexVector& operator()(double t);

@@ -1,0 +1,69 @@
+#include "continuation/step/certificate_patience.hpp"
+
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+/// A short step passes without certificate only if it is shorter than this share of the longest one of the
+/// last steps. Else it is short because the eigenvalues change on a small part of the range, and a
+/// certificate can be expected.
+constexpr double shrunk = 1e-2;
+/// Steps are rejected because their certificate fails only up to this many times, plus this share of the
+/// number of points. Beyond, they pass without certificate if the shapes of their modes agree, and are marked
+/// so. Larger values take longer there; with smaller ones steps that could be certified stay without.
+constexpr double free_attempts = 20.0;
+constexpr double attempts_share = 0.25;
+/// If the certificate has failed more often than this of late, and the error of the step is below this share
+/// of the accepted one, it does not fail because of the length. With more failures longer is tried, with
+/// fewer blocks are formed where a shorter step would do.
+constexpr double enough_failures = 2.0;
+constexpr double not_by_error = 1e-2;
+
+/// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
+/// range: about 15 s on a processor of 2020. Beyond, it may take this share of all other work.
+constexpr double free_work = 4e10;
+constexpr double free_at_start = 0.1;
+constexpr double share_of_work = 0.5;
+/// For each factorization, of n^3 / 3 multiplications, the certificate applies the inverse to about this many
+/// vectors, of n^2 each; the corrections of a mode take few.
+constexpr double solutions = 30.0;
+constexpr double solutions_of_mode = 5.0;
+/// Multiplications of a spectrum, of a pencil of size n, in n^3.
+constexpr double spectrum_work = 480.0;
+
+}  // namespace
+
+Uncertified CertificatePatience::treatment(const PathFrame& frame, double h, double longest, int points,
+                                           bool may_cost) const {
+  if (!may_cost) return Uncertified::is_not_tested;
+  if (std::abs(h) <= shrunk * longest && may_stay_uncertified(frame, h)) return Uncertified::passes;
+  const bool exhausted = all_ > free_attempts + attempts_share * points;
+  return exhausted ? Uncertified::passes_by_shape : Uncertified::is_rejected;
+}
+
+bool certificate_may_cost(const RunCounts& counts, Eigen::Index n, double progress) {
+  const auto size = static_cast<double>(n);
+  const auto work = [size](std::uint64_t factorizations, double vectors) {
+    return static_cast<double>(factorizations) * size * size * (size / 3.0 + vectors);
+  };
+  // A basis for all modes has size 2n.
+  const double certificate =
+      work(counts.certificate_factorizations, solutions) + work(8 * counts.certificate_bases, solutions);
+  const double others = work(counts.modes.factorizations + counts.event_factorizations, solutions_of_mode) +
+                        work(8 * counts.modes.modal_bases, solutions_of_mode) +
+                        static_cast<double>(counts.spectra) * spectrum_work * size * size * size;
+  const double free = free_work * (free_at_start + (1.0 - free_at_start) * progress);
+  return certificate <= free + share_of_work * others;
+}
+
+void CertificatePatience::count_failure() {
+  recent_ += 1.0;
+  ++all_;
+}
+
+bool CertificatePatience::is_in_vain(double error) const {
+  return recent_ > enough_failures && error < not_by_error;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,112 @@
+#include "continuation/tracks/silent_partners.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/starting_tracks.hpp"
+#include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Largest number of eigenvalues that are looked at. The one that matters is nearly always the nearest.
+constexpr std::size_t most_neighbours = 3;
+/// Number of eigenvalues that are computed beside those of the track. The farthest ones of a subspace are
+/// inaccurate; a conjugate takes a place, too.
+constexpr Eigen::Index beside = 6;
+/// Largest number of freedoms for which the companion form is factorized.
+constexpr Eigen::Index most_freedoms = 1000;
+
+/// Relative imaginary part up to which an eigenvalue of the subspace counts as real, and relative distance up
+/// to which two count as one: its accuracy before the correction.
+constexpr double real_axis = 1e-8;
+constexpr double same = 1e-6;
+
+/// Relative distance of an eigenvalue or its conjugate from the nearest one of a track.
+double distance_from(const Track& track, Complex s, double reference) {
+  double least = INFINITY;
+  for (const Complex root : track.roots) {
+    const Complex own = chart_value(root, track.pair.chart);
+    const double size = std::max({std::abs(s), std::abs(own), reference});
+    least = std::min({least, std::abs(own - s) / size, std::abs(own - std::conj(s)) / size});
+  }
+  return least;
+}
+
+/// The eigenvalues about those of a track, by inverse iteration.
+Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track) {
+  const Complex centre = chart_value(track.roots[0], track.pair.chart);
+  const Eigen::Index size = std::min(track.size() + beside, 2 * pencil.size());
+  const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, false);
+  Spectrum spectrum;
+  if (!pair.Z.allFinite() || !pair.Lambda.allFinite()) return spectrum;
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    Complex s = solver.eigenvalues()[i];
+    ComplexVector z = (pair.Z * solver.eigenvectors().col(i)).normalized();
+    if (s.imag() < 0.0) {
+      s = std::conj(s);
+      z = z.conjugate();
+    }
+    if (s.imag() <= real_axis * std::abs(s)) {
+      Eigen::Index largest = 0;
+      z.cwiseAbs().maxCoeff(&largest);
+      z = (z * (std::abs(z[largest]) / z[largest])).real().cast<Complex>();
+      s = s.real();
+    }
+    const bool is_known = std::any_of(spectrum.modes.begin(), spectrum.modes.end(), [&](const auto& mode) {
+      return std::abs(mode.s - s) <= same * std::abs(s);
+    });
+    if (!is_known) spectrum.modes.push_back({s, std::move(z), track.pair.part});
+  }
+  spectrum.status = SpectrumStatus::complete;
+  return spectrum;
+}
+
+/// The eigenvalues nearest to a track that no track has.
+std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNode& node,
+                                        const Track& track) {
+  const Spectrum spectrum = spectrum_beside(node.pencil.of(track.pair.part), track);
+  if (spectrum.status != SpectrumStatus::complete) return {};
+  std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
+  std::stable_sort(others.begin(), others.end(), [&](const StartingMode& a, const StartingMode& b) {
+    return distance_from(track, a.s, problem.s_ref) < distance_from(track, b.s, problem.s_ref);
+  });
+  if (others.size() > most_neighbours) others.resize(most_neighbours);
+  return others;
+}
+
+}  // namespace
+
+void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
+  if (node.pencil.of(node.tracks[track].pair.part).size() > most_freedoms) return;
+  const StageTimer timer(counts.matching_seconds);
+  const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
+  for (const StartingGroup& group :
+       starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
+    InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
+                                      problem.s_ref, problem.corrector, counts.modes);
+    if (pair.status != PairStatus::converged) continue;
+    Track guest = differentiate_track(problem, node, std::move(pair), counts);
+    if (!guest.functions.allFinite()) continue;
+    const bool is_followed = std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& other) {
+      return have_common_eigenpair(guest, other, problem.s_ref);
+    });
+    if (is_followed) continue;
+    guest.roots = in_order_of(group.roots, guest.roots);
+    guest.modes.assign(group.modes.size(), Track::guest);
+    node.tracks.push_back(std::move(guest));
+  }
+}
+
+void remove_guests(PathNode& node) {
+  std::erase_if(node.tracks, [](const Track& track) {
+    return std::all_of(track.modes.begin(), track.modes.end(), [](int mode) { return mode < 0; });
+  });
+}
+
+}  // namespace eigentrail

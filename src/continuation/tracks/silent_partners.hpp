@@ -1,0 +1,18 @@
+// Eigenvalues that are not followed but come close to one that is: they are taken into its block as guests,
+// as long as both are close.
+#pragma once
+
+#include "continuation/tracks/partner.hpp"
+#include "eigentrail/continuation/path_point.hpp"
+
+namespace eigentrail {
+
+/// Adds those eigenvalues at a point that no track has and that are nearest to a track, as tracks of guests
+/// behind the others. They are found by inverse iteration about the track; nothing is added to models of more
+/// than a thousand freedoms. Cost: an LU of size 2n, and a correction of each.
+void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts);
+
+/// Removes the tracks that consist of guests.
+void remove_guests(PathNode& node);
+
+}  // namespace eigentrail
