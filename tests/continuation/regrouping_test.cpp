@@ -128,7 +128,7 @@ TEST(Regrouping, CrowdedAreThoseCloserThanAShareOfTheWayTheyMove) {
   EXPECT_EQ(crowd(0.01), std::vector<std::size_t>{});   // the way is 0.004, four times the distance
   EXPECT_EQ(crowd(1.0), std::vector<std::size_t>{1});   // 0.4: four hundred times
   EXPECT_EQ(crowd(-1.0), std::vector<std::size_t>{1});  // backwards as well
-  // On a step so long that the series says nothing, the way counts as no more than the eigenvalue itself.
+  // On a step so long that the series says nothing, the way counts as no more than the largest eigenvalue.
   EXPECT_EQ(crowd(50.0), std::vector<std::size_t>{1});
 }
 

@@ -213,7 +213,7 @@ bool TraceLoop::advance() {
   }
   StepSolver solver = steps();
   std::optional<LandedStep> landed =
-      land(solver, std::move(*attempted.step), if_uncertified(h) == Uncertified::passes);
+      land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
   if (!landed) {
     return shorten(
         {verdict.kind, verdict.track, INFINITY, "a place where the step has to end was not reached"}, length);

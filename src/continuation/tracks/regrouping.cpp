@@ -159,10 +159,19 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
 
 namespace {
 
-/// How far the mean eigenvalue of a track moves on a step of length h; at most by its own size, since on
-/// longer steps the series says nothing.
+/// How far the mean eigenvalue of a track moves on a step of length h.
 double movement(const Track& track, double h) {
-  return std::min(std::abs(mean_series(track.series.Lambda)[1] * h), track.roots.cwiseAbs().maxCoeff());
+  return std::abs(mean_series(track.series.Lambda)[1] * h);
+}
+
+/// Magnitude of the largest eigenvalue in that chart. A track that moves farther on a step has a series that
+/// says nothing there.
+double largest_root(const PathNode& node, Chart chart) {
+  double largest = 0.0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.chart == chart) largest = std::max(largest, track.roots.cwiseAbs().maxCoeff());
+  }
+  return largest;
 }
 
 /// Smallest distance of an eigenvalue of one track from one of another.
@@ -177,6 +186,8 @@ double gap_between(const ComplexVector& a, const ComplexVector& b) {
 std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, double h) {
   const std::vector<Track>& tracks = node.tracks;
   const Chart chart = tracks[index].pair.chart;
+  const double farthest = largest_root(node, chart);
+  const auto way = [&](const Track& one) { return std::min(movement(one, h), farthest); };
   std::vector<Partner> partners;
   std::vector<bool> taken(tracks.size(), false);
   std::vector<std::size_t> open{index};
@@ -186,13 +197,13 @@ std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, 
   while (!open.empty()) {
     const Track& track = tracks[open.back()];
     open.pop_back();
-    const double limit = crowding * movement(track, h);
+    const double limit = crowding * way(track);
     if (!track.pair.is_real && gap_between(track.roots, track.roots.conjugate()) < limit)
       with_conjugates = true;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       if (taken[i] || tracks[i].pair.chart != chart || tracks[i].pair.part != track.pair.part) continue;
       const double gap = gap_between(track.roots, tracks[i].roots);
-      if (gap >= std::max(limit, crowding * movement(tracks[i], h))) continue;
+      if (gap >= std::max(limit, crowding * way(tracks[i]))) continue;
       taken[i] = true;
       open.push_back(i);
       partners.push_back({false, i, gap});
