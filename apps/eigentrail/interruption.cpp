@@ -1,37 +1,60 @@
 #include "interruption.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
 
 namespace eigentrail::app {
 namespace {
 
+/// Seconds that the computation has to reach its next point. A whole spectrum of a large model, for example,
+/// may take longer and cannot be interrupted.
+constexpr unsigned grace = 1;
+
 volatile std::sig_atomic_t noted = 0;  // a signal handler may write only to a variable of this type
+
+extern "C" void end_within_step(int) {
+  constexpr std::string_view message =
+      "\neigentrail: interrupted within a step; the output holds the points up to its last save, and the "
+      "same "
+      "command with --resume goes on\n";
+  // The program ends in any case.
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
+  _exit(128 + noted);
+}
 
 extern "C" void note_signal(int signal) {
   noted = signal;
+  alarm(grace);
 }
 
-void handle(void (*handler)(int), int flags) {
+void handle(int signal, void (*handler)(int), int flags) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = flags;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 Interruption::Interruption() {
   noted = 0;
-  handle(note_signal, SA_RESETHAND | SA_RESTART);
+  handle(SIGALRM, end_within_step, 0);
+  for (const int signal : {SIGINT, SIGTERM}) handle(signal, note_signal, SA_RESETHAND | SA_RESTART);
 }
 
 Interruption::~Interruption() {
-  handle(SIG_DFL, 0);
+  alarm(0);
+  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) handle(signal, SIG_DFL, 0);
 }
 
 int Interruption::signal() const {
   return noted;
+}
+
+void Interruption::save_in_peace() const {
+  alarm(0);
 }
 
 }  // namespace eigentrail::app

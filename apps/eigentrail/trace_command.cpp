@@ -209,6 +209,7 @@ class TraceRun {
         if (writer_->checkpoint(checkpoint)) saved_points_ = recorder_.points();
         return true;
       }
+      interruption_.save_in_peace();
       writer_->interrupt(checkpoint);
       interrupted_ = true;
       saved_points_ = recorder_.points();
@@ -218,6 +219,7 @@ class TraceRun {
   }
 
   int end() {
+    interruption_.save_in_peace();
     progress_.finish();
     const std::string& output = arguments_.output;
     if (interrupted_) {
@@ -320,7 +322,9 @@ void add_trace(CLI::App& program, int& exit_code) {
       "  eigentrail trace data/scenes/rotating_mass.toml -o blade.h5\n"
       "  eigentrail trace scene.toml -o out.h5 --from 100 --to 5 --tolerance 1e-8 --modes 4\n"
       "  eigentrail trace scene.toml -o out.h5 --resume\n\n"
-      "SIGINT and SIGTERM finish the point and save; the exit code is then 130 or 143.");
+      "SIGINT and SIGTERM finish the point and save; the exit code is then 130 or 143. If the point takes "
+      "more\n"
+      "than a second, the program ends with the points up to the last save.");
   command->callback([arguments, &exit_code] { exit_code = run_trace(*arguments); });
 }
 

@@ -64,6 +64,27 @@ class Interrupted(ProgramTest):
                 for name in ("out.h5", "whole.h5"):
                     (self.folder / name).unlink()
 
+    def test_signals_end_a_step_that_takes_long(self):
+        """The first spectrum of 700 freedoms takes much longer than a second."""
+        n = 700
+        with h5py.File(self.folder / "large.h5", "w") as file:
+            random = np.random.default_rng(1)
+            for name, matrices in (("M", [np.eye(n)]), ("K", [random.normal(size=(n, n)), np.eye(n)])):
+                for degree, matrix in enumerate(matrices):
+                    file[f"{name}/{degree}"] = matrix
+        self.write("scene.toml", '[trace]\nparameter = "p"\nfrom = 0\nto = 1\n[matrix_family]\nfile = "large.h5"\n')
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                run = self.start("--force")
+                time.sleep(1.0)
+                self.assertIsNone(run.poll())
+                run.send_signal(number)
+                begin = time.monotonic()
+                said = run.communicate(timeout=TIME_LIMIT)[1]
+                self.assertLess(time.monotonic() - begin, 5.0)  # promised is a second; the machine may be busy
+                self.assertEqual(run.returncode, 128 + number)
+                self.assertIn("eigentrail: interrupted within a step", said)
+
     def test_killed_trace_leaves_a_file_that_goes_on(self):
         """A few kills at different times; kills.py does a thousand."""
         whole = self.whole()
