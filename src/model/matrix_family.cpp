@@ -113,6 +113,16 @@ MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPol
       K_(std::move(K)),
       A_(std::move(A)) {}
 
+std::vector<Expression> MatrixFamily::expressions() const {
+  std::vector<Expression> all;
+  for (const MatrixPolynomial* polynomial : {&M_, &C_, &K_, &A_}) {
+    for (const MatrixPolynomial::Entry& entry : polynomial->entries) {
+      if (std::find(all.begin(), all.end(), entry.expression) == all.end()) all.push_back(entry.expression);
+    }
+  }
+  return all;
+}
+
 Vector MatrixFamily::initial_guess(const Vector&) const {
   return Vector::Zero(n_coordinates());
 }

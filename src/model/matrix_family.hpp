@@ -37,6 +37,7 @@ class MatrixFamily final : public Model {
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
   CoefficientMatrices coefficient_matrices() const override;
+  std::vector<Expression> expressions() const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,

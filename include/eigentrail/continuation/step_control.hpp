@@ -36,7 +36,7 @@ class StepControl {
   void restart(double h);
 
   /// Whether the next step would be shorter than `min_step`.
-  bool exhausted() const { return step_ < min_step_; }
+  bool exhausted() const { return !(step_ >= min_step_ && step_ > 0.0); }
 
   /// Length of the next step that the accuracy allows.
   double step() const { return step_; }

@@ -145,6 +145,10 @@ class Model {
   /// not known or there are constraints. Common structure of these matrices holds on every path.
   virtual CoefficientMatrices coefficient_matrices() const { return {}; }
 
+  /// Expressions of the parameters on which the equations depend, besides the definitions of parameters. A
+  /// trace looks at them between its points.
+  virtual std::vector<Expression> expressions() const { return {}; }
+
   /// The same two at a point (order 0) with 113 bits, for reference solutions. A model that does not support
   /// them returns a fault.
   virtual EvaluationFault extended_residual(const BasicPath<Extended>&,

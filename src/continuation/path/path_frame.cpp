@@ -10,6 +10,15 @@ namespace {
 /// degrees: there a step along the normal still is 0.7 times the step along the path. Replacing it earlier
 /// would only cost the work of rewriting all series.
 constexpr double least_cosine = 0.7;
+/// Growth of the position since it scaled the plane, from which the plane is replaced. Steps have the length
+/// of this scale, so that far out they grow with it.
+constexpr double outgrown = 2.0;
+/// Distance of a pole, as a share of the range, from which on a path can be said to run to infinity: beside a
+/// pole that is passed at a larger distance, the position becomes less again.
+constexpr double beside_pole = 1e-5;
+/// Growth of the position on a step towards a pole. Steps there have a quarter of its length; beside a fold
+/// the position changes less.
+constexpr double pole_growth = 1.02;
 
 }  // namespace
 
@@ -59,6 +68,7 @@ std::optional<double> turn_to_plane(const PathProblem& problem, PathFrame& frame
   reparametrize(turned, plane, problem.traced);
   if (!falls_faster(turned, node.path, problem.traced, frame.scales(), h)) return std::nullopt;
   frame.plane = plane;
+  frame.scaled_at = frame.scales().x;
   frame.bridge.reset();
   frame.direction = 1.0;
   reparametrize(node, plane, problem.traced);
@@ -67,12 +77,24 @@ std::optional<double> turn_to_plane(const PathProblem& problem, PathFrame& frame
 
 bool renew_plane(PathFrame& frame, PathNode& node) {
   const int traced = frame.range.traced;
-  if (!frame.plane || slant(*frame.plane, node.path, traced, frame.scales()) > least_cosine) return false;
+  if (!frame.plane) return false;
+  const bool has_grown = frame.scaled_at > 0.0 && frame.largest_position > outgrown * frame.scaled_at;
+  if (!has_grown && slant(*frame.plane, node.path, traced, frame.scales()) > least_cosine) return false;
   if (frame.on_bridge(node)) return false;
   frame.bridge.reset();
   frame.plane = plane_along(node.path, traced, frame.scales(), 1.0);
+  frame.scaled_at = frame.scales().x;
   reparametrize(node, *frame.plane, traced);
   return true;
+}
+
+bool grows_towards_pole(const PathFrame& frame, const PathNode& previous, const PathNode& node) {
+  if (!frame.plane) return false;
+  const Vector x = node.path.x.col(0);
+  if (!(x.norm() > pole_growth * previous.path.x.col(0).norm())) return false;
+  // |x| = a / (pole - p) has |x| / (d|x|/dp) = pole - p.
+  const double growth = x.dot(node.path.x.col(1)) / x.squaredNorm();
+  return std::abs(frame.speed(node)) < beside_pole * frame.range.length() * growth;
 }
 
 }  // namespace eigentrail

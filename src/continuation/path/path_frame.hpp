@@ -27,6 +27,7 @@ struct PathFrame {
   std::optional<PathPlane> plane = {};  ///< empty: the coordinate is p
   double direction = 1.0;               ///< sign of the steps in the coordinate
   double largest_position = 0.0;        ///< largest |x| on the path so far
+  double scaled_at = 0.0;               ///< largest_position that scales the plane in use
   std::optional<Bridge> bridge = {};    ///< in the coordinate of `plane`
   struct BranchPoint {
     double coordinate = 0.0, p = 0.0;
@@ -84,8 +85,12 @@ constexpr double on_fold = 1e-9;
 /// length in the new coordinate of a step of length h in p; empty if the coordinate is not changed.
 std::optional<double> turn_to_plane(const PathProblem& problem, PathFrame& frame, PathNode& node, double h);
 
+/// Whether the position grows from `previous` to `node` as if it became infinite at a p just ahead, like that
+/// of an unbalanced rotor without damping at a critical speed. True on a single step also beside some folds.
+bool grows_towards_pole(const PathFrame& frame, const PathNode& previous, const PathNode& node);
+
 /// If the path is no longer close to the normal of the plane, replaces the plane by one whose normal is the
-/// tangent of the path. Returns whether it did.
+/// tangent of the path. Likewise if the position has outgrown its scale. Returns whether it did.
 bool renew_plane(PathFrame& frame, PathNode& node);
 
 }  // namespace eigentrail

@@ -135,8 +135,8 @@ static void fields(Self& self, Visit& visit) {
 /// The range is not saved: the options give it.
 template <SameAs<PathFrame> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [range, plane, direction, largest_position, bridge, branch_point] = self;
-  visit(plane, direction, largest_position, bridge, branch_point);
+  auto& [range, plane, direction, largest_position, scaled_at, bridge, branch_point] = self;
+  visit(plane, direction, largest_position, scaled_at, bridge, branch_point);
 }
 
 template <SameAs<StepOrigin> Self, class Visit>
@@ -160,8 +160,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<StepMemory> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [joins, ended, patience, longest_step, turned_step] = self;
-  visit(joins, ended, patience, longest_step, turned_step);
+  auto& [joins, ended, towards_pole, patience, longest_step, turned_step] = self;
+  visit(joins, ended, towards_pole, patience, longest_step, turned_step);
 }
 
 template <SameAs<ModeNumbers> Self, class Visit>

@@ -17,6 +17,7 @@
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/mode_states.hpp"
 #include "continuation/tracks/remedy.hpp"
+#include "scene/narrow_places.hpp"
 
 namespace eigentrail {
 namespace {
@@ -42,6 +43,9 @@ constexpr double uncertified_error = 30.0;
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
+/// Points in a row on which the position grows as towards a pole, until the trace ends. Fewer might be met
+/// beside folds.
+constexpr int enough_towards_pole = 10;
 /// Factor by which the stored longest step decreases with each step, so that it covers about the last ten
 /// steps (0.85^10 = 0.2). Nearer to one, old long steps count for longer.
 constexpr double forgetting = 0.85;
@@ -80,6 +84,17 @@ void add(const Regroupings& changes, Regroupings& all) {
   all.planes += changes.planes;
 }
 
+/// Distance from a point to the next of some places in the direction of the trace; infinite if there is none,
+/// or the coordinate is not p. Beside a place, as far as rounding, it has been reached.
+double distance_to_next(const std::vector<double>& places, const PathFrame& frame, const PathNode& node) {
+  if (frame.plane) return INFINITY;
+  for (const double place : places) {
+    const double distance = frame.direction * (place - node.p);
+    if (distance > same_coordinate * frame.range.length()) return distance;
+  }
+  return INFINITY;
+}
+
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -89,11 +104,14 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       criteria_(criteria_of(options.events)),
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
+      narrow_places_(narrow_places(model.description().parameters, problem_.parameters, problem_.traced,
+                                   options.from, options.to, model.expressions())),
       log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
   state_.frame.range = {problem_.traced, options.from, options.to};
   state_.frame.direction = options.to > options.from ? 1.0 : -1.0;
+  if (options.to < options.from) std::reverse(narrow_places_.begin(), narrow_places_.end());
 }
 
 TraceResult TraceLoop::run() {
@@ -163,6 +181,12 @@ void TraceLoop::follow() {
                                             here + "; raise max_nodes or the tolerance");
       return;
     }
+    if (state_.steps.towards_pole >= enough_towards_pole) {
+      stop(TraceStatus::step_too_small, "the equilibrium runs to infinity near " + here +
+                                            ", as that of an unbalanced rotor without damping does at a "
+                                            "critical speed; begin another trace behind it");
+      return;
+    }
     // The factors are no longer needed: the next point is predicted from the series.
     for (Track& track : state_.origin.node.tracks) track.pair.factors.reset();
     result.seconds = seconds_so_far();
@@ -186,7 +210,8 @@ void TraceLoop::follow() {
 /// special point (landing), and commits it. If the step is rejected, applies a remedy or shortens the next
 /// attempt. Returns whether the trace goes on.
 bool TraceLoop::advance() {
-  const double ahead = remaining(state_.frame, state_.origin.node);
+  const double ahead = std::min(remaining(state_.frame, state_.origin.node),
+                                distance_to_next(narrow_places_, state_.frame, state_.origin.node));
   const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
   const double h = state_.frame.direction * length;
   AttemptedStep attempted = steps().attempt(h);
@@ -373,6 +398,8 @@ void TraceLoop::move_on(Step step) {
   state_.branches.tries = 0;
   origin.previous = std::move(origin.node);
   origin.node = std::move(step.right);
+  const bool grows = grows_towards_pole(frame, origin.previous, origin.node);
+  memory.towards_pole = grows ? memory.towards_pole + 1 : 0;
   origin.last_step = frame.plane ? 0.0 : step.h;
   origin.tried.reset();
   frame.largest_position = std::max(frame.largest_position, origin.node.path.x.col(0).norm());

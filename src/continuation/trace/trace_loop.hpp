@@ -62,6 +62,9 @@ class TraceLoop final : private Checkpoint {
   PathProblem problem_;
   TraceState state_;
   PointSolver points_;
+  /// Where the model changes on a small part of the range, in the order in which the trace meets them. Steps
+  /// end there.
+  std::vector<double> narrow_places_;
   EventLog log_;
   EventSearch search_;
   double reach_ = 3.0;  ///< see parting_reach; replaced when the order is known

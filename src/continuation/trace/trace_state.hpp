@@ -31,8 +31,9 @@ struct BranchPassage {
 
 /// What is remembered of the last steps.
 struct StepMemory {
-  int joins = 0;  ///< attempts to join blocks at the last point
-  int ended = 0;  ///< tracks that ended at the last point
+  int joins = 0;         ///< attempts to join blocks at the last point
+  int ended = 0;         ///< tracks that ended at the last point
+  int towards_pole = 0;  ///< points in a row on which the position grew towards a pole
   CertificatePatience patience = {};
   double longest_step = 0.0;  ///< of about the last ten steps, in the coordinate along the path
   double turned_step = 0.0;   ///< length of the next step if the coordinate has just changed, else 0

@@ -1,0 +1,156 @@
+#include "scene/narrow_places.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "scene/interval.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Degree of the term of the Taylor polynomial that is bounded.
+constexpr int degree = 4;
+/// A piece is described by a polynomial if that term is at most this share of the largest value of the
+/// expression. The places are only to be noticed; a smaller share finds weaker ones.
+constexpr double described = 1e-3;
+/// Pieces are halved down to this share of the range, and up to that many pieces.
+constexpr double shortest = 1e-8;
+constexpr std::size_t most_pieces = 4000;
+/// Pieces into which the range is divided at first, and places at which the scale of the values is taken.
+constexpr int first_pieces = 16;
+constexpr int samples = 256;
+/// A place is narrow if its piece is shorter than this share of the range: between that and the longest step
+/// the error of the dense output notices it.
+constexpr double narrow = 1.0 / 64.0;
+/// Places closer than this many lengths of their pieces are one.
+constexpr double same = 8.0;
+
+using Enclosure = Series<Interval, degree>;
+
+/// A function of the traced parameter as a series about an interval of its values (declared unit).
+using Function = std::function<Enclosure(const Interval&)>;
+
+struct Piece {
+  double begin = 0.0, end = 0.0;
+  double length() const { return end - begin; }
+  double middle() const { return 0.5 * (begin + end); }
+};
+
+/// A function with its values.
+struct Described {
+  Function series;
+  std::function<double(double)> value;
+};
+
+/// Largest magnitude of the values at places all over the range.
+double scale_of(const Described& f, double begin, double end) {
+  double largest = 0.0;
+  for (int i = 0; i <= samples; ++i) {
+    const double value = std::abs(f.value(begin + (end - begin) * i / samples));
+    if (std::isfinite(value)) largest = std::max(largest, value);
+  }
+  return largest;
+}
+
+/// The range in pieces on each of which the function is described by a polynomial.
+class Partition {
+ public:
+  Partition(const Described& f, double begin, double end)
+      : f_(f), shortest_(shortest * (end - begin)), scale_(scale_of(f, begin, end)) {
+    const double step = (end - begin) / first_pieces;
+    for (int i = 0; i < first_pieces; ++i) {
+      add({begin + i * step, i + 1 == first_pieces ? end : begin + (i + 1) * step});
+    }
+  }
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  bool is_described(const Piece& piece) const {
+    const Interval term = f_.series({piece.begin, piece.end})[degree];
+    return term.magnitude() * std::pow(0.5 * piece.length(), degree) <= described * scale_;
+  }
+
+  void add(const Piece& piece) {
+    if (is_described(piece) || piece.length() <= shortest_ || pieces_.size() >= most_pieces) {
+      pieces_.push_back(piece);
+      return;
+    }
+    add({piece.begin, piece.middle()});
+    add({piece.middle(), piece.end});
+  }
+
+  const Described& f_;
+  double shortest_;
+  double scale_;
+  std::vector<Piece> pieces_;
+};
+
+/// Middles of the shortest pieces between longer ones.
+std::vector<Piece> shortest_of(const std::vector<Piece>& pieces, double range) {
+  std::vector<Piece> found;
+  for (std::size_t i = 0; i < pieces.size();) {
+    std::size_t end = i + 1;
+    const double length = pieces[i].length();
+    const auto alike = [&](double other) { return other > 0.75 * length && other < 1.5 * length; };
+    while (end < pieces.size() && alike(pieces[end].length())) ++end;
+    const bool after_longer = i == 0 || pieces[i - 1].length() > length;
+    const bool before_longer = end == pieces.size() || pieces[end].length() > length;
+    if (length < narrow * range && after_longer && before_longer)
+      found.push_back({pieces[i].begin, pieces[end - 1].end});
+    i = end;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<double> narrow_places(const Parameters& parameters, const Vector& values, int traced, double from,
+                                  double to, std::span<const Expression> expressions) {
+  const double begin = std::min(from, to);
+  const double end = std::max(from, to);
+  const auto si_values = [&](auto p) {
+    using Scalar = decltype(p);
+    std::vector<Scalar> si;
+    for (const double value : values) si.emplace_back(value);
+    si[static_cast<std::size_t>(traced)] = p;
+    parameters.to_si(std::span<Scalar>(si));
+    return si;
+  };
+  const auto about = [](const Interval& p) {
+    Enclosure series(p);
+    series[1] = 1.0;
+    return series;
+  };
+  std::vector<Piece> found;
+  const auto look_at = [&](const Described& f) {
+    for (const Piece& piece : shortest_of(Partition(f, begin, end).pieces(), end - begin)) {
+      const bool is_known = std::any_of(found.begin(), found.end(), [&](const Piece& other) {
+        return std::abs(other.middle() - piece.middle()) <= same * std::max(other.length(), piece.length());
+      });
+      if (!is_known && std::isfinite(f.value(piece.middle()))) found.push_back(piece);
+    }
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (static_cast<int>(i) == traced || !parameters.depends_on(static_cast<int>(i), traced)) continue;
+    look_at({[&](const Interval& p) { return si_values(about(p))[i]; },
+             [&](double p) { return si_values(p)[i]; }});
+  }
+  for (const Expression& expression : expressions) {
+    if (!parameters.depends_on(expression, traced)) continue;
+    look_at({[&](const Interval& p) {
+               const std::vector<Enclosure> si = si_values(about(p));
+               return expression.evaluate(std::span<const Enclosure>(si));
+             },
+             [&](double p) {
+               const std::vector<double> si = si_values(p);
+               return expression.evaluate(std::span<const double>(si));
+             }});
+  }
+  std::vector<double> places;
+  for (const Piece& piece : found) places.push_back(piece.middle());
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+}  // namespace eigentrail

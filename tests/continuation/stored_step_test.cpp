@@ -1,0 +1,88 @@
+// A step as it is stored, and the certificates of its tracks.
+#include "continuation/step/stored_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "continuation/planted_search.hpp"
+#include "continuation/step/step_certificate.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// Frequencies 2 + p and 2.6 - p in one block, and 5.
+struct Lines {
+  explicit Lines(double to = 0.2)
+      : planted(Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}}))),
+        left(planted.family.point(0.0, {{{5.0 * j}}, {{2.0 * j, 2.6 * j}}})),
+        step(planted.step(left, to, {{{5.0 * j}}, {{(2.0 + to) * j, (2.6 - to) * j}}})) {}
+  PathStep stored(const std::vector<bool>& certified) {
+    return stored_step(planted.family.problem(), step, certified);
+  }
+  PlantedSearch planted;
+  PathNode left;
+  Step step;
+};
+
+TEST(StoredStep, HoldsTheFunctionsOfEveryTrackAtBothEnds) {
+  Lines lines;
+  const PathStep stored = lines.stored({true, true});
+  EXPECT_EQ(stored.length, 0.2);
+  ASSERT_EQ(stored.blocks.size(), 2U);
+  EXPECT_EQ(stored.blocks[0].modes, std::vector<int>{0});
+  EXPECT_EQ(stored.blocks[1].modes, (std::vector<int>{1, 2}));
+  const ComplexVector at_left{{5.0 * j, 2.0 * j, 2.6 * j}};
+  const ComplexVector at_right{{5.0 * j, 2.2 * j, 2.4 * j}};
+  const ComplexVector middle = step_eigenvalues(stored, at_left, at_right, 0.5);
+  EXPECT_LT(distance(middle, ComplexVector{{5.0 * j, 2.1 * j, 2.5 * j}}), 1e-12);
+}
+
+TEST(StoredStep, IsCertifiedWhereItsTracksAre) {
+  Lines lines;
+  const PathStep stored = lines.stored({false, true});
+  EXPECT_FALSE(stored.blocks[0].certified);
+  EXPECT_TRUE(stored.blocks[1].certified);
+}
+
+TEST(StoredStep, WithoutACertificateIsNotCertified) {
+  Lines lines;
+  for (const DenseBlock& block : lines.stored({}).blocks) EXPECT_FALSE(block.certified);
+}
+
+TEST(Certify, ClosesOnASmoothStep) {
+  Lines lines;
+  RunCounts counts;
+  EXPECT_EQ(certify(lines.planted.family.problem(), lines.step, false, counts),
+            (std::vector<bool>{true, true}));
+  EXPECT_GT(counts.certificate_factorizations, 0U);
+}
+
+/// Two single modes exchanged on the right end: no tube leads from one to the other. Behind the first that
+/// fails the others are tested only if they count.
+TEST(Certify, DoesNotCloseBetweenDifferentModes) {
+  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
+  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
+  Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
+  std::swap(step.right.tracks[0], step.right.tracks[1]);
+  RunCounts counts;
+  EXPECT_EQ(certify(planted.family.problem(), step, true, counts), (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(certify(planted.family.problem(), step, false, counts), (std::vector<bool>{false, false, false}));
+}
+
+TEST(Certify, DoesNotDependOnTheNumberOfThreads) {
+  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
+  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
+  Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
+  std::swap(step.right.tracks[1], step.right.tracks[2]);
+  std::vector<std::uint64_t> work;
+  for (const int threads : {1, 4}) {
+    PathProblem problem = planted.family.problem();
+    problem.threads = threads;
+    RunCounts counts;
+    EXPECT_EQ(certify(problem, step, false, counts), (std::vector<bool>{true, false, false}));
+    work.push_back(counts.certificate_factorizations);
+  }
+  EXPECT_EQ(work[0], work[1]);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
