@@ -1,0 +1,174 @@
+// Whole traces through spectra that are hard in themselves: exceptional points of a high order, non-normal
+// pencils, zeros, eigenvalues from infinity, narrow bumps, poles of the equilibrium. All are known in closed
+// form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// A matrix in the words of a scene, from a function of row and column.
+template <class Entry>
+std::string matrix(int n, Entry entry) {
+  std::ostringstream text;
+  text.precision(17);
+  for (int i = 0; i < n; ++i) {
+    text << (i == 0 ? "[[" : ", [");
+    for (int k = 0; k < n; ++k) text << (k == 0 ? "" : ", ") << entry(i, k);
+    text << "]";
+  }
+  return text.str() + "]";
+}
+
+Setting family(int n, const std::string& M, const std::string& C, const std::string& K, double from,
+               double to, double tolerance) {
+  std::ostringstream text;
+  text << "[trace]\nparameter = \"p\"\nfrom = " << from << "\nto = " << to << "\ntolerance = " << tolerance
+       << "\n[matrix_family]\nM = [" << M << "]\nC = ["
+       << (C.empty() ? matrix(n, [](int, int) { return 0; }) : C) << "]\nK = [" << K << "]\n";
+  return make_setting(text.str());
+}
+
+std::string identity(int n) {
+  return matrix(n, [](int i, int k) { return i == k ? 1 : 0; });
+}
+std::string zero(int n) {
+  return matrix(n, [](int, int) { return 0; });
+}
+
+int count(const RecordedTrace& trace, EventKind kind) {
+  const auto& events = trace.result.events;
+  return static_cast<int>(
+      std::count_if(events.begin(), events.end(), [&](const Event& e) { return e.kind == kind; }));
+}
+
+/// x' = A(p) x with A = tridiag(1 + p, -2, 1 - p): s = -2 +- 2 sqrt(1 - p^2) cos(k pi / (n + 1)), real below
+/// p = 1, where all n meet in one exceptional point, and complex above.
+TEST(SensitiveSpectra, TenEigenvaluesPassThroughOneExceptionalPoint) {
+  constexpr int n = 10;
+  const auto band = [](double below, double on, double above) {
+    return matrix(n, [=](int i, int k) {
+      return i == k ? on : k == i - 1 ? below : k == i + 1 ? above : 0.0;
+    });
+  };
+  const RecordedTrace trace =
+      record_trace(family(n, zero(n), identity(n), band(-1, 2, -1) + ", " + band(-1, 0, 1), 0.0, 3.0, 1e-6));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  EXPECT_LT(trace.result.nodes, 100);
+  for (const double p : {0.5, 0.9, 1.5, 2.9}) {
+    std::vector<double> expected, found;
+    for (int k = 1; k <= n; ++k) {
+      const double angle = k * M_PI / (n + 1);
+      const double radius = 2.0 * std::sqrt(std::abs(1.0 - p * p)) * std::cos(angle);
+      expected.push_back(p < 1.0 ? radius : std::abs(radius));
+    }
+    const ComplexVector s = trace.eigenvalues_at(p);
+    for (const Complex root : s) {
+      if (!std::isfinite(root.real())) continue;
+      found.push_back(p < 1.0 ? root.real() + 2.0 : root.imag());
+      EXPECT_LT(std::abs(p < 1.0 ? root.imag() : root.real() + 2.0), 2e-6) << p;
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    if (p > 1.0) {
+      // complex pairs are one mode each, or two with the same eigenvalue
+      found.erase(
+          std::unique(found.begin(), found.end(), [](double a, double b) { return std::abs(a - b) < 1e-4; }),
+          found.end());
+      expected.erase(std::unique(expected.begin(), expected.end(),
+                                 [](double a, double b) { return std::abs(a - b) < 1e-9; }),
+                     expected.end());
+    }
+    ASSERT_EQ(found.size(), expected.size()) << p;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 5e-6) << p;
+  }
+}
+
+/// K = 4 I + a Jordan block with p in its corner: s^2 = -4 - p^(1/8), an exceptional point of order eight.
+TEST(SensitiveSpectra, EightEigenvaluesMeetAndPart) {
+  constexpr int n = 8;
+  const std::string K0 = matrix(n, [](int i, int k) { return i == k ? 4 : k == i + 1 ? 1 : 0; });
+  const std::string K1 = matrix(n, [](int i, int k) { return i == n - 1 && k == 0 ? 1 : 0; });
+  const RecordedTrace trace = record_trace(family(n, identity(n), "", K0 + ", " + K1, -0.5, 0.7, 1e-9));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  ASSERT_EQ(count(trace, EventKind::collision), 1);
+  const auto& event = *std::find_if(trace.result.events.begin(), trace.result.events.end(),
+                                    [](const Event& e) { return e.kind == EventKind::collision; });
+  EXPECT_NEAR(event.p, 0.0, 1e-12);
+  EXPECT_EQ(event.modes.size(), 8U);
+  EXPECT_NEAR(std::abs(event.puiseux), 0.25, 1e-6);
+  for (const double p : {-0.4, 0.6}) {
+    for (const Complex s : trace.eigenvalues_at(p))
+      EXPECT_NEAR(std::abs(std::pow(s * s + 4.0, 8) - p), 0.0, 1e-6) << p;
+  }
+}
+
+/// p s^2 + s + 1: one eigenvalue comes from infinity at p = 0, and meets the other at p = 1/4.
+TEST(SensitiveSpectra, AnEigenvalueFromInfinityIsTakenUp) {
+  const RecordedTrace trace = record_trace(family(1, "[[0]], [[1]]", "[[1]]", "[[1]]", 0.0, 1.0, 1e-9));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  ASSERT_EQ(count(trace, EventKind::collision), 1);
+  EXPECT_NEAR(trace.result.events[0].p, 0.25, 1e-12);
+  EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.2)[0] - (-1.0 + std::sqrt(0.2)) / 0.4), 0.0, 1e-8);
+  EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.5)[0] - Complex(-1.0, 1.0)), 0.0, 1e-8);
+}
+
+/// A mass on drag, free in a plane: two zeros, and -drag twice, for every drag.
+TEST(SensitiveSpectra, ZerosOfAFreeParticleStayZero) {
+  const RecordedTrace trace =
+      record_trace(make_setting("[parameters]\ndrag = 1.0\n[trace]\nparameter = \"drag\"\nfrom = 1.0\nto = "
+                                "3.0\n[[point]]\nname = \"a\"\n"
+                                "mass = 1\nposition = [0, 0, 0]\n[[fixed]]\npoint = \"a\"\ncoordinate = "
+                                "\"z\"\n[[drag]]\npoint = \"a\"\n"
+                                "coefficient = \"drag\"\n"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  EXPECT_EQ(trace.result.certified_steps, trace.result.mode_steps);
+  const ComplexVector s = trace.eigenvalues_at(2.0);
+  EXPECT_EQ(std::count(s.begin(), s.end(), Complex(0.0)), 2);
+  EXPECT_NEAR(std::abs(s.sum() + 4.0), 0.0, 1e-9);
+}
+
+/// s^2 + 0.1 s + 1 - 2 exp(-((p - c) / w)^2): on a bump of width 1e-3 of the range the stiffness becomes
+/// negative: a divergence on either side of it.
+TEST(SensitiveSpectra, ANarrowBumpIsNotSteppedOver) {
+  constexpr double c = 0.3137;
+  constexpr double w = 1e-3;
+  const RecordedTrace trace = record_trace(
+      family(1, "[[1]]", "[[0.1]]", "[[\"1 - 2*exp(-((p - 0.3137)/1e-3)^2)\"]]", 0.0, 1.0, 1e-8));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  std::vector<double> places;
+  for (const Event& event : trace.result.events) {
+    if (event.kind == EventKind::divergence) places.push_back(event.p);
+  }
+  std::sort(places.begin(), places.end());
+  ASSERT_EQ(places.size(), 2U);
+  const double half = w * std::sqrt(std::log(2.0));
+  EXPECT_NEAR(places[0], c - half, 1e-10);
+  EXPECT_NEAR(places[1], c + half, 1e-10);
+}
+
+/// An unbalanced disc without damping: x = 0.001 k / (k - omega^2), a pole at omega = 10.
+TEST(SensitiveSpectra, APoleOfTheEquilibriumEndsTheTraceWithAReason) {
+  const auto spring = [](const std::string& direction, const std::string& reference) {
+    return "[[guided_spring]]\npoint = \"disc\"\ndirection = " + direction + "\nstiffness = 100\n" +
+           reference;
+  };
+  const RecordedTrace trace = record_trace(make_setting(
+      "[parameters]\nomega = 1.0\n[trace]\nparameter = \"omega\"\nfrom = 1.0\nto = 20.0\n[frame]\n"
+      "angular_velocity = [0, 0, \"omega\"]\n[[point]]\nname = \"disc\"\nmass = 1\nposition = [0.001, 0, "
+      "0]\n" +
+      spring("[1, 0, 0]", "reference = 0.001\n") + spring("[0, 1, 0]", "") +
+      "[[fixed]]\npoint = \"disc\"\ncoordinate = \"z\"\n"));
+  EXPECT_EQ(trace.result.status, TraceStatus::step_too_small);
+  EXPECT_NE(trace.result.message.find("runs to infinity"), std::string::npos) << trace.result.message;
+  EXPECT_NEAR(trace.result.reached, 10.0, 1e-3);
+  EXPECT_LT(trace.result.nodes, 200);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
