@@ -43,6 +43,8 @@ struct Track {
   /// Eigenvalues of a block that are closer than this stay together, because no certificate could keep them
   /// apart.
   double inseparable = 0.0;
+  /// Whether the block has been formed or enlarged for that reason and has not been certified since.
+  bool unproven = false;
   bool passed = false;   ///< accepted as extrapolated from the last step, without correction
   std::vector<int> met;  ///< indices of the roots that coincide at the point or have a narrow veering there
 

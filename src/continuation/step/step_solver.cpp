@@ -76,6 +76,7 @@ AttemptedStep StepSolver::attempt(double h) {
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     next->tracks[i].lineage = node.tracks[i].lineage;
     next->tracks[i].inseparable = node.tracks[i].inseparable;
+    next->tracks[i].unproven = node.tracks[i].unproven;
   }
   AttemptedStep attempted{Step{&node, std::move(*next), h}, {}};
   order_arrival(*attempted.step);

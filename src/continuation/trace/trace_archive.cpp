@@ -39,10 +39,10 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<Track> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable, passed,
-         met] = self;
-  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable, passed,
-        met);
+  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
+         unproven, passed, met] = self;
+  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
+        unproven, passed, met);
 }
 
 template <SameAs<Linearization> Self, class Visit>

@@ -325,6 +325,9 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
     result.mode_steps += static_cast<long>(block.modes.size());
     if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
   }
+  for (std::size_t i = 0; i < certified.size(); ++i) {
+    if (certified[i]) step.right.tracks[i].unproven = false;
+  }
   const bool go_on = emit(step.right, &stored);
   for (Track& track : step.right.tracks) track.arriving = track.modes;
   const bool leaves = leaves_path_at(step.right);

@@ -28,12 +28,6 @@ constexpr double same = 1e-4;
 constexpr double unrelated = 1e6;
 /// A track with a larger backward error is no eigenpair: corrected pairs have errors close to rounding.
 constexpr double largest_backward_error = 1e-8;
-/// Two tracks have the same eigenpair if they have an eigenvalue in common up to this relative difference,
-/// ...
-constexpr double shared_distance = 1e-8;
-/// ... and the unit vector of one has at most this distance from the space of the other, about the sine of
-/// the angle.
-constexpr double shared_angle = 0.03;
 
 /// All finite eigenvalues that the tracks represent, with the conjugates of complex pairs.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
@@ -153,14 +147,15 @@ ComplexVector vector_of(const Track& track, Eigen::Index root) {
 
 }  // namespace
 
-bool have_common_eigenpair(const Track& a, const Track& b, double reference) {
+bool have_common_eigenpair(const Track& a, const Track& b, double reference,
+                           const IdentityThresholds& thresholds) {
   if (a.pair.chart != b.pair.chart || a.pair.part != b.pair.part) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double scale = std::max(std::abs(a.roots[i]), reference);
-    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > shared_distance * scale) continue;
+    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > thresholds.merged_distance * scale) continue;
     const ComplexVector z = vector_of(a, i);
     const ComplexVector outside = z - b.pair.Z * b.pair.Z.colPivHouseholderQr().solve(z);
-    if (outside.norm() < shared_angle) return true;
+    if (1.0 - outside.squaredNorm() > thresholds.merged_assurance) return true;
   }
   return false;
 }
@@ -170,7 +165,9 @@ bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
     const Track& track = node.tracks[i];
     if (track.pair.backward_error > largest_backward_error) return true;
     for (std::size_t j = 0; j < i; ++j) {
-      if (have_common_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart))) return true;
+      if (have_common_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart),
+                                problem.thresholds.identity))
+        return true;
     }
   }
   return false;

@@ -18,13 +18,14 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem);
 /// one. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
 std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref);
 
-/// Whether two tracks at a point have an eigenpair in common: eigenvalues that differ by at most 1e-8,
-/// relative to their size or to `reference`, and a vector of one in the space of the other.
-bool have_common_eigenpair(const Track& a, const Track& b, double reference);
+/// Whether two tracks at a point have an eigenpair in common: eigenvalues that differ by at most
+/// `merged_distance`, relative to their size or to `reference`, and a vector of one that has at least the
+/// assurance `merged_assurance` with the space of the other.
+bool have_common_eigenpair(const Track& a, const Track& b, double reference,
+                           const IdentityThresholds& thresholds);
 
 /// Whether the backward error of a track is so large that it is no eigenpair, or two tracks have the same
-/// eigenpair: eigenvalues that differ by at most 1e-8, relatively, and a vector of one in the space of the
-/// other. Cost O(n) for every two tracks with such eigenvalues.
+/// eigenpair (have_common_eigenpair). Cost O(n) for every two tracks with such eigenvalues.
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem);
 
 /// The result of `complete`.

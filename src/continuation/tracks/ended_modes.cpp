@@ -74,7 +74,7 @@ std::optional<Track> at_point(const PathProblem& problem, const PathNode& node, 
   Track track = differentiate_track(problem, node, std::move(pair), counts);
   if (!track.functions.allFinite()) return std::nullopt;
   for (const Track& other : node.tracks) {
-    if (have_common_eigenpair(track, other, reference)) return std::nullopt;
+    if (have_common_eigenpair(track, other, reference, problem.thresholds.identity)) return std::nullopt;
   }
   track.roots = in_order_of(ended.roots, track.roots);
   track.modes = track.arriving = ended.modes;

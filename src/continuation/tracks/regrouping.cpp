@@ -18,6 +18,9 @@ namespace {
 /// Largest number of eigenvalues of a block that is formed on the way. Bounds its cost: a block of k
 /// eigenvalues takes k factorizations, and its dense output has k^2 functions.
 constexpr Eigen::Index largest_block = 16;
+/// Blocks up to this size may hold all 2n eigenvalues of a small pencil. Larger ones hold at most n: nearly a
+/// whole spectrum as one block says nothing about its parts, and its functions are ill-conditioned.
+constexpr Eigen::Index small_block = 6;
 /// Two eigenvalues are crowded on a step if their distance is below this share of the way that they move. A
 /// certificate that keeps them apart needs a number of factorizations of the order of the reciprocal. A
 /// larger value makes more blocks, a smaller one more expensive certificates; no result depends on it.
@@ -38,6 +41,11 @@ constexpr double much_smaller_term = 0.2;
 /// ... and the eigenvalue changes by more than this share of itself on the step. Otherwise both charts are
 /// alike.
 constexpr double least_change = 0.2;
+
+/// Largest size of a block of a pencil of size n.
+Eigen::Index largest_block_of(Eigen::Index n) {
+  return std::min({largest_block, std::max(small_block, n), 2 * n});
+}
 
 /// Distance of a complex number from the real segment between 0 and h.
 double distance_to_step(Complex z, double h) {
@@ -292,8 +300,7 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     modes.insert(modes.end(), track.modes.begin(), track.modes.end());
     if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
   }
-  if (static_cast<Eigen::Index>(known.size()) >
-      std::min(largest_block, 2 * node.pencil.of(pairs[0].part).size()))
+  if (static_cast<Eigen::Index>(known.size()) > largest_block_of(node.pencil.of(pairs[0].part).size()))
     return false;
   Track joined;
   const ComplexVector values =

@@ -20,14 +20,16 @@ constexpr double kept_together = 3.0;
 /// of the last steps: each look costs a large factorization.
 constexpr double shrinking = 0.25;
 
-/// Joins a track that is not certified with the nearest other one, and keeps both together. A block that was
-/// formed at this point already, without effect, is not made larger.
+/// Joins a track that is not certified with the nearest other one, and keeps both together. A block for which
+/// this was done before, without effect, is not made larger.
 bool join_nearest(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
-  if (node.tracks[track].size() > 1 && node.tracks[track].arriving.empty()) return false;
+  if (node.tracks[track].unproven) return false;
   const std::optional<Partner> nearest = nearest_partner(node, track);
-  if (!nearest || !join(problem, node, track, {*nearest}, counts)) return false;
+  if (!nearest || node.tracks[nearest->track].unproven) return false;
+  if (!join(problem, node, track, {*nearest}, counts)) return false;
   Track& joined = node.tracks.back();
   joined.inseparable = std::max(joined.inseparable, kept_together * nearest->distance);
+  joined.unproven = true;
   return true;
 }
 

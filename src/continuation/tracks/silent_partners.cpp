@@ -94,7 +94,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     Track guest = differentiate_track(problem, node, std::move(pair), counts);
     if (!guest.functions.allFinite()) continue;
     const bool is_followed = std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& other) {
-      return have_common_eigenpair(guest, other, problem.s_ref);
+      return have_common_eigenpair(guest, other, problem.s_ref, problem.thresholds.identity);
     });
     if (is_followed) continue;
     guest.roots = in_order_of(group.roots, guest.roots);
