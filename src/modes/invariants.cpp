@@ -141,7 +141,10 @@ double root_resolution(const ComplexVector& functions, const ComplexVector& root
   const ComplexMatrix Lambda = functions.reshaped(k, k);
   // Departure from normality (Henrici 1962).
   const double departure = std::sqrt((Lambda * Lambda.adjoint() - Lambda.adjoint() * Lambda).norm());
-  const double order = 1.0 / static_cast<double>(k);
+  // In blocks of a few, two of them nearly always meet at a time. Larger blocks are formed at exceptional
+  // points of their order.
+  constexpr Eigen::Index few = 6;
+  const double order = k <= few ? 0.5 : 1.0 / static_cast<double>(k);
   const double resolution = std::pow(rounding * Lambda.norm(), order) * std::pow(departure, 1.0 - order);
   return (roots.array() - roots.mean()).abs().maxCoeff() <= resolution ? resolution : 0.0;
 }

@@ -43,7 +43,8 @@ Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, c
 /// Distance (1/s) below which the eigenvalues of a block cannot be distinguished. Nonzero only for blocks of
 /// three and more whose `roots` all coincide within rounding, for example several rigid-body modes or an
 /// exceptional point of that order. A matrix of size k that is far from normal determines its eigenvalues
-/// only to the k-th root of its rounding error (Henrici, Numer. Math. 4, 1962).
+/// only to the k-th root of its rounding error (Henrici, Numer. Math. 4, 1962); up to six are taken to meet
+/// two at a time, with the square root.
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
 
 /// The values `to` in the order of `from`: the assignment with the least total distance.

@@ -12,12 +12,12 @@ constexpr double shrunk = 1e-2;
 /// Steps are rejected because their certificate fails only up to this many times, plus this share of the
 /// number of points. Beyond, they pass without certificate if the shapes of their modes agree, and are marked
 /// so. Larger values take longer there; with smaller ones steps that could be certified stay without.
-constexpr double free_attempts = 20.0;
+constexpr double free_attempts = 30.0;
 constexpr double attempts_share = 0.25;
 /// If the certificate has failed more often than this of late, and the error of the step is below this share
 /// of the accepted one, it does not fail because of the length. With more failures longer is tried, with
 /// fewer blocks are formed where a shorter step would do.
-constexpr double enough_failures = 2.0;
+constexpr double enough_failures = 2.5;
 constexpr double not_by_error = 1e-2;
 
 /// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
