@@ -51,6 +51,7 @@ void keep_shape(const PathNode& node, const Track& track, const std::vector<int>
 }
 
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts) {
+  if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
   PathPoint point;
   point.p = node.p;
   point.equilibrium = keep_equilibrium(problem.model, node.path.parameters.col(0), node.path.x.col(0),
