@@ -131,7 +131,8 @@ TEST(FindVeerings, EndAtTheLargestHalfWidth) {
 /// Places outside the range of the parameter belong to nobody.
 TEST(FindVeerings, EndAtTheEndsOfTheRange) {
   Sloping sloping(0.015);
-  sloping.planted.frame.range.from = Sloping::place + 1e-3;
+  PathRange& range = sloping.planted.frame.range;
+  range = {range.traced, Sloping::place + 1e-3, Sloping::place + 2.0};
   const FoundEvents found = sloping.find(0.0, 0.09, true);
   EXPECT_TRUE(found.events.empty() && found.dismissed.empty());
 }
