@@ -1,11 +1,13 @@
-// Eigenvalues and criteria of one track on a step, and the walk to a zero or an extremum.
+// Eigenvalues and criteria of one track on a step, and the walk to a zero or an extremum, with places in
+// closed form.
 #include "continuation/events/criterion_walk.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
-#include "continuation/planted_search.hpp"
+#include "continuation/planted_oscillator.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -110,6 +112,197 @@ TEST(Locate, FindsBothZerosBesideATouch) {
   ASSERT_EQ(found.events.size(), 2U);
   EXPECT_NEAR(std::min(found.events[0].p, found.events[1].p), 0.09, 1e-11);
   EXPECT_NEAR(std::max(found.events[0].p, found.events[1].p), 0.11, 1e-11);
+}
+
+using Sought = CriterionTarget::Sought;
+
+struct Located {
+  bool done = false;
+  FoundEvents found;
+};
+
+/// Locates on a step of the first eigenvalue of the first track.
+Located locate_on(const PlantedOscillator& planted, const Step& step, const CriterionTarget& target, double t,
+                  double excitation = 0.0) {
+  ComplexMatrix constant = ComplexMatrix::Zero(1, 2);
+  constant(0, 0) = excitation;
+  const HermiteInterpolant interpolant(step.h, constant, constant);
+  CriteriaOnStep on_step(step, 0, interpolant);
+  Located located;
+  located.done = locate(planted.search, step, on_step, {0, 0}, target, t, located.found);
+  return located;
+}
+
+const Criterion flutter{EventKind::flutter, 0.0};
+
+/// Re s = -c / 2 with c = 0.2 - p - p^2.
+TEST(Locate, FindsFlutterInBothDirectionsOfTheTrace) {
+  const double zero = 0.5 * (std::sqrt(1.8) - 1.0);
+  for (const bool backward : {false, true}) {
+    PlantedOscillator planted({0.2, -1.0, -1.0}, {4.0, 1.0});
+    const Step step = backward ? planted.single(0.3, -0.1) : planted.single(-0.1, 0.3);
+    // As accurate as the dense output gives it. Im s and ds/dp are of the last point of the walk.
+    const double guess = (zero + 1e-6 - step.left->p) / step.h;
+    const Located located = locate_on(planted, step, {flutter, true}, guess);
+    ASSERT_TRUE(located.done);
+    ASSERT_EQ(located.found.events.size(), 1U);
+    const Event& event = located.found.events[0];
+    EXPECT_EQ(event.kind, EventKind::flutter);
+    EXPECT_NEAR(event.p, zero, 1e-14);
+    EXPECT_EQ(event.s.real(), 0.0);
+    EXPECT_NEAR(event.s.imag(), std::sqrt(4.0 + zero), 1e-13);
+    EXPECT_EQ(event.direction, 1) << "less stable with growing p, wherever the trace goes";
+    EXPECT_EQ(event.modes, std::vector<int>{0});
+    // ds/dp = -(c' s + k') / (2 s + c).
+    const Complex slope = -(-(1.0 + 2.0 * zero) * event.s + 1.0) / (2.0 * event.s);
+    EXPECT_LT(std::abs(event.sensitivity[0] - slope), 1e-5);
+    EXPECT_LE(event.retrackings, 5);
+  }
+}
+
+TEST(Locate, FindsDivergenceOfARealMode) {
+  PlantedOscillator planted({3.0}, {0.3, -1.0});
+  const Located located = locate_on(planted, planted.single(0.1, 0.4), {flutter, false}, 0.5);
+  ASSERT_EQ(located.found.events.size(), 1U);
+  EXPECT_EQ(located.found.events[0].kind, EventKind::divergence);
+  EXPECT_NEAR(located.found.events[0].p, 0.3, 1e-14);
+  EXPECT_EQ(located.found.events[0].s, 0.0);
+  EXPECT_EQ(located.found.events[0].direction, 1);
+}
+
+/// c = 0.2, k = 1 + p: damping ratio 0.1 / sqrt(1 + p), and the decrement that belongs to it.
+TEST(Locate, FindsRequestedValuesInEitherChart) {
+  const auto ratio_at = [](double p) { return 0.1 / std::sqrt(1.0 + p); };
+  const double ratio = ratio_at(0.23);
+  const double decrement = 2.0 * std::numbers::pi * ratio / std::sqrt(1.0 - ratio * ratio);
+  PlantedOscillator planted({0.2}, {1.0, 1.0});
+  const double frequency = planted.root(0.23).imag();
+  for (const Chart chart : {Chart::finite, Chart::reciprocal}) {
+    const Step step = planted.single(0.0, 0.4, chart);
+    for (const Criterion& criterion :
+         {Criterion{EventKind::damping_ratio, ratio}, Criterion{EventKind::log_decrement, decrement}}) {
+      const Located located = locate_on(planted, step, {criterion, true}, 0.4);
+      ASSERT_EQ(located.found.events.size(), 1U);
+      const Event& event = located.found.events[0];
+      EXPECT_EQ(event.kind, criterion.kind);
+      EXPECT_EQ(event.value, criterion.value);
+      EXPECT_NEAR(event.p, 0.23, 1e-12);
+      EXPECT_EQ(event.direction, 1);
+    }
+  }
+  planted.options.events.excitation = Expression::parse("0.5", {});
+  const Criterion resonance{EventKind::resonance, 2.0 * frequency};
+  const Located located = locate_on(planted, planted.single(0.0, 0.4), {resonance, true}, 0.4, 0.5);
+  ASSERT_EQ(located.found.events.size(), 1U);
+  EXPECT_NEAR(located.found.events[0].p, 0.23, 1e-12);
+  EXPECT_EQ(located.found.events[0].direction, 1) << "Im s grows";
+}
+
+/// Damping ratio 0.1 + p^2 / 2 or 0.1 - p^2 / 2.
+TEST(Locate, TellsMinimaFromMaxima) {
+  for (const double bend : {1.0, -1.0}) {
+    PlantedOscillator planted({0.2, 0.0, bend}, {1.0});
+    const CriterionTarget target{{EventKind::extremum, 0.0}, true, Sought::extremum};
+    const Located located = locate_on(planted, planted.single(-0.2, 0.3), target, 0.5);
+    ASSERT_EQ(located.found.events.size(), 1U);
+    const Event& event = located.found.events[0];
+    EXPECT_NEAR(event.p, 0.0, 1e-10);
+    EXPECT_NEAR(event.value, 0.1, 1e-10);
+    EXPECT_EQ(event.direction, bend > 0.0 ? 1 : -1);
+  }
+}
+
+TEST(Locate, AFlatExtremumIsRounding) {
+  PlantedOscillator planted({0.2, 0.0, 1.0}, {1.0});
+  const CriterionTarget target{{EventKind::extremum, 0.0}, true, Sought::extremum};
+  const Step step = planted.single(-0.2, 0.3);
+  // The ratio changes by 0.03 over half the step.
+  planted.options.tolerance = 0.1;
+  const Located located = locate_on(planted, step, target, 0.5);
+  EXPECT_TRUE(located.done);
+  EXPECT_TRUE(located.found.events.empty());
+}
+
+/// c = (p - 0.1)^2 - d: two zeros at 0.1 +- sqrt(d), one that is touched, or none.
+TEST(Locate, AtATouchTellsTwoZerosFromOneAndNone) {
+  for (const double d : {1e-4, 1e-8, 0.0, -1e-6}) {
+    PlantedOscillator planted({0.01 - d, -0.2, 1.0}, {1.0});
+    const Located located =
+        locate_on(planted, planted.single(-0.1, 0.25), {flutter, true, Sought::touch}, 0.55);
+    ASSERT_TRUE(located.done);
+    const std::vector<Event>& events = located.found.events;
+    if (d > 0.0) {
+      ASSERT_EQ(events.size(), 2U) << d;
+      EXPECT_NEAR(events[0].p, 0.1 - std::sqrt(d), 1e-11);
+      EXPECT_NEAR(events[1].p, 0.1 + std::sqrt(d), 1e-11);
+      EXPECT_EQ(events[0].direction, -events[1].direction);
+    } else if (d == 0.0) {
+      ASSERT_EQ(events.size(), 1U);
+      EXPECT_NEAR(events[0].p, 0.1, 1e-10);
+      EXPECT_EQ(events[0].direction, 0);
+    } else {
+      EXPECT_TRUE(events.empty());
+    }
+  }
+}
+
+TEST(Locate, LeavesZerosOfOtherStepsToThem) {
+  PlantedOscillator planted({0.2, -1.0}, {1.0});
+  // A little outside: may be lost between two steps. Farther outside: found there.
+  const Located near = locate_on(planted, planted.single(0.1, 0.199), {flutter, true}, 0.9);
+  EXPECT_TRUE(near.done);
+  EXPECT_EQ(near.found.events.size(), 1U);
+  const Located far = locate_on(planted, planted.single(0.1, 0.18), {flutter, true}, 0.9);
+  EXPECT_TRUE(far.done);
+  EXPECT_TRUE(far.found.events.empty());
+}
+
+TEST(Locate, FailsWhereThereIsNoZero) {
+  PlantedOscillator planted({0.2, 0.1}, {1.0});
+  const Located located = locate_on(planted, planted.single(-0.1, 0.1), {flutter, true}, 0.5);
+  EXPECT_FALSE(located.done);
+  EXPECT_TRUE(located.found.events.empty());
+}
+
+/// For comparison: the zero of the dense output of order 1 is farther off than the walk, by far.
+TEST(Locate, IsMoreAccurateThanTheDenseOutput) {
+  PlantedOscillator planted({0.2}, {1.0, 1.0}, 1);
+  const Step step = planted.single(0.0, 0.9);
+  const Criterion criterion{EventKind::damping_ratio, 0.1 / std::sqrt(1.5)};
+  const HermiteInterpolant none(step.h, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2));
+  CriteriaOnStep on_step(step, 0, none);
+  double from = 0.0, to = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (from + to);
+    (on_step.value(criterion, 0, middle) < 0.0 ? from : to) = middle;
+  }
+  const Located located = locate_on(planted, step, {criterion, true}, 0.5);
+  ASSERT_EQ(located.found.events.size(), 1U);
+  const double miss = std::abs(located.found.events[0].p - 0.5);
+  EXPECT_LT(miss, 1e-12);
+  EXPECT_GT(std::abs(0.9 * from - 0.5), 1e5 * std::max(miss, 1e-13));
+}
+
+/// A pair that meets on the real axis at p = 0.75: its criteria begin a little behind that point.
+TEST(CriteriaOnStep, BeginsWhereEigenvaluesCanBeDistinguished) {
+  PlantedOscillator planted({1.0}, {1.0, -1.0});
+  const auto both = [](double p) {
+    const double root = std::sqrt(p - 0.75);
+    return std::vector<Together>{{{-0.5 + root, -0.5 - root}}};
+  };
+  planted.left = planted.family.point(0.75, {{{-0.5, -0.5}}});
+  planted.left.tracks[0].departure = Track::Departure{1e-4, ComplexVector{{-0.49, -0.51}}};
+  const Step step = planted.step(planted.left, 0.85, both(0.85));
+  const HermiteInterpolant none(step.h, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2));
+  CriteriaOnStep on_step(step, 0, none);
+  EXPECT_NEAR(on_step.begin(), 1e-3, 1e-12);
+  EXPECT_GT(on_step.noise(), 1e-8);
+  EXPECT_LT(on_step.noise(), 1e-5);
+  EXPECT_NEAR(on_step.value(flutter, 0, 0.4), -0.3, 1e-6);
+  EXPECT_NEAR(on_step.value(flutter, 1, 0.4), -0.7, 1e-6);
+  // Beyond the ends: those at the ends.
+  EXPECT_LT(std::abs(on_step.member_near(0, -1.0) - (-0.49)), 1e-8);
+  EXPECT_LT(std::abs(on_step.member_near(0, 2.0) - planted.root(0.85)), 1e-12);
 }
 
 }  // namespace

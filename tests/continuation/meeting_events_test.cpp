@@ -26,7 +26,7 @@ TEST(MeetingEvents, GiveTheCrossingWithItsModes) {
   const FoundEvents found = meeting_events(at.planted.search, at.node, at.meetings);
   ASSERT_EQ(found.events.size(), 1U);
   EXPECT_EQ(found.events[0].kind, EventKind::crossing);
-  EXPECT_EQ(found.events[0].p, 0.0);
+  EXPECT_NEAR(found.events[0].p, 0.0, 1e-14);
   EXPECT_LT(std::abs(found.events[0].s - 2.0 * j), 1e-7);
   EXPECT_EQ(found.events[0].modes, (std::vector<int>{1, 2}));
   EXPECT_TRUE(meeting_events(at.planted.search, at.node, {}).events.empty());
@@ -63,6 +63,70 @@ TEST(MarkMeetings, NotesWhichRootsTakePart) {
   mark_meetings(at.meetings, at.node);
   EXPECT_TRUE(at.node.tracks[0].met.empty());
   EXPECT_EQ(at.node.tracks[1].met.size(), 2U);
+}
+
+/// s^2 + 2 d s + 1 - p meets at p = 1 - d^2, s = -d: s = -d +- sqrt(p - p*) in either chart.
+TEST(MeetingEvents, GiveACollisionInEitherChart) {
+  constexpr double d = 0.5;
+  for (const Chart chart : {Chart::finite, Chart::reciprocal}) {
+    PlantedSearch planted(Planted({{Matrix{{1.0}}}, {Matrix{{2.0 * d}}}, {Matrix{{1.0}}, Matrix{{-1.0}}}}));
+    const PathNode node = planted.family.point(1.0 - d * d, {{{-d, -d}, chart}});
+    const MeetingOnEnd met{
+        0, {true, EventKind::collision, 0.0, 0.0, chart == Chart::finite ? 1.0 : -4.0, {0, 1}}, 7};
+    const FoundEvents found = meeting_events(planted.search, node, {met});
+    ASSERT_EQ(found.events.size(), 1U);
+    const Event& event = found.events[0];
+    EXPECT_NEAR(event.p, 1.0 - d * d, 1e-14);
+    EXPECT_LT(std::abs(event.s + d), 1e-7);
+    // d(1/s) = -ds / s^2: a coefficient of -4 for 1/s is one of 1 for s.
+    EXPECT_LT(std::abs(event.puiseux - 1.0), 1e-6);
+    EXPECT_EQ(event.retrackings, 7);
+    // The mean of both s stays at -d; that of both 1/s does not stay.
+    EXPECT_LT(std::abs(event.sensitivity[0]), 1e-7);
+  }
+}
+
+/// One mode, which approaches its own conjugate.
+TEST(MeetingEvents, OfAPairWithItselfAreNoVeering) {
+  PlantedSearch planted(
+      Planted({{Matrix{{1.0}}}, {Matrix{{0.2}}}, {Matrix{{0.02}}, Matrix{{0.0}}, Matrix{{1.0}}}}));
+  const PathNode node = planted.family.point(0.0, {{{{-0.1, 0.1}, {-0.1, -0.1}}}});
+  MeetingOnEnd met{0, {true, EventKind::veering, 0.0, 0.1, 0.0, {0, 1}}, 1};
+  EXPECT_TRUE(meeting_events(planted.search, node, {met}).events.empty());
+  met.meeting.kind = EventKind::collision;
+  const FoundEvents found = meeting_events(planted.search, node, {met});
+  ASSERT_EQ(found.events.size(), 1U);
+  EXPECT_EQ(found.events[0].s.imag(), 0.0) << "of a pair and its conjugate the mean is real";
+}
+
+/// A veering of two modes, at a place beside the point.
+TEST(MeetingEvents, GiveHalfWidthAndPlaceOfANarrowVeering) {
+  AtCrossing at;
+  at.meetings[0].meeting.kind = EventKind::veering;
+  at.meetings[0].meeting.offset = 1e-5;
+  at.meetings[0].meeting.half_width = 3e-5;
+  const FoundEvents found = meeting_events(at.planted.search, at.node, at.meetings);
+  ASSERT_EQ(found.events.size(), 1U);
+  EXPECT_EQ(found.events[0].half_width, 3e-5);
+  EXPECT_EQ(found.events[0].p, 1e-5);
+}
+
+/// Where the mass is singular, eigenvalues are equal because they are infinite: 1/s = 0.
+TEST(MeetingEvents, OfInfiniteEigenvaluesAreNone) {
+  AtCrossing at;
+  Track& track = at.node.tracks[1];
+  track.pair.chart = Chart::reciprocal;
+  const FoundEvents finite = meeting_events(at.planted.search, at.node, at.meetings);
+  EXPECT_EQ(finite.events.size(), 1U);
+  track.roots.setConstant(0.9 / at.planted.family.problem().s_max);
+  EXPECT_TRUE(meeting_events(at.planted.search, at.node, at.meetings).events.empty());
+}
+
+/// Modes of the conjugate members have no number, those that are not followed neither.
+TEST(MeetingEvents, OfGuestsAreNone) {
+  AtCrossing at;
+  at.node.tracks[1].modes = {Track::guest, Track::guest};
+  EXPECT_TRUE(meeting_events(at.planted.search, at.node, at.meetings).events.empty());
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Veering {
 };
 
 TEST(FindVeerings, GivesPlaceAndHalfWidth) {
-  for (const double eps : {0.1, 0.03}) {
+  for (const double eps : {0.019, 0.003}) {
     Veering veering(0.05, eps);
     const FoundEvents found = veering.find(0.0, 0.12);
     ASSERT_EQ(found.events.size(), 1U) << eps;
@@ -44,7 +44,7 @@ TEST(FindVeerings, GivesPlaceAndHalfWidth) {
 }
 
 TEST(FindVeerings, DoesSoAgainstTheDirectionOfTheParameter) {
-  Veering veering(0.05, 0.05);
+  Veering veering(0.05, 0.015);
   const FoundEvents found = veering.find(0.12, 0.0);
   ASSERT_EQ(found.events.size(), 1U);
   EXPECT_NEAR(found.events[0].p, 0.05, 1e-9);
@@ -58,7 +58,7 @@ TEST(FindVeerings, LeavesOutWhatIsFarFromTheStepOrTooWide) {
 }
 
 TEST(FindVeerings, DoesNotLocateAgainWhatIsRecorded) {
-  Veering veering(0.05, 0.05);
+  Veering veering(0.05, 0.015);
   FoundEvents found = veering.find(0.0, 0.12);
   ASSERT_EQ(found.events.size(), 1U);
   veering.planted.events = found.events;
@@ -71,6 +71,70 @@ TEST(FindVeerings, OfUncoupledModesAreNone) {
   const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.1 * j}));
   const FoundEvents found = find_veerings(planted.search, planted.step(left, 0.1, alone({2.1 * j, 2.0 * j})));
   EXPECT_TRUE(found.events.empty());
+}
+
+/// W = [w + a p, e; e, v + b p]: the exceptional points are at (v - w +- 2 e j) / (a - b).
+struct Sloping {
+  explicit Sloping(double coupling)
+      : e(coupling),
+        planted(Planted::frequencies({Matrix{{2.0, e}, {e, 2.1}}, Matrix{{a, 0.0}, {0.0, b}}})) {}
+  std::vector<Complex> at(double p) const {
+    const double mean = 0.5 * (4.1 + (a + b) * p);
+    const double half = std::hypot(0.5 * (-0.1 + (a - b) * p), e);
+    return {(mean - half) * j, (mean + half) * j};
+  }
+  FoundEvents find(double from, double to, bool as_block) {
+    const auto tracks = [&](double p) { return as_block ? std::vector<Together>{{at(p)}} : alone(at(p)); };
+    const PathNode left = planted.family.point(from, tracks(from));
+    return find_veerings(planted.search, planted.step(left, to, tracks(to)));
+  }
+  static constexpr double a = 1.5, b = -0.5, place = 0.05;
+  double e;
+  PlantedSearch planted;
+};
+
+TEST(FindVeerings, OfABlockAreThoseOfItsModesAlone) {
+  for (const bool as_block : {false, true}) {
+    Sloping sloping(0.015);
+    const FoundEvents found = sloping.find(0.0, 0.09, as_block);
+    ASSERT_EQ(found.events.size(), 1U) << as_block;
+    const Event& event = found.events[0];
+    EXPECT_NEAR(event.p, Sloping::place, 1e-9);
+    EXPECT_NEAR(event.half_width, 0.015, 1e-9);
+    EXPECT_LT(std::abs(event.s - 2.075 * j), 1e-9);
+    // The mean moves by (a + b) / 2; the place of the exceptional point is complex.
+    EXPECT_LT(std::abs(event.sensitivity[0] - 0.5 * j), 1e-7);
+    EXPECT_TRUE(std::isnan(event.shift[0]));
+  }
+}
+
+/// Down to where a step would end on them, at 3e-3 of its length.
+TEST(FindVeerings, FindsNarrowOnesBetweenTheirPoints) {
+  for (const double e : {1e-3, 3e-4}) {
+    Sloping sloping(e);
+    const FoundEvents found = sloping.find(0.0, 0.09, true);
+    ASSERT_EQ(found.events.size(), 1U) << e;
+    EXPECT_NEAR(found.events[0].p, Sloping::place, 1e-9);
+    EXPECT_NEAR(found.events[0].half_width, e, 1e-9);
+  }
+}
+
+/// The largest half-width is a share of the range.
+TEST(FindVeerings, EndAtTheLargestHalfWidth) {
+  const double widest = 2.0 * Thresholds{}.veering.widest;
+  Sloping within(0.99 * widest);
+  EXPECT_EQ(within.find(-0.1, 0.2, false).events.size(), 1U);
+  Sloping beyond(1.01 * widest);
+  EXPECT_TRUE(beyond.find(-0.1, 0.2, false).events.empty());
+}
+
+/// Places outside the range of the parameter belong to nobody.
+TEST(FindVeerings, EndAtTheEndsOfTheRange) {
+  Sloping sloping(0.015);
+  PathRange& range = sloping.planted.frame.range;
+  range = {range.traced, Sloping::place + 1e-3, Sloping::place + 2.0};
+  const FoundEvents found = sloping.find(0.0, 0.09, true);
+  EXPECT_TRUE(found.events.empty() && found.dismissed.empty());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "continuation/events/event_record.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,15 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// ds/dh from the derivative of the chart's eigenvalue mu = s or 1/s.
-Complex slope_of_s(Complex slope, Complex mu, Chart chart) {
-  return chart == Chart::finite ? slope : -slope / (mu * mu);
+/// ds/dh of the mean of s of some eigenvalues of a block, mu = s or 1/s in its chart. The mean of s is not
+/// the inverse of the mean of 1/s: where two coincide at an exceptional point, they differ to first order.
+Complex mean_slope_of_s(const Track& track, const std::vector<Complex>& roots) {
+  if (track.pair.chart == Chart::finite) return mean_slope(track, roots);
+  if (roots.size() == 1) return -mean_slope(track, roots) / (roots[0] * roots[0]);
+  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
+  if (part.size() < 2) return {nan, nan};
+  const ComplexMatrix inverse = part[0].inverse();
+  return -(inverse * part[1] * inverse).trace() / static_cast<double>(roots.size());
 }
 
 /// The point differentiated once with respect to one parameter. Empty if that fails.
@@ -51,6 +58,7 @@ void keep_shape(const PathNode& node, const Track& track, const std::vector<int>
 }
 
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts) {
+  if (counts.evaluations.residual.empty()) counts.evaluations = problem.model.new_counts();
   PathPoint point;
   point.p = node.p;
   point.equilibrium = keep_equilibrium(problem.model, node.path.parameters.col(0), node.path.x.col(0),
@@ -65,20 +73,19 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
   const auto& parameters = problem.model.description().parameters;
   leave_unknown(parameters.size(), event);
   const std::vector<Complex> roots = roots_of(track, members);
-  const Complex mu = ComplexVector::Map(roots.data(), static_cast<Eigen::Index>(roots.size())).mean();
   const double speed = coefficient(node.path.parameters, problem.traced, 1);
   PathPoint of_track = point;
   of_track.pairs = {track.pair};
   for (int q = 0; q < static_cast<int>(parameters.size()); ++q) {
     if (parameters[static_cast<std::size_t>(q)].definition) continue;
     if (q == problem.traced) {
-      event.sensitivity[q] = slope_of_s(mean_slope(track, roots) / speed, mu, track.pair.chart);
+      event.sensitivity[q] = mean_slope_of_s(track, roots) / speed;
       continue;
     }
     const std::optional<PathNode> along = slopes_along(problem, of_track, q, counts);
     if (!along) continue;
     const Track& along_q = along->tracks.front();
-    event.sensitivity[q] = slope_of_s(mean_slope(along_q, roots), mu, track.pair.chart);
+    event.sensitivity[q] = mean_slope_of_s(along_q, roots);
     const double shift = moves(track, *along, along_q) * speed;
     if (std::isfinite(shift)) event.shift[q] = shift;
   }
