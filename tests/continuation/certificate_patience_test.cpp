@@ -53,7 +53,7 @@ TEST(CertificatePatience, LeavesOutTheTestIfItCostsTooMuch) {
 
 TEST(CertificateMayCost, AFixedAmountAndAShareOfAllOtherWork) {
   RunCounts counts;
-  counts.certificate_factorizations = 5000;
+  counts.certificate_factorizations = 4000;
   EXPECT_TRUE(certificate_may_cost(counts, 24, 0.0)) << "small";
   EXPECT_FALSE(certificate_may_cost(counts, 224, 0.1));
   EXPECT_TRUE(certificate_may_cost(counts, 224, 1.0));

@@ -21,8 +21,8 @@ constexpr double enough_failures = 2.5;
 constexpr double not_by_error = 1e-2;
 
 /// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
-/// range: about 15 s on a processor of 2020. Beyond, it may take this share of all other work.
-constexpr double free_work = 4e10;
+/// range: about 10 s on a processor of 2020. Beyond, it may take this share of all other work.
+constexpr double free_work = 2.4e10;
 constexpr double free_at_start = 0.1;
 constexpr double share_of_work = 0.5;
 /// For each factorization, of n^3 / 3 multiplications, the certificate applies the inverse to about this many

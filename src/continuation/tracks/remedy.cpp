@@ -20,12 +20,20 @@ constexpr double kept_together = 3.0;
 /// of the last steps: each look costs a large factorization.
 constexpr double shrinking = 0.25;
 
+/// Largest block that is formed for this reason if only some modes are followed. Large blocks take long
+/// steps, on which meetings of their members may be passed; with all modes followed, a checksum notices what
+/// is lost.
+constexpr Eigen::Index most_of_few = 4;
+
 /// Joins a track that is not certified with the nearest other one, and keeps both together. A block for which
 /// this was done before, without effect, is not made larger.
-bool join_nearest(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
+bool join_nearest(const PathProblem& problem, const JoiningRules& rules, PathNode& node, std::size_t track,
+                  RunCounts& counts) {
   if (node.tracks[track].unproven) return false;
   const std::optional<Partner> nearest = nearest_partner(node, track);
   if (!nearest || node.tracks[nearest->track].unproven) return false;
+  const Eigen::Index size = node.tracks[track].size() + node.tracks[nearest->track].size();
+  if (!rules.follows_all && size > most_of_few) return false;
   if (!join(problem, node, track, {*nearest}, counts)) return false;
   Track& joined = node.tracks.back();
   joined.inseparable = std::max(joined.inseparable, kept_together * nearest->distance);
@@ -96,7 +104,7 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   }
   if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
     remedy.tried_to_join = true;
-    if (join_nearest(problem, node, track, counts)) ++remedy.changes.joined;
+    if (join_nearest(problem, rules, node, track, counts)) ++remedy.changes.joined;
   }
   return remedy;
 }
