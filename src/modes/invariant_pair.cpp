@@ -134,10 +134,6 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
 /// leave the range of a double.
 constexpr double remnant = 1e-60;
 
-/// Newton's method also ends where corrections no longer decrease. If they are large there, the equations are
-/// too ill-conditioned, and what is left is no eigenpair. Converged pairs have errors close to rounding.
-constexpr double largest_backward_error = 1e-9;
-
 void remove_remnants(double reference, ComplexMatrix& Lambda) {
   for (Complex& entry : Lambda.reshaped()) {
     if (std::abs(entry) < remnant * reference) entry = 0.0;
@@ -164,10 +160,6 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   remove_remnants(reference, pair.Lambda);
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   pair.backward_error = backward_error(pencil, pair);
-  if (!(pair.backward_error <= largest_backward_error)) {
-    pair.status = PairStatus::not_converged;
-    return pair;
-  }
   pair.condition = pair.factors->sensitivity() * residual_scale(pencil, pair) / std::max(size, reference);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());
   return pair;
