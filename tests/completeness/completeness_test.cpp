@@ -1,0 +1,22 @@
+// Fifty random families: no flutter, divergence or real collision missing or invented.
+#include <gtest/gtest.h>
+
+#include "completeness/discrepancies.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+class RandomFamilyTrace : public testing::TestWithParam<int> {};
+
+TEST_P(RandomFamilyTrace, HasAllEventsOfTheReference) {
+  const RandomFamily family = random_family(static_cast<std::uint64_t>(GetParam()));
+  const CompletenessReport report = check_completeness(family);
+  EXPECT_TRUE(report.passed()) << name_of(family.kind) << ", " << family.size() << " coordinates\n"
+                               << report.problems();
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFamilyTrace, testing::Range(1, 51),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+}  // namespace
+}  // namespace eigentrail::test

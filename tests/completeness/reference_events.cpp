@@ -1,0 +1,328 @@
+#include "completeness/reference_events.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr int degree = 16;            ///< of the polynomials
+constexpr int first_intervals = 16;   ///< of the range
+constexpr double resolved = 1e-9;     ///< last coefficients, as a share of the largest
+constexpr double nearby = 0.35;       ///< a root this far beside [-1, 1] counts as near
+constexpr double narrowest = 1e-8;    ///< of the range: narrower intervals are not divided
+constexpr double split_at = 0.48713;  ///< not in the middle, where special points may be by design
+
+/// A real number too large or small for a double: sign * exp(log).
+struct Scaled {
+  int sign = 0;
+  double log = -std::numeric_limits<double>::infinity();
+
+  void multiply(double factor) {
+    sign *= factor > 0.0 ? 1 : factor < 0.0 ? -1 : 0;
+    log += std::log(std::abs(factor));
+  }
+};
+
+enum Function { det_K, F, D, n_functions };
+constexpr const char* kind_of[] = {"divergence", "flutter", "collision"};
+
+struct AtParameter {
+  std::vector<double> real;    ///< eigenvalues, ascending
+  std::vector<Complex> upper;  ///< of the pairs, Im s > 0
+  std::array<Scaled, n_functions> values;
+
+  int unstable_pairs() const {
+    return static_cast<int>(
+        std::count_if(upper.begin(), upper.end(), [](Complex s) { return s.real() > 0.0; }));
+  }
+  int unstable_real() const {
+    return static_cast<int>(std::count_if(real.begin(), real.end(), [](double s) { return s > 0.0; }));
+  }
+};
+
+Scaled determinant(const Matrix& K) {
+  const Eigen::PartialPivLU<Matrix> lu(K);
+  Scaled value{lu.permutationP().determinant() > 0 ? 1 : -1, 0.0};
+  for (const double factor : lu.matrixLU().diagonal()) value.multiply(factor);
+  return value;
+}
+
+/// Product of s_i + sign s_j over all pairs of one spectrum; for sign = -1 squared.
+void multiply_pairs(const AtParameter& at, double sign, Scaled& value) {
+  const int power = sign < 0.0 ? 2 : 1;
+  const auto multiply = [&](double factor) {
+    for (int k = 0; k < power; ++k) value.multiply(factor);
+  };
+  for (std::size_t i = 0; i < at.upper.size(); ++i) {
+    const Complex s = at.upper[i];
+    if (sign < 0.0) {
+      value.multiply(-4.0 * s.imag() * s.imag());
+    } else {
+      value.multiply(2.0 * s.real());
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      multiply(std::norm(s + sign * at.upper[j]));
+      multiply(std::norm(s + sign * std::conj(at.upper[j])));
+    }
+    for (const double r : at.real) multiply(std::norm(s + sign * r));
+  }
+  for (std::size_t i = 0; i < at.real.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) multiply(at.real[i] + sign * at.real[j]);
+  }
+}
+
+/// Roots of a Chebyshev series as eigenvalues of its colleague matrix.
+std::vector<Complex> chebyshev_roots(std::vector<double> c) {
+  double largest = 0.0;
+  for (const double value : c) largest = std::max(largest, std::abs(value));
+  while (c.size() > 1 && std::abs(c.back()) <= 1e-13 * largest) c.pop_back();
+  const auto n = static_cast<Eigen::Index>(c.size()) - 1;
+  if (n == 0) return {};
+  if (n == 1) return {Complex(-c[0] / c[1])};
+  Matrix colleague = Matrix::Zero(n, n);
+  colleague(0, 1) = 1.0;
+  for (Eigen::Index i = 1; i < n; ++i) {
+    colleague(i, i - 1) = 0.5;
+    if (i + 1 < n) colleague(i, i + 1) = 0.5;
+  }
+  for (Eigen::Index j = 0; j < n; ++j)
+    colleague(n - 1, j) -= 0.5 * c[static_cast<std::size_t>(j)] / c[static_cast<std::size_t>(n)];
+  const ComplexVector roots = colleague.eigenvalues();
+  return {roots.begin(), roots.end()};
+}
+
+class Search {
+ public:
+  Search(const Family& family, double from, double to) : family_(family), from_(from), to_(to) {}
+
+  ReferenceEvents run() {
+    for (int f = 0; f < n_functions; ++f) {
+      for (int i = 0; i < first_intervals; ++i) {
+        const auto border = [&](int k) { return from_ + (to_ - from_) * k / first_intervals; };
+        search(static_cast<Function>(f), border(i), border(i + 1));
+      }
+    }
+    const auto by_place = [](const ReferenceEvent& a, const ReferenceEvent& b) { return a.p < b.p; };
+    std::sort(result_.events.begin(), result_.events.end(), by_place);
+    std::sort(result_.touching.begin(), result_.touching.end(), by_place);
+    check_counts();
+    return result_;
+  }
+
+ private:
+  const AtParameter& at(double p) {
+    const auto known = known_.find(p);
+    if (known != known_.end()) return known->second;
+    ++result_.spectra;
+    const RealPencil pencil = real_pencil(family_, p);
+    AtParameter& at = known_[p];
+    for (const Complex s : quadratic_eigenvalues(pencil.M, pencil.C, pencil.K)) {
+      if (s.imag() == 0.0) at.real.push_back(s.real());
+      if (s.imag() > 0.0) at.upper.push_back(s);
+    }
+    std::sort(at.real.begin(), at.real.end());
+    at.values[det_K] = determinant(pencil.K);
+    at.values[F] = at.values[D] = {1, 0.0};
+    multiply_pairs(at, 1.0, at.values[F]);
+    multiply_pairs(at, -1.0, at.values[D]);
+    // A factor that is zero has no sign; the number of pairs has one.
+    at.values[D].sign = at.upper.size() % 2 == 0 ? 1 : -1;
+    return at;
+  }
+  const Scaled& value(Function f, double p) { return at(p).values[f]; }
+
+  /// The coefficients of the Chebyshev polynomial on an interval, the largest value being one.
+  std::vector<double> coefficients(Function f, double a, double b) {
+    std::array<Scaled, degree + 1> values;
+    double largest = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= degree; ++k) {
+      const double x = std::cos(std::numbers::pi * k / degree);
+      const double p = k == 0 ? b : k == degree ? a : 0.5 * (a + b) + 0.5 * (b - a) * x;
+      values[static_cast<std::size_t>(k)] = value(f, p);
+      largest = std::max(largest, values[static_cast<std::size_t>(k)].log);
+    }
+    std::vector<double> result;
+    for (int j = 0; j <= degree; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k <= degree; ++k) {
+        const Scaled& v = values[static_cast<std::size_t>(k)];
+        const double weight = k == 0 || k == degree ? 0.5 : 1.0;
+        sum += weight * v.sign * std::exp(v.log - largest) * std::cos(std::numbers::pi * j * k / degree);
+      }
+      result.push_back(sum * (j == 0 || j == degree ? 1.0 : 2.0) / degree);
+    }
+    return result;
+  }
+
+  void split(Function f, double a, double b) {
+    const double middle = a + split_at * (b - a);
+    search(f, a, middle);
+    search(f, middle, b);
+  }
+
+  void search(Function f, double a, double b) {
+    const bool changes = value(f, a).sign != value(f, b).sign;
+    if (b - a < narrowest * (to_ - from_)) {
+      // Within this, an odd number of zeros is one and an even number none.
+      if (changes) {
+        add_event(f, a, b);
+      } else {
+        result_.touching.push_back(describe(f, 0.5 * (a + b)));
+      }
+      return;
+    }
+    const std::vector<double> c = coefficients(f, a, b);
+    double largest = 0.0;
+    for (const double value : c) largest = std::max(largest, std::abs(value));
+    double last = 0.0;
+    for (std::size_t i = c.size() - 3; i < c.size(); ++i) last = std::max(last, std::abs(c[i]));
+    if (last > resolved * largest) return split(f, a, b);
+    int near = 0;
+    for (const Complex root : chebyshev_roots(c)) {
+      const double beyond = std::max(std::abs(root.real()) - 1.0, 0.0);
+      near += std::hypot(beyond, root.imag()) < nearby;
+    }
+    if (near > 1 || (near == 0 && changes)) return split(f, a, b);
+    if (!changes) return;
+    if (f == D && std::abs(static_cast<int>(at(a).real.size()) - static_cast<int>(at(b).real.size())) != 2)
+      return split(f, a, b);
+    add_event(f, a, b);
+  }
+
+  /// The zero between two places of different sign.
+  double locate(Function f, double& a, double& b) {
+    const double enough = 1e-14 * (to_ - from_);
+    for (int i = 0; i < 200 && b - a > enough; ++i) {
+      const Scaled left = value(f, a);
+      const Scaled right = value(f, b);
+      // The secant, and every third time the middle.
+      const double share = left.sign == 0 ? 0.0 : 1.0 / (1.0 + std::exp(right.log - left.log));
+      double middle = i % 3 == 2 ? 0.5 * (a + b) : a + std::clamp(share, 1e-3, 1.0 - 1e-3) * (b - a);
+      if (middle <= a || middle >= b) middle = 0.5 * (a + b);
+      if (middle <= a || middle >= b) break;
+      (value(f, middle).sign == left.sign ? a : b) = middle;
+    }
+    return 0.5 * (a + b);
+  }
+
+  /// The eigenvalue to which the function owes its zero at p.
+  ReferenceEvent describe(Function f, double p) {
+    const AtParameter& here = at(p);
+    ReferenceEvent event{kind_of[f], p, Complex(0.0), 0};
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](double size, Complex s, const char* kind) {
+      if (size >= least) return;
+      least = size;
+      event.s = s;
+      event.kind = kind;
+    };
+    if (f == F) {
+      for (const Complex s : here.upper) consider(std::abs(s.real()) / std::abs(s), s, "flutter");
+      for (std::size_t i = 0; i < here.real.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const double size = std::max(std::abs(here.real[i]), std::abs(here.real[j]));
+          consider(std::abs(here.real[i] + here.real[j]) / (2.0 * size), here.real[i], "opposite");
+        }
+      }
+    }
+    if (f == D) {
+      for (std::size_t i = 0; i < here.upper.size(); ++i) {
+        const Complex s = here.upper[i];
+        consider(s.imag() / std::abs(s), s.real(), "collision");
+        for (std::size_t j = 0; j < i; ++j) {
+          const Complex other = here.upper[j];
+          consider(std::abs(s - other) / std::abs(s + other), 0.5 * (s + other), "coincidence");
+        }
+      }
+      for (std::size_t i = 1; i < here.real.size(); ++i) {
+        const double size = std::max(std::abs(here.real[i]), std::abs(here.real[i - 1]));
+        consider((here.real[i] - here.real[i - 1]) / (2.0 * size), here.real[i], "collision");
+      }
+    }
+    return event;
+  }
+
+  void add_event(Function f, double a, double b) {
+    const double p = locate(f, a, b);
+    ReferenceEvent event = describe(f, p);
+    if (event.kind == "opposite") return;
+    if (f != D) {
+      const double aside = 1e-10 * (to_ - from_);
+      const AtParameter& left = at(p - aside);
+      const AtParameter& right = at(p + aside);
+      event.direction = f == F ? right.unstable_pairs() - left.unstable_pairs()
+                               : right.unstable_real() - left.unstable_real();
+    }
+    result_.events.push_back(event);
+  }
+
+  /// All spectra that were computed must have as many unstable pairs and real eigenvalues as the events say.
+  void check_counts() {
+    const double margin = 1e-9 * (to_ - from_);
+    const AtParameter* last = nullptr;
+    double last_p = 0.0;
+    for (const auto& [p, here] : known_) {
+      const auto beside = [&, at = p](const ReferenceEvent& event) {
+        return std::abs(event.p - at) < margin;
+      };
+      if (std::any_of(result_.events.begin(), result_.events.end(), beside)) continue;
+      if (last != nullptr) check_between(last_p, *last, p, here);
+      last = &here;
+      last_p = p;
+    }
+  }
+
+  void check_between(double a, const AtParameter& left, double b, const AtParameter& right) {
+    const auto between = [&](const ReferenceEvent& event) { return event.p > a && event.p < b; };
+    if (std::any_of(result_.touching.begin(), result_.touching.end(), between)) return;
+    int unstable = 0;
+    int collisions = 0;
+    for (const ReferenceEvent& event : result_.events) {
+      if (!between(event)) continue;
+      unstable += event.kind == "flutter" ? 2 * event.direction : event.direction;
+      collisions += event.kind == "collision";
+    }
+    const auto count = [](const AtParameter& at) { return 2 * at.unstable_pairs() + at.unstable_real(); };
+    const int seen = count(right) - count(left);
+    const int real = static_cast<int>(right.real.size()) - static_cast<int>(left.real.size());
+    const bool real_fits = std::abs(real) <= 2 * collisions && (std::abs(real) / 2 - collisions) % 2 == 0;
+    if (seen == unstable && real_fits) return;
+    std::ostringstream text;
+    text.precision(12);
+    text << "between " << a << " and " << b << ": " << seen << " more unstable eigenvalues, events say "
+         << unstable << "; " << real << " more real ones, " << collisions << " collisions";
+    result_.doubts.push_back(text.str());
+  }
+
+  const Family& family_;
+  double from_, to_;
+  std::map<double, AtParameter> known_;
+  ReferenceEvents result_;
+};
+
+}  // namespace
+
+RealPencil real_pencil(const Family& family, double p) {
+  const auto value = [p](const MatrixSeries& series) {
+    Matrix sum = series.back();
+    for (std::size_t k = series.size() - 1; k-- > 0;) sum = sum * p + series[k];
+    return sum;
+  };
+  return {value(family.M), value(family.C), value(family.K)};
+}
+
+ReferenceEvents reference_events(const Family& family, double from, double to) {
+  return Search(family, from, to).run();
+}
+
+}  // namespace eigentrail::test
