@@ -15,12 +15,13 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr int degree = 16;            ///< of the polynomials
-constexpr int first_intervals = 16;   ///< of the range
-constexpr double resolved = 1e-9;     ///< last coefficients, as a share of the largest
-constexpr double nearby = 0.35;       ///< a root this far beside [-1, 1] counts as near
-constexpr double narrowest = 1e-8;    ///< of the range: narrower intervals are not divided
-constexpr double split_at = 0.48713;  ///< not in the middle, where special points may be by design
+constexpr int degree = 16;              ///< of the polynomials
+constexpr int first_intervals = 16;     ///< of the range
+constexpr double resolved = 1e-9;       ///< last coefficients, as a share of the largest
+constexpr double most_rounding = 1e-2;  ///< the same, for narrow intervals
+constexpr double nearby = 0.35;         ///< a root this far beside [-1, 1] counts as near
+constexpr double narrowest = 1e-7;      ///< of the range: narrower intervals are not divided
+constexpr double split_at = 0.48713;    ///< not in the middle, where special points may be by design
 
 /// A real number too large or small for a double: sign * exp(log).
 struct Scaled {
@@ -181,12 +182,16 @@ class Search {
       }
       return;
     }
-    const std::vector<double> c = coefficients(f, a, b);
+    std::vector<double> c = coefficients(f, a, b);
     double largest = 0.0;
     for (const double value : c) largest = std::max(largest, std::abs(value));
     double last = 0.0;
-    for (std::size_t i = c.size() - 3; i < c.size(); ++i) last = std::max(last, std::abs(c[i]));
-    if (last > resolved * largest) return split(f, a, b);
+    for (std::size_t i = c.size() - 4; i < c.size(); ++i) last = std::max(last, std::abs(c[i]));
+    // Close to a zero the last coefficients are rounding, so a narrow interval may have larger ones. Those of
+    // the function itself fall much faster with the width.
+    const double width = (b - a) * first_intervals / (to_ - from_);
+    if (last > std::min(resolved / (width * width), most_rounding) * largest) return split(f, a, b);
+    while (c.size() > 1 && std::abs(c.back()) <= 3.0 * last) c.pop_back();
     int near = 0;
     for (const Complex root : chebyshev_roots(c)) {
       const double beyond = std::max(std::abs(root.real()) - 1.0, 0.0);
@@ -256,10 +261,10 @@ class Search {
     const double p = locate(f, a, b);
     ReferenceEvent event = describe(f, p);
     if (event.kind == "opposite") return;
-    if (f != D) {
-      const double aside = 1e-10 * (to_ - from_);
-      const AtParameter& left = at(p - aside);
-      const AtParameter& right = at(p + aside);
+    // The nearest places on either side where the counts differ.
+    for (double aside = 1e-10; f != D && event.direction == 0 && aside < 1e-7; aside *= 3.0) {
+      const AtParameter& left = at(p - aside * (to_ - from_));
+      const AtParameter& right = at(p + aside * (to_ - from_));
       event.direction = f == F ? right.unstable_pairs() - left.unstable_pairs()
                                : right.unstable_real() - left.unstable_real();
     }
