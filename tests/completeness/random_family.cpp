@@ -8,7 +8,7 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double quantum = 0x1p-16;  ///< of all coefficients, so that a scene has them exactly
+constexpr double quantum = 0x1p-24;  ///< of all coefficients: what is symmetric stays so
 
 class Generator {
  public:
@@ -19,6 +19,7 @@ class Generator {
   void fill(RandomFamily& family) {
     family.kind = static_cast<FamilyKind>(integer(0, family_kinds - 1));
     n_ = integer(2, 15);
+    strength_ = uniform(0.0, 1.0) < 0.3 ? uniform(1.0, 5.0) : 1.0;
     const double spread = uniform(0.0, 0.3);
     const Matrix mass = Matrix::Identity(n_, n_) + spread * definite(0.0, 1.0);
     Family& m = family.matrices;
@@ -131,10 +132,10 @@ class Generator {
   MatrixSeries stiffness() {
     const double least = uniform(0.1, 1.5);
     const Matrix constant = definite(least, uniform(2.0, 9.0));
-    return sum({constant}, symmetric(uniform(0.3, 3.0)));
+    return sum({constant}, symmetric(strength_ * uniform(0.3, 3.0)));
   }
   MatrixSeries light_damping() {
-    const double size = power_of_ten(-2.5, -0.5);
+    const double size = power_of_ten(-5.0, -0.5);
     const Matrix constant = definite(0.2 * size, 2.0 * size);
     return sum({constant}, symmetric(size * uniform(0.0, 3.0)));
   }
@@ -169,7 +170,7 @@ class Generator {
     const double heavy = uniform(0.0, 0.6);
     for (Eigen::Index i = 0; i < n_; ++i) {
       const bool is_heavy = uniform(0.0, 1.0) < heavy;
-      diagonal(m.K, i, {0.3, 6.0}, {0.2, 2.5});
+      diagonal(m.K, i, {0.3, 6.0}, {0.2, 2.5 * strength_});
       if (is_heavy) {
         diagonal(m.C, i, {1.0, 5.0}, {0.0, 1.5});
       } else {
@@ -199,6 +200,7 @@ class Generator {
 
   std::mt19937_64 engine_;
   Eigen::Index n_ = 0;
+  double strength_ = 1.0;  ///< of the changes of K with p
 };
 
 }  // namespace

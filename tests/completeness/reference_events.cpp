@@ -289,7 +289,11 @@ class Search {
 
   void check_between(double a, const AtParameter& left, double b, const AtParameter& right) {
     const auto between = [&](const ReferenceEvent& event) { return event.p > a && event.p < b; };
-    if (std::any_of(result_.touching.begin(), result_.touching.end(), between)) return;
+    const double undecided = 2.0 * narrowest * (to_ - from_);
+    const auto near = [&](const ReferenceEvent& touch) {
+      return touch.p > a - undecided && touch.p < b + undecided;
+    };
+    if (std::any_of(result_.touching.begin(), result_.touching.end(), near)) return;
     int unstable = 0;
     int collisions = 0;
     for (const ReferenceEvent& event : result_.events) {
