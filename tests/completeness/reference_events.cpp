@@ -42,12 +42,10 @@ struct AtParameter {
   std::vector<Complex> upper;  ///< of the pairs, Im s > 0
   std::array<Scaled, n_functions> values;
 
-  int unstable_pairs() const {
-    return static_cast<int>(
-        std::count_if(upper.begin(), upper.end(), [](Complex s) { return s.real() > 0.0; }));
-  }
-  int unstable_real() const {
-    return static_cast<int>(std::count_if(real.begin(), real.end(), [](double s) { return s > 0.0; }));
+  int unstable() const {
+    const auto pairs = std::count_if(upper.begin(), upper.end(), [](Complex s) { return s.real() > 0.0; });
+    const auto alone = std::count_if(real.begin(), real.end(), [](double s) { return s > 0.0; });
+    return static_cast<int>(2 * pairs + alone);
   }
 };
 
@@ -178,7 +176,7 @@ class Search {
       if (changes) {
         add_event(f, a, b);
       } else {
-        result_.touching.push_back(describe(f, 0.5 * (a + b)));
+        result_.touching.push_back(describe(f, 0.5 * (a + b), false));
       }
       return;
     }
@@ -220,8 +218,9 @@ class Search {
     return 0.5 * (a + b);
   }
 
-  /// The eigenvalue to which the function owes its zero at p.
-  ReferenceEvent describe(Function f, double p) {
+  /// The eigenvalue to which the function owes its zero at p. Two pairs that meet do
+  /// not change the sign of D.
+  ReferenceEvent describe(Function f, double p, bool changes) {
     const AtParameter& here = at(p);
     ReferenceEvent event{kind_of[f], p, Complex(0.0), 0};
     double least = std::numeric_limits<double>::infinity();
@@ -244,7 +243,7 @@ class Search {
       for (std::size_t i = 0; i < here.upper.size(); ++i) {
         const Complex s = here.upper[i];
         consider(s.imag() / std::abs(s), s.real(), "collision");
-        for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t j = 0; j < i && !changes; ++j) {
           const Complex other = here.upper[j];
           consider(std::abs(s - other) / std::abs(s + other), 0.5 * (s + other), "coincidence");
         }
@@ -259,14 +258,14 @@ class Search {
 
   void add_event(Function f, double a, double b) {
     const double p = locate(f, a, b);
-    ReferenceEvent event = describe(f, p);
+    ReferenceEvent event = describe(f, p, true);
     if (event.kind == "opposite") return;
     // The nearest places on either side where the counts differ.
     for (double aside = 1e-10; f != D && event.direction == 0 && aside < 1e-7; aside *= 3.0) {
       const AtParameter& left = at(p - aside * (to_ - from_));
       const AtParameter& right = at(p + aside * (to_ - from_));
-      event.direction = f == F ? right.unstable_pairs() - left.unstable_pairs()
-                               : right.unstable_real() - left.unstable_real();
+      const int more = right.unstable() - left.unstable();
+      event.direction = f == F ? more / 2 : more;
     }
     result_.events.push_back(event);
   }
@@ -301,8 +300,7 @@ class Search {
       unstable += event.kind == "flutter" ? 2 * event.direction : event.direction;
       collisions += event.kind == "collision";
     }
-    const auto count = [](const AtParameter& at) { return 2 * at.unstable_pairs() + at.unstable_real(); };
-    const int seen = count(right) - count(left);
+    const int seen = right.unstable() - left.unstable();
     const int real = static_cast<int>(right.real.size()) - static_cast<int>(left.real.size());
     const bool real_fits = std::abs(real) <= 2 * collisions && (std::abs(real) / 2 - collisions) % 2 == 0;
     if (seen == unstable && real_fits) return;
