@@ -3,6 +3,8 @@
 //
 //     completeness_sweep [--seeds N] [--first S] [--reversed] [--scenes FOLDER]
 //         a line per discrepancy over N seeds from S on, a table at the end; scenes of the seeds that fail
+//     completeness_sweep --veerings [--seeds N] [--first S] [--reversed]
+//         the same for veerings, against exceptional points at complex parameters
 //     completeness_sweep --seed S [--reversed] [--scene]
 //         everything about one seed; its scene with --scene
 //
@@ -14,6 +16,7 @@
 #include <string>
 
 #include "completeness/discrepancies.hpp"
+#include "completeness/exceptional_points.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -81,7 +84,7 @@ struct Summary {
 
 struct Options {
   std::uint64_t seeds = 1000, first = 1;
-  bool single = false, reversed = false, scene = false;
+  bool single = false, reversed = false, scene = false, veerings = false;
   std::string scenes;
 };
 
@@ -99,6 +102,38 @@ int sweep(const Options& options) {
   }
   summary.print();
   return summary.failed == 0 ? 0 : 1;
+}
+
+int sweep_veerings(const Options& options) {
+  int expected = 0;
+  int listed = 0;
+  int overlooked = 0;
+  std::size_t missing = 0;
+  std::size_t invented = 0;
+  std::set<std::uint64_t> failed;
+  for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed) {
+    const CompletenessReport report = check_completeness(random_family(seed), options.reversed);
+    if (!report.completed) continue;
+    const VeeringComparison veerings =
+        compare_veerings(report.family.matrices, report.family.from, report.family.to, report.events);
+    expected += veerings.expected;
+    listed += veerings.listed;
+    overlooked += veerings.overlooked;
+    missing += veerings.missing.size();
+    invented += veerings.invented.size();
+    if (veerings.missing.empty() && veerings.invented.empty()) continue;
+    failed.insert(seed);
+    std::printf("%s\n", title(report).c_str());
+    for (const std::string& line : veerings.missing) std::printf("  %s\n", line.c_str());
+    for (const std::string& line : veerings.invented) std::printf("  %s\n", line.c_str());
+    std::fflush(stdout);
+  }
+  std::printf(
+      "\n%d exceptional points, %zu missing; %d veerings listed, %zu invented, %d confirmed that the "
+      "reference "
+      "had overlooked; %zu seeds failed\n",
+      expected, missing, listed, invented, overlooked, failed.size());
+  return failed.empty() ? 0 : 1;
 }
 
 int show(const Options& options) {
@@ -126,7 +161,7 @@ int show(const Options& options) {
 int usage() {
   std::fprintf(stderr,
                "usage: completeness_sweep [--seeds N] [--first S] [--reversed] [--scenes FOLDER] | --seed S "
-               "[--reversed] [--scene]\n");
+               "[--reversed] [--scene] | --veerings [--seeds N] [--first S] [--reversed]\n");
   return 2;
 }
 
@@ -136,6 +171,8 @@ int run(int argc, char** argv) {
     const std::string option = argv[i];
     if (option == "--scene") {
       options.scene = true;
+    } else if (option == "--veerings") {
+      options.veerings = true;
     } else if (option == "--reversed") {
       options.reversed = true;
     } else if (i + 1 == argc) {
@@ -151,6 +188,7 @@ int run(int argc, char** argv) {
       return usage();
     }
   }
+  if (options.veerings) return sweep_veerings(options);
   return options.single ? show(options) : sweep(options);
 }
 

@@ -1,16 +1,12 @@
 #include "completeness/reference_events.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <sstream>
 
-#include "support/spectra.hpp"
+#include "completeness/spectrum_functions.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -23,82 +19,7 @@ constexpr double nearby = 0.35;         ///< a root this far beside [-1, 1] coun
 constexpr double narrowest = 1e-7;      ///< of the range: narrower intervals are not divided
 constexpr double split_at = 0.48713;    ///< not in the middle, where special points may be by design
 
-/// A real number too large or small for a double: sign * exp(log).
-struct Scaled {
-  int sign = 0;
-  double log = -std::numeric_limits<double>::infinity();
-
-  void multiply(double factor) {
-    sign *= factor > 0.0 ? 1 : factor < 0.0 ? -1 : 0;
-    log += std::log(std::abs(factor));
-  }
-};
-
-enum Function { det_K, F, D, n_functions };
 constexpr const char* kind_of[] = {"divergence", "flutter", "collision"};
-
-struct AtParameter {
-  std::vector<double> real;    ///< eigenvalues, ascending
-  std::vector<Complex> upper;  ///< of the pairs, Im s > 0
-  std::array<Scaled, n_functions> values;
-
-  int unstable() const {
-    const auto pairs = std::count_if(upper.begin(), upper.end(), [](Complex s) { return s.real() > 0.0; });
-    const auto alone = std::count_if(real.begin(), real.end(), [](double s) { return s > 0.0; });
-    return static_cast<int>(2 * pairs + alone);
-  }
-};
-
-Scaled determinant(const Matrix& K) {
-  const Eigen::PartialPivLU<Matrix> lu(K);
-  Scaled value{lu.permutationP().determinant() > 0 ? 1 : -1, 0.0};
-  for (const double factor : lu.matrixLU().diagonal()) value.multiply(factor);
-  return value;
-}
-
-/// Product of s_i + sign s_j over all pairs of one spectrum; for sign = -1 squared.
-void multiply_pairs(const AtParameter& at, double sign, Scaled& value) {
-  const int power = sign < 0.0 ? 2 : 1;
-  const auto multiply = [&](double factor) {
-    for (int k = 0; k < power; ++k) value.multiply(factor);
-  };
-  for (std::size_t i = 0; i < at.upper.size(); ++i) {
-    const Complex s = at.upper[i];
-    if (sign < 0.0) {
-      value.multiply(-4.0 * s.imag() * s.imag());
-    } else {
-      value.multiply(2.0 * s.real());
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      multiply(std::norm(s + sign * at.upper[j]));
-      multiply(std::norm(s + sign * std::conj(at.upper[j])));
-    }
-    for (const double r : at.real) multiply(std::norm(s + sign * r));
-  }
-  for (std::size_t i = 0; i < at.real.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) multiply(at.real[i] + sign * at.real[j]);
-  }
-}
-
-/// Roots of a Chebyshev series as eigenvalues of its colleague matrix.
-std::vector<Complex> chebyshev_roots(std::vector<double> c) {
-  double largest = 0.0;
-  for (const double value : c) largest = std::max(largest, std::abs(value));
-  while (c.size() > 1 && std::abs(c.back()) <= 1e-13 * largest) c.pop_back();
-  const auto n = static_cast<Eigen::Index>(c.size()) - 1;
-  if (n == 0) return {};
-  if (n == 1) return {Complex(-c[0] / c[1])};
-  Matrix colleague = Matrix::Zero(n, n);
-  colleague(0, 1) = 1.0;
-  for (Eigen::Index i = 1; i < n; ++i) {
-    colleague(i, i - 1) = 0.5;
-    if (i + 1 < n) colleague(i, i + 1) = 0.5;
-  }
-  for (Eigen::Index j = 0; j < n; ++j)
-    colleague(n - 1, j) -= 0.5 * c[static_cast<std::size_t>(j)] / c[static_cast<std::size_t>(n)];
-  const ComplexVector roots = colleague.eigenvalues();
-  return {roots.begin(), roots.end()};
-}
 
 class Search {
  public:
@@ -123,44 +44,17 @@ class Search {
     const auto known = known_.find(p);
     if (known != known_.end()) return known->second;
     ++result_.spectra;
-    const RealPencil pencil = real_pencil(family_, p);
-    AtParameter& at = known_[p];
-    for (const Complex s : quadratic_eigenvalues(pencil.M, pencil.C, pencil.K)) {
-      if (s.imag() == 0.0) at.real.push_back(s.real());
-      if (s.imag() > 0.0) at.upper.push_back(s);
-    }
-    std::sort(at.real.begin(), at.real.end());
-    at.values[det_K] = determinant(pencil.K);
-    at.values[F] = at.values[D] = {1, 0.0};
-    multiply_pairs(at, 1.0, at.values[F]);
-    multiply_pairs(at, -1.0, at.values[D]);
-    // A factor that is zero has no sign; the number of pairs has one.
-    at.values[D].sign = at.upper.size() % 2 == 0 ? 1 : -1;
-    return at;
+    return known_[p] = spectrum_at(family_, p);
   }
   const Scaled& value(Function f, double p) { return at(p).values[f]; }
 
-  /// The coefficients of the Chebyshev polynomial on an interval, the largest value being one.
+  /// The Chebyshev polynomial on an interval.
   std::vector<double> coefficients(Function f, double a, double b) {
-    std::array<Scaled, degree + 1> values;
-    double largest = -std::numeric_limits<double>::infinity();
-    for (int k = 0; k <= degree; ++k) {
-      const double x = std::cos(std::numbers::pi * k / degree);
-      const double p = k == 0 ? b : k == degree ? a : 0.5 * (a + b) + 0.5 * (b - a) * x;
-      values[static_cast<std::size_t>(k)] = value(f, p);
-      largest = std::max(largest, values[static_cast<std::size_t>(k)].log);
-    }
-    std::vector<double> result;
-    for (int j = 0; j <= degree; ++j) {
-      double sum = 0.0;
-      for (int k = 0; k <= degree; ++k) {
-        const Scaled& v = values[static_cast<std::size_t>(k)];
-        const double weight = k == 0 || k == degree ? 0.5 : 1.0;
-        sum += weight * v.sign * std::exp(v.log - largest) * std::cos(std::numbers::pi * j * k / degree);
-      }
-      result.push_back(sum * (j == 0 || j == degree ? 1.0 : 2.0) / degree);
-    }
-    return result;
+    const auto function = [&](double x) {
+      const double p = x == 1.0 ? b : x == -1.0 ? a : 0.5 * (a + b) + 0.5 * (b - a) * x;
+      return value(f, p);
+    };
+    return chebyshev_coefficients(function, degree);
   }
 
   void split(Function f, double a, double b) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "completeness/discrepancies.hpp"
+#include "completeness/exceptional_points.hpp"
 #include "properties/planted_family.hpp"
 
 namespace eigentrail::test {
@@ -166,8 +167,47 @@ TEST_P(PlantedReference, FindsWhatWasPlanted) {
   }
 }
 
+TEST_P(PlantedReference, FindsVeerings) {
+  const PlantedFamily family = planted_family(static_cast<std::uint64_t>(GetParam()));
+  const double reach = 0.01 * (family.to - family.from);
+  const auto found = exceptional_points(family.matrices, family.from, family.to, reach);
+  for (const SpecialPoint& point : family.special) {
+    if (point.kind != "veering" || point.half_width < 1e-6 || point.half_width > 0.99 * reach) continue;
+    const Complex p(point.parameter, point.half_width);
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                            [&](const ExceptionalPoint& other) { return std::abs(other.p - p) < 1e-7; }))
+        << point.parameter << " half-width " << point.half_width << "\n"
+        << family.description();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, PlantedReference, testing::Range(1, 21),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+TEST(ExceptionalPoints, AreFoundAndCompared) {
+  // Two oscillators with stiffness 2 + p and 2 - p and coupling e: exceptional points at p = e j and -e j.
+  const double e = 0.004;
+  Family family;
+  family.M = {Matrix::Identity(2, 2)};
+  family.C = {0.1 * Matrix::Identity(2, 2)};
+  family.K = {rows({{2.0, e}, {e, 2.0}}), rows({{1.0, 0.0}, {0.0, -1.0}})};
+  const auto found = exceptional_points(family, -1.0, 1.0, 0.02);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT(std::abs(found[0].p - Complex(0.0, e)), 1e-9);
+  Event event;
+  event.kind = EventKind::veering;
+  event.half_width = e;
+  event.s = found[0].s;
+  const auto compare = [&](const std::vector<Event>& events) {
+    return compare_veerings(family, -1.0, 1.0, events);
+  };
+  EXPECT_TRUE(compare({event}).missing.empty());
+  EXPECT_TRUE(compare({event}).invented.empty());
+  EXPECT_EQ(compare({}).missing.size(), 1U);
+  Event invented = event;
+  invented.p = 0.1;
+  EXPECT_EQ(compare({event, invented}).invented.size(), 1U);
+}
 
 class Comparison : public testing::Test {
  protected:
