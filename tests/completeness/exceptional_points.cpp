@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "completeness/spectrum_functions.hpp"
 
@@ -54,6 +55,22 @@ Pair closest(const Family& family, Complex p, const std::optional<Complex>& mean
   return best;
 }
 
+/// Means of the pairs of eigenvalues that are closest to each other.
+std::vector<Complex> close_means(const Family& family, Complex p) {
+  const ComplexVector s = spectrum(family, p);
+  std::vector<std::pair<double, Complex>> pairs;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) pairs.emplace_back(std::abs(s[i] - s[j]), 0.5 * (s[i] + s[j]));
+  }
+  constexpr std::size_t most = 4;
+  const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(std::min(most, pairs.size()));
+  std::partial_sort(pairs.begin(), last, pairs.end(),
+                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Complex> means;
+  for (auto pair = pairs.begin(); pair != last; ++pair) means.push_back(pair->second);
+  return means;
+}
+
 std::string describe(const char* what, Complex p, Complex s) {
   std::ostringstream text;
   text.precision(10);
@@ -87,6 +104,15 @@ std::optional<ExceptionalPoint> corrected(const Family& family, Complex p, std::
 
 std::vector<ExceptionalPoint> exceptional_points(const Family& family, double from, double to, double reach) {
   std::vector<ExceptionalPoint> result;
+  const auto add = [&](const ExceptionalPoint& found) {
+    if (found.p.imag() > reach || found.p.real() < from || found.p.real() > to) return;
+    // Mirror images about the real axis of s, at the same p, are one.
+    const bool known = std::any_of(result.begin(), result.end(), [&](const ExceptionalPoint& other) {
+      const double apart = std::min(std::abs(other.s - found.s), std::abs(std::conj(other.s) - found.s));
+      return std::abs(other.p - found.p) < 1e-8 && apart < 1e-4 * std::abs(found.s);
+    });
+    if (!known) result.push_back(found);
+  };
   const double half = half_window * (to - from);
   for (int i = 0; i < windows; ++i) {
     const double middle = from + (to - from) * (i + 0.5) / windows;
@@ -95,15 +121,9 @@ std::vector<ExceptionalPoint> exceptional_points(const Family& family, double fr
       const Complex p = middle + half * root;
       const bool near = std::abs(root.real()) <= 0.8 && std::abs(root.imag()) * half <= 1.5 * reach;
       if (!near || root.imag() < -1e-3) continue;
-      const auto found = corrected(family, p);
-      if (!found || found->p.imag() > reach) continue;
-      if (found->p.real() < from || found->p.real() > to) continue;
-      // Mirror images about the real axis of s, at the same p, are one.
-      const bool known = std::any_of(result.begin(), result.end(), [&](const ExceptionalPoint& other) {
-        const double apart = std::min(std::abs(other.s - found->s), std::abs(std::conj(other.s) - found->s));
-        return std::abs(other.p - found->p) < 1e-8 && apart < 1e-4 * std::abs(found->s);
-      });
-      if (!known) result.push_back(*found);
+      for (const Complex s : close_means(family, p)) {
+        if (const auto found = corrected(family, p, s)) add(*found);
+      }
     }
   }
   std::sort(result.begin(), result.end(),

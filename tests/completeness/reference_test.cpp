@@ -167,7 +167,9 @@ TEST_P(PlantedReference, FindsWhatWasPlanted) {
   }
 }
 
-TEST_P(PlantedReference, FindsVeerings) {
+class PlantedVeerings : public testing::TestWithParam<int> {};
+
+TEST_P(PlantedVeerings, AreFound) {
   const PlantedFamily family = planted_family(static_cast<std::uint64_t>(GetParam()));
   const double reach = 0.01 * (family.to - family.from);
   const auto found = exceptional_points(family.matrices, family.from, family.to, reach);
@@ -180,6 +182,10 @@ TEST_P(PlantedReference, FindsVeerings) {
         << family.description();
   }
 }
+
+/// In seeds 7 and 18 other eigenvalues are closer to each other than those that veer.
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedVeerings, testing::Values(1, 2, 3, 7, 11, 18),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PlantedReference, testing::Range(1, 21),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
