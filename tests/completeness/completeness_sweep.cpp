@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "completeness/discrepancies.hpp"
 #include "completeness/exceptional_points.hpp"
@@ -88,6 +89,12 @@ struct Options {
   std::string scenes;
 };
 
+/// In the direction of the trace.
+RandomFamily traced(RandomFamily family, const Options& options) {
+  if (options.reversed) std::swap(family.from, family.to);
+  return family;
+}
+
 int sweep(const Options& options) {
   Summary summary;
   for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed) {
@@ -98,7 +105,8 @@ int sweep(const Options& options) {
     std::printf("%s\n%s", title(report).c_str(), report.problems().c_str());
     std::fflush(stdout);
     if (!options.scenes.empty())
-      std::ofstream(options.scenes + "/seed_" + std::to_string(seed) + ".toml") << family.scene();
+      std::ofstream(options.scenes + "/seed_" + std::to_string(seed) + ".toml")
+          << traced(family, options).scene();
   }
   summary.print();
   return summary.failed == 0 ? 0 : 1;
@@ -139,7 +147,7 @@ int sweep_veerings(const Options& options) {
 int show(const Options& options) {
   const RandomFamily family = random_family(options.first);
   if (options.scene) {
-    std::printf("%s", family.scene().c_str());
+    std::printf("%s", traced(family, options).scene().c_str());
     return 0;
   }
   const CompletenessReport report = check_completeness(family, options.reversed);
