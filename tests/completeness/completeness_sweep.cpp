@@ -37,6 +37,7 @@ struct Summary {
   double reference_seconds = 0.0, trace_seconds = 0.0;
   std::map<std::string, Count> kinds;
   std::map<std::string, std::set<std::uint64_t>> failures;  ///< seeds by what failed
+  std::set<std::uint64_t> undecided;                        ///< seeds with places that are not compared
   std::map<std::string, std::pair<int, int>> of_family;     ///< failed and all, by kind of family
 
   void add(const CompletenessReport& report) {
@@ -61,6 +62,7 @@ struct Summary {
       if (first == "invented") ++kinds[kind].invented;
     }
     if (!report.reference.doubts.empty()) failures["reference in doubt"].insert(report.family.seed);
+    if (!report.reference.touching.empty()) undecided.insert(report.family.seed);
   }
 
   void print() const {
@@ -76,6 +78,8 @@ struct Summary {
       for (const std::uint64_t seed : which) std::printf(" %lu", static_cast<unsigned long>(seed));
       std::printf(" |\n");
     }
+    std::printf("\nundecided somewhere, which is not compared:");
+    for (const std::uint64_t seed : undecided) std::printf(" %lu", static_cast<unsigned long>(seed));
     std::printf(
         "\n%d seeds, %d with events, %d failed; %d places where the reference is undecided; reference %ld "
         "spectra, %.1f s; traces %ld points, %.1f s\n",
