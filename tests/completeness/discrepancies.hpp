@@ -1,0 +1,50 @@
+// The events of a trace against those of the reference.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "completeness/random_family.hpp"
+#include "completeness/reference_events.hpp"
+#include "eigentrail/continuation/event.hpp"
+
+namespace eigentrail::test {
+
+struct Discrepancy {
+  std::string what;  ///< "missing flutter", "invented collision", "direction of divergence", ...
+  double p = 0.0;
+  std::string text;  ///< one line with place and eigenvalue
+};
+
+/// What was traced: the range, and how far the trace came.
+struct Traced {
+  double from = 0.0, to = 0.0, reached = 0.0;
+};
+
+/// Events that only one side has. They are the same within 1e-6 of the range. Events this close to an end of
+/// the trace or to a place where the reference is undecided may be there or not. Veerings and extrema are not
+/// compared. Crossings, and collisions off the real axis, do not happen in random families.
+std::vector<Discrepancy> find_discrepancies(const ReferenceEvents& reference,
+                                            const std::vector<Event>& events, const Traced& traced);
+
+struct CompletenessReport {
+  RandomFamily family;
+  ReferenceEvents reference;
+  std::vector<Event> events;
+  bool completed = false;
+  double reached = 0.0;
+  std::string message;  ///< why the trace ended early
+  std::vector<std::string> notes;
+  int nodes = 0;
+  double reference_seconds = 0.0, trace_seconds = 0.0;
+  std::vector<Discrepancy> discrepancies;  ///< with "ended early", if it did
+
+  bool passed() const { return discrepancies.empty() && reference.doubts.empty(); }
+  /// A line per discrepancy.
+  std::string problems() const;
+};
+
+/// Traces all modes with the default tolerance, from `to` to `from` if `reversed`, and compares.
+CompletenessReport check_completeness(const RandomFamily& family, bool reversed = false);
+
+}  // namespace eigentrail::test
