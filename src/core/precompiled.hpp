@@ -22,6 +22,7 @@
 extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
 extern template class Eigen::FullPivLU<Eigen::MatrixXd>;
+extern template class Eigen::LLT<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;

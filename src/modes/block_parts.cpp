@@ -71,6 +71,17 @@ ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda) {
   return mean;
 }
 
+ComplexVector product_series(const std::vector<ComplexMatrix>& Lambda) {
+  ComplexVector product = ComplexVector::Zero(static_cast<Eigen::Index>(Lambda.size()));
+  for (std::size_t i = 0; i < Lambda.size(); ++i) {
+    for (std::size_t j = 0; i + j < Lambda.size(); ++j) {
+      product[static_cast<Eigen::Index>(i + j)] +=
+          Lambda[i](0, 0) * Lambda[j](1, 1) - Lambda[i](0, 1) * Lambda[j](1, 0);
+    }
+  }
+  return product;
+}
+
 ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count) {
   const auto size = static_cast<double>(Lambda[0].rows());
   const auto a = static_cast<double>(count);

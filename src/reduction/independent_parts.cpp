@@ -4,12 +4,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <random>
+#include <utility>
+
+#include "core/right_singular_vectors.hpp"
 
 namespace eigentrail {
 namespace {
@@ -164,12 +166,12 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
         }
       }
     }
-    const Eigen::BDCSVD<Values> svd(equations, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    const auto right = right_singular_vectors(std::move(equations));
+    if (!right) return std::nullopt;
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>::Zero(unknowns);
-    const auto& values = svd.singularValues();
     for (Eigen::Index k = 0; k < unknowns; ++k) {
-      if (k < values.size() && values[k] > no_coupling * size) continue;
-      x += random_number(random) * svd.matrixV().col(k);
+      if (k < right->values.size() && right->values[k] > no_coupling * size) continue;
+      x += random_number(random) * right->V.col(k);
     }
     for (std::size_t a = 0; a < members.size(); ++a) {
       const auto& space = spaces[static_cast<std::size_t>(members[a])];
@@ -218,14 +220,14 @@ std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Random&
   };
   const Matrix some = random_combination(all, random);
   const Matrix G = reduced(0.5 * (some + some.transpose()));
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(0.5 * (G + G.transpose())));
   const Matrix& V = eigen.eigenvectors();
   const ComplexVector values = eigen.eigenvalues().cast<Complex>();
   const Matrix H = V.transpose() * reduced(random_combination(all, random)) * V;
   const auto X =
       random_commuting(H, close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff()), random);
   if (!X) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Matrix> parts(0.5 * (*X + X->transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(0.5 * (*X + X->transpose())));
   const Vector& x = parts.eigenvalues();
   const Matrix Q = cholesky.matrixU().solve(V * parts.eigenvectors());
   Splitting result{Q, Q, {}, {}};
@@ -267,10 +269,10 @@ ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const Co
       continue;
     }
     const Complex mean = values(members).mean();
-    const ComplexMatrix shifted = G.cast<Complex>() - mean * ComplexMatrix::Identity(n, n);
-    const Eigen::BDCSVD<ComplexMatrix> svd(shifted, Eigen::ComputeFullV);
-    if (svd.singularValues()[n - size] > possibly_equal * svd.singularValues()[0]) return {};
-    V(Eigen::all, members) = svd.matrixV().rightCols(size);
+    ComplexMatrix shifted = G.cast<Complex>() - mean * ComplexMatrix::Identity(n, n);
+    const auto right = right_singular_vectors(std::move(shifted));
+    if (!right || right->values[n - size] > possibly_equal * right->values[0]) return {};
+    V(Eigen::all, members) = right->V.rightCols(size);
   }
   return V;
 }

@@ -52,7 +52,7 @@ TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Mat
   // matrix close to it. If the tangent space turns by 90 degrees there is none, and the basis starts again
   // from Q2.
   const Matrix W = Q2.transpose() * previous;
-  const Eigen::LLT<Matrix> cholesky(W.transpose() * W);
+  const Eigen::LLT<Matrix> cholesky(Matrix(W.transpose() * W));
   if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > 1e-8)) return {{Q2}, false, {}};
   const Matrix rotation = cholesky.matrixL().solve(W.transpose()).transpose();
   return {{Q2 * rotation}, false, {}};

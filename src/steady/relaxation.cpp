@@ -139,7 +139,7 @@ Vector downhill_step(const Place& place, double scale, double& delta) {
   const Matrix K = Q2.transpose() * place.linearization.K[0] * Q2;
   const Matrix identity = Matrix::Identity(K.rows(), K.cols());
   for (; delta <= largest_delta; delta *= 4.0) {
-    const Eigen::LLT<Matrix> symmetric(0.5 * (K + K.transpose()) + delta * scale * identity);
+    const Eigen::LLT<Matrix> symmetric(Matrix(0.5 * (K + K.transpose()) + delta * scale * identity));
     if (symmetric.info() != Eigen::Success || !(symmetric.rcond() > smallest_delta)) continue;
     // Circulatory forces give K a skew part. It changes the direction of the step, but not against the force.
     return Eigen::PartialPivLU<Matrix>(K + delta * scale * identity).solve(place.pull);

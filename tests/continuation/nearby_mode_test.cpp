@@ -33,7 +33,7 @@ Planted crossing() {
 TEST(LookAtMode, GivesASingleModeWithItsSeries) {
   PlantedSearch planted(crossing());
   const PathNode left = planted.family.point(0.0, alone({5.0 * j, 2.0 * j}));
-  const auto mode = look_at_mode(planted.solver, left, 1, 2.1 * j, 0.1, false);
+  const auto mode = look_at_mode(planted.solver, left, 1, 2.1 * j, 0.1, ModeFunction::eigenvalue);
   ASSERT_TRUE(mode);
   EXPECT_EQ(mode->solved.node.tracks.size(), 1U);
   EXPECT_EQ(mode->solved.node.p, 0.1);
@@ -46,10 +46,10 @@ TEST(LookAtMode, GivesASingleModeWithItsSeries) {
 TEST(LookAtMode, PicksTheExpectedOneOfABlock) {
   PlantedSearch planted(crossing());
   const PathNode left = planted.family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-  const auto falling = look_at_mode(planted.solver, left, 0, 2.48 * j, 0.1, false);
+  const auto falling = look_at_mode(planted.solver, left, 0, 2.48 * j, 0.1, ModeFunction::eigenvalue);
   ASSERT_TRUE(falling);
   EXPECT_LT(distance(falling->series, ComplexVector{{2.5 * j, -1.0 * j}}), rounding);
-  const auto rising = look_at_mode(planted.solver, left, 0, 2.12 * j, 0.1, false);
+  const auto rising = look_at_mode(planted.solver, left, 0, 2.12 * j, 0.1, ModeFunction::eigenvalue);
   ASSERT_TRUE(rising);
   EXPECT_LT(distance(rising->series, ComplexVector{{2.1 * j, j}}), rounding);
 }
@@ -58,7 +58,7 @@ TEST(LookAtMode, PicksTheExpectedOneOfABlock) {
 TEST(LookAtMode, GivesTheUpperMember) {
   PlantedSearch planted(crossing());
   const PathNode left = planted.family.point(0.0, alone({-2.0 * j}));
-  const auto mode = look_at_mode(planted.solver, left, 0, -2.1 * j, 0.1, false);
+  const auto mode = look_at_mode(planted.solver, left, 0, -2.1 * j, 0.1, ModeFunction::eigenvalue);
   ASSERT_TRUE(mode);
   EXPECT_LT(distance(mode->series, ComplexVector{{2.1 * j, j}}), rounding);
 }
@@ -69,7 +69,7 @@ TEST(LookAtMode, TellsTwoApartThatAreClose) {
   const PathNode left = planted.family.point(0.0, {{{2.0 * j, 2.6 * j}}});
   for (const double beside : {1e-2, 1e-4, 1e-6}) {
     const double p = 0.3 - beside;
-    const auto mode = look_at_mode(planted.solver, left, 0, (2.0 + p) * j, p, false);
+    const auto mode = look_at_mode(planted.solver, left, 0, (2.0 + p) * j, p, ModeFunction::eigenvalue);
     ASSERT_TRUE(mode) << beside;
     EXPECT_LT(std::abs(mode->root - (2.0 + p) * j), rounding) << beside;
     // Slopes lose what the eigenvectors lose.
@@ -83,9 +83,9 @@ struct Colliding {
     const Complex s(-d, std::sqrt(0.5 - d * d));
     left = planted.family.point(0.5, {{{s, std::conj(s)}}});
   }
-  std::optional<NearbyMode> look(double p, bool of_pair) {
+  std::optional<NearbyMode> look(double p, ModeFunction wanted) {
     const Complex root = std::sqrt(Complex(p - (1.0 - d * d)));
-    return look_at_mode(planted.solver, left, 0, -d + root, p - 0.5, of_pair);
+    return look_at_mode(planted.solver, left, 0, -d + root, p - 0.5, wanted);
   }
   static constexpr double d = 0.5;
   PlantedSearch planted;
@@ -94,7 +94,7 @@ struct Colliding {
 
 TEST(LookAtMode, GivesThePairOfARealBlock) {
   Colliding colliding;
-  const auto mode = colliding.look(0.55, false);
+  const auto mode = colliding.look(0.55, ModeFunction::eigenvalue);
   ASSERT_TRUE(mode);
   const double w = std::sqrt(0.2);
   EXPECT_LT(std::abs(mode->root - Complex(-0.5, w)), rounding);
@@ -104,16 +104,26 @@ TEST(LookAtMode, GivesThePairOfARealBlock) {
 /// At the exceptional point neither has a series; their mean has one.
 TEST(LookAtMode, AtAnExceptionalPointOnlyTheMeanHasASeries) {
   Colliding colliding;
-  const auto one = colliding.look(0.75, false);
+  const auto one = colliding.look(0.75, ModeFunction::eigenvalue);
   ASSERT_TRUE(one);
   EXPECT_LT(one->gap, 1e-6);
   const bool knows = one->series.size() > 1 && std::abs(one->series[1]) < 1e3;
   EXPECT_FALSE(knows) << "a square root has no slope at zero";
-  const auto mean = colliding.look(0.75, true);
+  const auto mean = colliding.look(0.75, ModeFunction::pair_mean);
   ASSERT_TRUE(mean);
   EXPECT_TRUE(mean->is_mean);
   EXPECT_LT(distance(mean->series, ComplexVector{{-0.5}}), rounding);
   EXPECT_NEAR(mean->root.real(), -0.5, rounding);
+}
+
+/// The product 1 - p knows nothing of the exceptional point, not even on it.
+TEST(LookAtMode, TheProductOfAPairIsSmoothWhereThePairMeets) {
+  Colliding colliding;
+  for (const double p : {0.55, 0.75, 0.8}) {
+    const auto product = colliding.look(p, ModeFunction::product);
+    ASSERT_TRUE(product);
+    EXPECT_LT(distance(product->series, ComplexVector{{1.0 - p, -1.0}}), rounding) << p;
+  }
 }
 
 /// Damping 1e-12: Re s is known to its own digits, not to those of |s|.
@@ -121,7 +131,8 @@ TEST(LookAtMode, GivesASmallRealPartToItsOwnDigits) {
   constexpr double d = 1e-12;
   PlantedSearch planted(Planted({{Matrix{{1.0}}}, {Matrix{{2.0 * d}}}, {Matrix{{1.0}}, Matrix{{1.0}}}}));
   const PathNode left = planted.family.point(0.0, alone({{-d, 1.0}}));
-  const auto mode = look_at_mode(planted.solver, left, 0, {-d, std::sqrt(1.3)}, 0.3, false);
+  const auto mode =
+      look_at_mode(planted.solver, left, 0, {-d, std::sqrt(1.3)}, 0.3, ModeFunction::eigenvalue);
   ASSERT_TRUE(mode);
   EXPECT_NEAR(mode->root.real(), -d, 1e-6 * d);
 }
@@ -134,8 +145,8 @@ TEST(LookAtMode, FindsNothingWhereThereIsNoEquilibrium) {
   const PointSolver solver(problem, frame, counts);
   const PathNode left = differentiate_point(problem, point_from_guess(problem, 0.9, counts), counts).value();
   const Complex s = left.tracks[0].roots[0];
-  EXPECT_TRUE(look_at_mode(solver, left, 0, s, 0.01, false));
-  EXPECT_FALSE(look_at_mode(solver, left, 0, s, 0.2, false));
+  EXPECT_TRUE(look_at_mode(solver, left, 0, s, 0.01, ModeFunction::eigenvalue));
+  EXPECT_FALSE(look_at_mode(solver, left, 0, s, 0.2, ModeFunction::eigenvalue));
 }
 
 }  // namespace

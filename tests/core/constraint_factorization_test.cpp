@@ -217,7 +217,7 @@ TEST(ConstraintFactorization, SolvesNearlyParallelRowsWhereTheNormalEquationsFai
   const Vector b = Eigen::Vector2d(1.0, -0.5);
   const Matrix x = factorization.pseudo_inverse_times(b);
   EXPECT_LT((A * x - b).norm(), rounding * x.norm());
-  const Vector rival = A.transpose() * Eigen::FullPivLU<Matrix>(A * A.transpose()).solve(b);
+  const Vector rival = A.transpose() * Eigen::FullPivLU<Matrix>(Matrix(A * A.transpose())).solve(b);
   EXPECT_FALSE((A * rival - b).norm() < not_a_solution * b.norm());
 
   const Vector rates = A * random_matrix(5, 1, 19);

@@ -28,7 +28,8 @@ double qz_error(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix M = pencil.M[0].cast<Complex>();
   const ComplexMatrix C = pencil.C[0].cast<Complex>();
   const ComplexMatrix K = pencil.K[0].cast<Complex>();
-  const Eigen::JacobiSVD<ComplexMatrix> svd(s * s * M + s * C + K, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<ComplexMatrix> svd(ComplexMatrix(s * s * M + s * C + K),
+                                            Eigen::ComputeFullU | Eigen::ComputeFullV);
   const ComplexVector z = svd.matrixV().rightCols(1);
   const ComplexVector y = svd.matrixU().rightCols(1);
   const double x_norm = std::hypot(1.0, std::abs(s));

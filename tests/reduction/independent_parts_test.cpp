@@ -203,7 +203,7 @@ TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {
   const ReducedPencil pencil = reduce(linearization, basis_of(parts), 3);
   ASSERT_EQ(pencil.parts.size(), 3U);
   const auto squares = [](const Matrix& M, const Matrix& K) {
-    ComplexVector values = Eigen::EigenSolver<Matrix>(M.inverse() * K, false).eigenvalues();
+    ComplexVector values = Eigen::EigenSolver<Matrix>(Matrix(M.inverse() * K), false).eigenvalues();
     std::sort(values.begin(), values.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
     return values;
   };

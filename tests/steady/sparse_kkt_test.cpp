@@ -73,7 +73,8 @@ TEST(SparseKkt, ReciprocalConditionFallsLikeTheLeastTangentStiffness) {
   System system;
   system.K = (0.5 * (system.K + system.K.transpose())).eval();
   const Matrix Q2 = ConstraintFactorization(system.A).null_basis();
-  const double mu = Eigen::SelfAdjointEigenSolver<Matrix>(Q2.transpose() * system.K * Q2).eigenvalues()[0];
+  const double mu =
+      Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(Q2.transpose() * system.K * Q2)).eigenvalues()[0];
   for (const double distance : {1e-2, 1e-5, 1e-8}) {
     const Matrix K = system.K - (mu - distance) * Matrix::Identity(n, n);
     const KktFactorization kkt(sparse(K), sparse(system.A));

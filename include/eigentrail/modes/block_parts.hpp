@@ -26,6 +26,9 @@ std::vector<ComplexMatrix> part_series(const std::vector<ComplexMatrix>& Lambda,
 /// Series of the mean of the eigenvalues of a part.
 ComplexVector mean_series(const std::vector<ComplexMatrix>& Lambda);
 
+/// Series of the product of the two eigenvalues of a block, its determinant. Empty if Lambda is.
+ComplexVector product_series(const std::vector<ComplexMatrix>& Lambda);
+
 /// Series of ((s_a - s_b) / 2)^2 for a part whose eigenvalues are s_a, `count` times, and s_b otherwise. With
 /// two eigenvalues and count = 1 this is delta of invariants.hpp. Smooth where s_a and s_b meet.
 ComplexVector discriminant_series(const std::vector<ComplexMatrix>& Lambda, Eigen::Index count);

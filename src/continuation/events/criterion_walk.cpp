@@ -11,6 +11,7 @@
 #include "continuation/step/shared_basis.hpp"
 #include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -38,6 +39,12 @@ constexpr int most_corrections = 20;
 constexpr double last_correction = 1e-15;
 /// Safety factor on the estimated rounding error of a block's eigenvalues.
 constexpr double rounding_margin = 10.0;
+
+/// Whether a zero can be located as that of a product of two eigenvalues of a block.
+bool has_product(const CriterionTarget& target, const Track& track) {
+  return target.criterion.kind == EventKind::flutter && !target.pair &&
+         target.sought == CriterionTarget::Sought::zero && track.pair.is_real && track.size() > 1;
+}
 
 Vector derivative(const Vector& series) {
   Vector result(series.size() - 1);
@@ -75,6 +82,12 @@ int sign_of(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
+int nearest_member(const Track& track, Complex root) {
+  Eigen::Index nearest = 0;
+  (track.roots.array() - root).abs().minCoeff(&nearest);
+  return static_cast<int>(nearest);
+}
+
 /// Locates one zero or extremum.
 class CriterionWalk {
  public:
@@ -87,8 +100,9 @@ class CriterionWalk {
 
  private:
   /// Why a look ends the walk before Newton's method converges. at_meeting: the zero of Re s is at a double
-  /// eigenvalue and is recorded there. passed: there is no event.
-  enum class Ending { none, at_meeting, passed };
+  /// eigenvalue and is recorded there. unsettled: a real eigenvalue meets another one; its product with it
+  /// will tell. passed: there is no event.
+  enum class Ending { none, at_meeting, unsettled, passed };
 
   RealSight look(double distance);
   Ending ending(const ComplexVector& series, int look) const;
@@ -96,6 +110,8 @@ class CriterionWalk {
   void finish(double offset, double distance, int looks);
   void record(double offset, bool located, int looks);
   int direction(double offset) const;
+  double other_factor() const;
+  double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const;
   Chart chart() const { return step_.left->tracks[member_.track].pair.chart; }
 
   const EventSearch& search_;
@@ -113,8 +129,9 @@ class CriterionWalk {
 
 /// Whether the walk has reached a double eigenvalue, and what that means.
 CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
-  const bool meets = series.size() < 2 || mode_->gap <= meeting_gap * moved_;
+  const bool meets = series.size() < 2 || (!target_.by_product && mode_->gap <= meeting_gap * moved_);
   if (!meets) return Ending::none;
+  if (has_product(target_, step_.left->tracks[member_.track])) return Ending::unsettled;
   // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
   const double near =
       search_.thresholds().criterion.double_root_on_axis * search_.problem().reference(chart());
@@ -130,7 +147,8 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
 std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
   const Track& track = step_.left->tracks[member_.track];
   const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
-  if (!track.departure || mode_->is_mean || target_.sought != Sought::zero || !overshoots)
+  if (!track.departure || mode_->is_mean || target_.by_product || target_.sought != Sought::zero ||
+      !overshoots)
     return std::nullopt;
   const Complex root = track.roots[static_cast<Eigen::Index>(member_.index)];
   const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
@@ -143,13 +161,18 @@ std::optional<double> CriterionWalk::move_behind_meeting(double distance, double
 RealSight CriterionWalk::look(double distance) {
   ++looks_;
   const Complex expected = on_step_.member_near(member_.index, distance / step_.h);
+  const bool of_pair = target_.criterion.kind == EventKind::flutter && target_.pair;
   mode_ = look_at_mode(search_.solver, *step_.left, member_.track, expected, distance,
-                       target_.criterion.kind == EventKind::flutter && target_.pair);
+                       target_.by_product ? ModeFunction::product
+                       : of_pair          ? ModeFunction::pair_mean
+                                          : ModeFunction::eigenvalue);
   if (!mode_) return {RealSight::Kind::failed};
   const ComplexVector& series = mode_->series;
   ending_ = ending(series, looks_);
   if (ending_ != Ending::none) return {RealSight::Kind::absent};
-  g_ = criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
+  g_ = target_.by_product
+           ? Vector(series.real())
+           : criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
   const bool is_zero = target_.sought == Sought::zero;
   // A slope this small is rounding: the mode stays on the axis and does not cross it.
   const double still =
@@ -181,7 +204,7 @@ bool CriterionWalk::run(double t) {
   const Walk<double> found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
   if (found.end == WalkEnd::absent) {
     if (ending_ == Ending::at_meeting) record(0.0, false, looks_);
-    return true;
+    return ending_ != Ending::unsettled;
   }
   if (found.end != WalkEnd::settled) return false;
   const double share = (found.position + found.move) / step_.h;
@@ -224,12 +247,37 @@ int CriterionWalk::direction(double offset) const {
   for (Eigen::Index k = g_.size() - 1; k > 0; --k) slope = slope * offset + static_cast<double>(k) * g_[k];
   switch (target_.sought) {
     case Sought::zero:
-      return sign_of(slope * search_.frame().speed(mode_->solved.node));
+      // Where one of two factors is zero, the slope of the product is that of the factor times the other one.
+      return sign_of(slope * other_factor() * search_.frame().speed(mode_->solved.node));
     case Sought::extremum:
       return -sign_of(g_[2]);  // least damping is where Re mu / |mu| is largest
     default:
       return 0;
   }
+}
+
+/// Of a zero of a product: the other eigenvalue, which is the sum of both there. Else 1.
+double CriterionWalk::other_factor() const {
+  if (!target_.by_product) return 1.0;
+  const Track& there = mode_->solved.node.tracks.front();
+  const int root = nearest_member(there, mode_->root);
+  return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
+}
+
+/// Derivative with respect to q of the function whose zero is located: `along_q` has its series in q.
+double CriterionWalk::slope_in(const PathNode& along, const Track& along_q,
+                               const std::vector<int>& members) const {
+  const Track& there = mode_->solved.node.tracks.front();
+  if (target_.by_product) {
+    const std::vector<int> factors{members.front(), partner_of_root(there, members.front())};
+    const ComplexVector product =
+        product_series(part_series(along_q.series.Lambda, roots_of(there, factors)));
+    return product.size() < 2 ? NAN : product[1].real();
+  }
+  const Complex slope = mean_slope(along_q, roots_of(there, members));
+  const Vector excitation = excitation_at(search_, along).head(2);
+  return criterion_series(target_.criterion, ComplexVector{{mode_->root, slope}}, there.pair.chart,
+                          excitation)[1];
 }
 
 /// Records the event at the distance `offset` from the last look. `located`: Newton's method converged there;
@@ -238,8 +286,9 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   const PathNode& node = mode_->solved.node;
   const Track& there = node.tracks.front();
   const EventKind asked = target_.criterion.kind;
+  const bool moves_on = located && !target_.by_product;
   const Complex root =
-      located ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
+      moves_on ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
   Event event;
   event.kind = asked != EventKind::flutter || target_.pair ? asked : EventKind::divergence;
   event.p = evaluate_series(node.path.parameters, offset)[search_.problem().traced];
@@ -257,16 +306,11 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
     return;
   if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
-  Eigen::Index nearest = 0;
-  (there.roots.array() - mode_->root).abs().minCoeff(&nearest);
-  const std::vector<int> members{static_cast<int>(nearest)};
+  const std::vector<int> members{nearest_member(there, mode_->root)};
   keep_shape(node, there, members, offset, event);
-  const auto moves = [&](const Track&, const PathNode& along, const Track& track) {
-    const Complex slope = mean_slope(track, roots_of(there, members));
-    const Vector excitation = excitation_at(search_, along).head(2);
-    const Vector g_q = criterion_series(target_.criterion, ComplexVector{{mode_->root, slope}},
-                                        there.pair.chart, excitation);
-    return located && target_.sought == Sought::zero ? -g_q[1] / g_[1] : NAN;
+  const auto moves = [&](const Track&, const PathNode& along, const Track& along_q) {
+    const bool is_zero = located && target_.sought == Sought::zero;
+    return is_zero ? -slope_in(along, along_q, members) / g_[1] : NAN;
   };
   keep_sensitivities(search_.problem(), mode_->solved.point, node, there, members, moves, event,
                      search_.solver.counts());
@@ -319,7 +363,11 @@ Vector excitation_at(const EventSearch& search, const PathNode& node) {
 
 bool locate(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
             const CriterionTarget& target, double t, FoundEvents& found) {
-  return CriterionWalk(search, step, on_step, member, target, found).run(t);
+  if (CriterionWalk(search, step, on_step, member, target, found).run(t)) return true;
+  if (!has_product(target, step.left->tracks[member.track])) return false;
+  CriterionTarget by_product = target;
+  by_product.by_product = true;
+  return CriterionWalk(search, step, on_step, member, by_product, found).run(t);
 }
 
 }  // namespace eigentrail

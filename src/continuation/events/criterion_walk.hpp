@@ -23,6 +23,7 @@ struct CriterionTarget {
   Criterion criterion;
   bool pair = false;  ///< the eigenvalue is one of a complex pair
   Sought sought = Sought::zero;
+  bool by_product = false;  ///< of a real eigenvalue of a block: by the zero of a product (ModeFunction)
 };
 
 /// Eigenvalues of one track and their criteria from the dense output of a step, at any t in [0, 1].

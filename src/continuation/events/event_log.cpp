@@ -77,6 +77,8 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
     // unless its place is the same to the accuracy of a zero.
     const double on_axis = thresholds.criterion.on_axis * std::max(std::abs(other.s), s_ref);
     const bool meets_on_axis = std::abs(other.s.real()) <= on_axis;
+    // The real eigenvalues of a pair that meets off the axis are not zero there.
+    if (zero.kind == EventKind::divergence && located && !meets_on_axis) return false;
     const EventThresholds& same = thresholds.event;
     const double place =
         (located && !meets_on_axis ? same.same_place : same.same_double_root) * range.length();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "continuation/tracks/members.hpp"
 #include "continuation/tracks/regrouping.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -43,7 +44,34 @@ std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt
   return there;
 }
 
+/// The product of an eigenvalue with its partner, as a mode.
+std::optional<NearbyMode> product_with_partner(std::optional<SolvedPoint> there, Complex expected) {
+  if (!there) return std::nullopt;
+  const Track& track = there->node.tracks.front();
+  const auto root = static_cast<int>(nearest_root(track.roots, expected));
+  const int partner = partner_of_root(track, root);
+  if (partner < 0) return std::nullopt;
+  const ComplexVector series =
+      product_series(part_series(track.series.Lambda, roots_of(track, {root, partner})));
+  if (series.size() == 0) return std::nullopt;
+  const Complex s = track.roots[root];
+  return NearbyMode{std::move(*there), s, series, std::abs(s - track.roots[partner]), false};
+}
+
 }  // namespace
+
+int partner_of_root(const Track& track, int root) {
+  if (!track.pair.is_real) return -1;
+  const Complex s = track.roots[root];
+  int partner = -1;
+  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
+    const Complex other = track.roots[i];
+    const bool fits = s.imag() == 0.0 ? other.imag() == 0.0 : other == std::conj(s);
+    if (i == root || !fits) continue;
+    if (partner < 0 || std::abs(other - s) < std::abs(track.roots[partner] - s)) partner = i;
+  }
+  return partner;
+}
 
 Complex upper_member(Complex mu, Chart chart) {
   const bool lower = chart == Chart::finite ? mu.imag() < 0.0 : mu.imag() > 0.0;
@@ -51,8 +79,9 @@ Complex upper_member(Complex mu, Chart chart) {
 }
 
 std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode& left, std::size_t track,
-                                       Complex expected, double h, bool of_pair) {
+                                       Complex expected, double h, ModeFunction wanted) {
   const TracksAt base = one_track(left, track);
+  if (wanted == ModeFunction::product) return product_with_partner(solver.follow(base, h), expected);
   std::optional<SolvedPoint> beside = solve_alone(solver, base, expected, h);
   if (!beside) beside = solver.follow(base, h);
   if (!beside) return std::nullopt;
@@ -68,7 +97,7 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
         eigenvalue_remainder(PencilAtPoint(beside->node.pencil.of(single->pair.part), chart), single->pair);
     s = series[0];
   }
-  const bool is_mean = of_pair && there.pair.is_real && there.size() == 2;
+  const bool is_mean = wanted == ModeFunction::pair_mean && there.pair.is_real && there.size() == 2;
   if (is_mean) {
     // The real part of a complex pair is the mean of the block, smooth also where the pair is defective.
     series = mean_series(there.series.Lambda);

@@ -126,7 +126,8 @@ Sight<double> CrossingWalk::look(double h) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Chart chart = step_.left->tracks[modes_[i]->track].pair.chart;
     const Complex expected = seen_[i] ? seen_[i]->root : chart_value(modes_[i]->s[at], chart);
-    seen_[i] = look_at_mode(search_.solver, *step_.left, modes_[i]->track, expected, h, false);
+    seen_[i] =
+        look_at_mode(search_.solver, *step_.left, modes_[i]->track, expected, h, ModeFunction::eigenvalue);
     if (!seen_[i] || seen_[i]->series.size() < 2 || seen_[i]->series[0] == 0.0) return {};
     ComplexVector series = chart == Chart::finite ? seen_[i]->series : reciprocal_series(seen_[i]->series);
     if (series[0].imag() < 0.0) series = series.conjugate().eval();

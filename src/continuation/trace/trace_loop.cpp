@@ -353,9 +353,9 @@ void TraceLoop::settle_events(LandedStep& landed) {
   if (!leaves_path_at(step.right))
     births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
   name_births(births, met);
-  inherit_histories(births, criteria_, state_.histories);
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
+  inherit_histories(births, criteria_, state_.histories);  // after the scan of their parents up to here
   log(find_veerings(search_, step));
   log(find_part_crossings(search_, step));
   log_branch_point(step.right);
