@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "support/scenes.hpp"
 
@@ -43,21 +44,42 @@ class DivergenceBehindCollision : public testing::TestWithParam<double> {};
 
 TEST_P(DivergenceBehindCollision, IsAnEventOfItsOwn) {
   const double d = GetParam();
-  const std::string C = "[ [[" + std::to_string(2.0 * d) + ", 0], [0, 0.1]] ]";
-  const RecordedTrace trace = record_trace(family("0", "1.5", C, "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  const Event* collision = find(trace, EventKind::collision);
-  const Event* divergence = find(trace, EventKind::divergence);
-  ASSERT_NE(collision, nullptr);
-  ASSERT_NE(divergence, nullptr);
-  EXPECT_NEAR(collision->p, 1.0 - d * d, 1e-10);
-  EXPECT_NEAR(divergence->p, 1.0, 1e-10);
-  EXPECT_EQ(divergence->direction, 1);
+  std::ostringstream C;
+  C << "[ [[" << 2.0 * d << ", 0], [0, 0.1]] ]";
+  for (const bool upward : {true, false}) {
+    SCOPED_TRACE(upward ? "upward" : "downward");
+    const RecordedTrace trace = record_trace(family(upward ? "0" : "1.5", upward ? "1.5" : "0", C.str(),
+                                                    "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    const Event* collision = find(trace, EventKind::collision);
+    const Event* divergence = find(trace, EventKind::divergence);
+    ASSERT_NE(collision, nullptr);
+    ASSERT_NE(divergence, nullptr);
+    EXPECT_NEAR(collision->p, 1.0 - d * d, 1e-10);
+    EXPECT_NEAR(divergence->p, 1.0, 1e-10);
+    EXPECT_EQ(divergence->direction, 1);
+  }
 }
 
-// From far apart to a distance in p of 1e-8, about the root of rounding.
-INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision, testing::Values(0.1, 1e-2, 1e-3, 1e-4),
+// From far apart to a distance in p of 1e-14, a few units of rounding.
+INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision,
+                         testing::Values(0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7),
                          [](const auto& checked) { return "case_" + std::to_string(checked.index); });
+
+// s^2 + (1.8 - 2 p) s + 1 - p: flutter at p = 0.9; where (p - 0.9)^2 = 1 - p the pair meets on the real axis;
+// one of its real roots is zero at p = 1. The mode that begins where the pair meets must know that its parent
+// has become unstable on the step that ends there.
+TEST(LostEvents, DivergenceOfAModeWhoseParentHasJustBecomeUnstable) {
+  const RecordedTrace trace = record_trace(family("0", "1.5", "[ [[1.8, 0], [0, 0.1]], [[-2, 0], [0, 0]] ]",
+                                                  "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
+  const Event* flutter = find(trace, EventKind::flutter);
+  const Event* divergence = find(trace, EventKind::divergence);
+  ASSERT_NE(flutter, nullptr);
+  ASSERT_NE(divergence, nullptr);
+  EXPECT_NEAR(flutter->p, 0.9, 1e-12);
+  EXPECT_NEAR(divergence->p, 1.0, 1e-12);
+  EXPECT_EQ(divergence->direction, -1);
+}
 
 // Without damping the pair meets at zero and leaves the imaginary axis there. This is one event, not two.
 TEST(LostEvents, CollisionAtZeroIsNoDivergenceToo) {

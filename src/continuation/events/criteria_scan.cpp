@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eigentrail {
 namespace {
@@ -71,6 +72,7 @@ class TrackScan {
       }
       last = t;
     }
+    if (step_.right.tracks[index_].departure) look_at_meeting(last);
   }
 
  private:
@@ -92,6 +94,33 @@ class TrackScan {
         continue;
       }
       take(search_.criteria[c], history, member, s, last, t);
+    }
+  }
+
+  /// Real eigenvalues that meet at the right end are known there only to a root of rounding, but their mean
+  /// is known. So a zero between the last sample and the end is seen.
+  void look_at_meeting(double last) {
+    const Track& end = step_.right.tracks[index_];
+    const auto nearest_met = [&](int i) {
+      double least = std::numeric_limits<double>::infinity();
+      Complex nearest = end.roots[i];
+      for (const int j : end.met) {
+        const double distance = std::abs(end.roots[j] - end.roots[i]);
+        if (j == i || distance >= least) continue;
+        least = distance;
+        nearest = end.roots[j];
+      }
+      return nearest;
+    };
+    for (const int i : end.met) {
+      const auto member = static_cast<std::size_t>(i);
+      if (track().modes[member] < 0 || on_step_.root(member, last).imag() != 0.0) continue;
+      const double mean = 0.5 * (end.roots[i] + nearest_met(i)).real();
+      for (std::size_t c = 0; c < search_.criteria.size(); ++c) {
+        CriterionHistory& history = histories_[{track().modes[member], c}];
+        if (!search_.criteria[c].asks_for_pairs())
+          take(search_.criteria[c], history, member, mean, last, 1.0);
+      }
     }
   }
 
