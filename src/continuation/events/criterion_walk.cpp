@@ -190,11 +190,13 @@ RealSight CriterionWalk::look(double distance) {
   const double share = (distance + move) / step_.h;
   if (!(share > -way_outside && share < 1.0 + way_outside)) return {RealSight::Kind::failed};
   // A move this short is accurate enough also for a zero: the error after a Newton step is about the square
-  // of the move.
+  // of the move. Not so beside a meeting on the real axis, which may be as close.
   const double range = search_.frame().coordinate_range();
   const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
-  const bool settled = !behind_meeting && ((useful && root.doubt <= resolution) ||
-                                           std::abs(move) <= extremum_resolution * range);
+  const bool beside_meeting = has_product(target_, step_.left->tracks[member_.track]);
+  const double short_move = beside_meeting ? resolution : extremum_resolution * range;
+  const bool settled =
+      !behind_meeting && ((useful && root.doubt <= resolution) || std::abs(move) <= short_move);
   return {settled ? RealSight::Kind::settled : RealSight::Kind::seen, move};
 }
 
