@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/events/overlooked_collision.hpp"
 #include "continuation/events/walk.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
@@ -314,6 +315,7 @@ std::optional<LandedStep> land(StepSolver& solver, Step step, bool on_any_terms)
   std::optional<Step> cut = landing.take_cut();
   landed.step = cut ? std::move(*cut) : std::move(step);
   for (const MeetingOnEnd& meeting : landed.meetings) landed.step.meeting.push_back(meeting.track);
+  if (!on_any_terms && overlooks_collision(landed.step)) return std::nullopt;
   return landed;
 }
 

@@ -20,9 +20,9 @@ struct LandedStep {
   std::vector<MeetingOnEnd> meetings = {};
 };
 
-/// Shortens a step to the first such place that it passes. Empty if a predicted place cannot be located; a
-/// shorter step may help. `on_any_terms`: the step cannot become shorter, and meetings that cannot be located
-/// are ignored.
+/// Shortens a step to the first such place that it passes. Empty if a predicted place cannot be located, or
+/// if a block has more real eigenvalues at one end than at the other although none was found; a shorter step
+/// may help. `on_any_terms`: the step cannot become shorter, and meetings that cannot be located are ignored.
 std::optional<LandedStep> land(StepSolver& solver, Step step, bool on_any_terms);
 
 /// The meetings of any two eigenvalues of a block at a point. For the start of a trace, where no step leads

@@ -1,0 +1,47 @@
+#include "continuation/events/overlooked_collision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/matrix_series.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Safety factor on the bounds of rounding errors.
+constexpr double rounding_margin = 10.0;
+
+/// Number of real eigenvalues of a block; empty where two are no farther apart than they are known. Many that
+/// nearly coincide are known to a high root of rounding only.
+std::optional<Eigen::Index> count_real(const ComplexVector& functions, const ComplexVector& roots,
+                                       const Vector& rounding) {
+  const Vector errors = root_errors(functions, roots, rounding_margin * rounding);
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (!(std::abs(roots[i] - roots[j]) > errors[i] + errors[j])) return std::nullopt;
+    }
+  }
+  return (roots.array().imag() == 0.0).count();
+}
+
+}  // namespace
+
+bool overlooks_collision(const Step& step) {
+  for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
+    const Track& left = step.left->tracks[i];
+    const Track& right = step.right.tracks[i];
+    const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
+    if (meets || !left.pair.is_real || left.size() < 2) continue;
+    // Where eigenvalues coincide at the left end, they are looked at a little behind it.
+    const double aside = left.departure ? left.departure->distance : 0.0;
+    const ComplexVector begin = evaluate_series(left.functions, aside);
+    const auto before = count_real(begin, block_roots(begin), function_rounding(left.pair.Lambda));
+    const auto behind = count_real(right.functions.col(0), right.roots, function_rounding(right.pair.Lambda));
+    if (before && behind && *before != *behind) return true;
+  }
+  return false;
+}
+
+}  // namespace eigentrail
