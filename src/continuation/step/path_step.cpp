@@ -186,11 +186,13 @@ class Miss {
   double slope(double t) const { return (t <= 0.5 ? about_left_ : about_right_).slope(t)[0].real(); }
 
   /// The places in (0, 1) with dp/dt = 0, ascending, followed by 1. p is monotonic between 0 and the first,
-  /// and between neighbouring ones.
+  /// and between neighbouring ones. Empty if the given p is farther from both ends than p moves on the step.
   std::vector<double> turning_points() const {
     std::vector<double> points;
     const auto slope_at = [this](double t) { return Complex(slope(t)); };
-    for (const Complex t : chebyshev_roots(chebyshev_coefficients(slope_at, degree_ - 1))) {
+    const ComplexVector slopes = chebyshev_coefficients(slope_at, degree_ - 1);
+    if (slopes.lpNorm<1>() < std::min(std::abs(left_), std::abs(right_))) return points;
+    for (const Complex t : chebyshev_roots(slopes)) {
       if (std::abs(t.imag()) <= real_turning_point && t.real() > 0.0 && t.real() < 1.0)
         points.push_back(t.real());
     }
