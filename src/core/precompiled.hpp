@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -27,8 +26,6 @@ extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
-extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
 extern template class Eigen::RealSchur<Eigen::MatrixXd>;
 extern template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
 extern template class Eigen::EigenSolver<Eigen::MatrixXd>;

@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-#include "core/right_singular_vectors.hpp"
+#include "core/singular_vectors.hpp"
 
 namespace eigentrail {
 namespace {
@@ -167,11 +167,11 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
       }
     }
     const auto right = right_singular_vectors(std::move(equations));
-    if (!right) return std::nullopt;
+    if (!right.values.allFinite()) return std::nullopt;
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>::Zero(unknowns);
     for (Eigen::Index k = 0; k < unknowns; ++k) {
-      if (k < right->values.size() && right->values[k] > no_coupling * size) continue;
-      x += random_number(random) * right->V.col(k);
+      if (k < right.values.size() && right.values[k] > no_coupling * size) continue;
+      x += random_number(random) * right.V.col(k);
     }
     for (std::size_t a = 0; a < members.size(); ++a) {
       const auto& space = spaces[static_cast<std::size_t>(members[a])];
@@ -271,8 +271,8 @@ ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const Co
     const Complex mean = values(members).mean();
     ComplexMatrix shifted = G.cast<Complex>() - mean * ComplexMatrix::Identity(n, n);
     const auto right = right_singular_vectors(std::move(shifted));
-    if (!right || right->values[n - size] > possibly_equal * right->values[0]) return {};
-    V(Eigen::all, members) = right->V.rightCols(size);
+    if (!right.values.allFinite() || right.values[n - size] > possibly_equal * right.values[0]) return {};
+    V(Eigen::all, members) = right.V.rightCols(size);
   }
   return V;
 }

@@ -1,10 +1,10 @@
 #include "stability/boundary_mode.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "core/matrix_series.hpp"
+#include "core/singular_vectors.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -171,9 +171,9 @@ BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const St
   };
   BoundaryBlock block;
   if (kind == BoundaryKind::divergence) {
-    const Eigen::JacobiSVD<Matrix> svd(point.pencil.K[0], Eigen::ComputeFullU | Eigen::ComputeFullV);
-    block.Z = physical(svd.matrixV().rightCols(1).cast<Complex>());
-    block.left = physical(svd.matrixU().rightCols(1).cast<Complex>()).real();
+    const SingularVectors<Matrix> svd = singular_vectors(point.pencil.K[0]);
+    block.Z = physical(svd.V.rightCols(1).cast<Complex>());
+    block.left = physical(svd.U.rightCols(1).cast<Complex>()).real();
     block.Lambda = ComplexMatrix::Zero(1, 1);
     return block;
   }

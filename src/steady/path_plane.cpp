@@ -1,7 +1,7 @@
 #include "eigentrail/steady/path_plane.hpp"
+#include "core/singular_vectors.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -184,9 +184,9 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
 std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
                                      const std::vector<int>& parameters, const Linearization& linearization,
                                      const Matrix& tangent_basis, EvaluationCounts& counts) {
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
-                                     Eigen::ComputeFullU);
-  const Vector kernel = tangent_basis * svd.matrixU().col(tangent_basis.cols() - 1);
+  const SingularVectors<Matrix> svd =
+      singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
+  const Vector kernel = tangent_basis * svd.U.col(tangent_basis.cols() - 1);
   std::vector<KernelLoad> loads;
   for (const int parameter : parameters) {
     Vector follow, load;
@@ -210,13 +210,13 @@ Matrix directions_at_branch_point(const Model& model, const Path& point, int tra
                                   EvaluationCounts& counts) {
   Vector follow, load;
   if (parameter_load(model, point, traced, linearization, follow, load, counts)) return {};
-  const Eigen::JacobiSVD<Matrix> svd(tangent_basis.transpose() * linearization.K[0] * tangent_basis,
-                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularVectors<Matrix> svd =
+      singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
   const Eigen::Index regular = tangent_basis.cols() - 1;
-  const Vector loads = svd.matrixU().leftCols(regular).transpose() * (tangent_basis.transpose() * load);
-  const Vector y = svd.matrixV().leftCols(regular) * loads.cwiseQuotient(svd.singularValues().head(regular));
+  const Vector loads = svd.U.leftCols(regular).transpose() * (tangent_basis.transpose() * load);
+  const Vector y = svd.V.leftCols(regular) * loads.cwiseQuotient(svd.values.head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);
-  directions.col(0) << tangent_basis * svd.matrixV().col(regular), 0.0;
+  directions.col(0) << tangent_basis * svd.V.col(regular), 0.0;
   directions.col(1) << follow - tangent_basis * y, 1.0;
   return directions;
 }

@@ -1,6 +1,6 @@
 #include "eigentrail/continuation/effect_influence.hpp"
+#include "core/singular_vectors.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
@@ -31,12 +31,11 @@ struct ModeVectors {
 ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix P = s * s * pencil.M[0] + s * pencil.C[0] + pencil.K[0];
   const ComplexMatrix derivative = 2.0 * s * pencil.M[0] + pencil.C[0].cast<Complex>();
-  const Eigen::JacobiSVD<ComplexMatrix> svd(P, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularVectors<ComplexMatrix> svd = singular_vectors(P);
   const Eigen::Index last = P.cols() - 1;
-  const ComplexVector z = svd.matrixV().col(last);
-  const ComplexVector y = svd.matrixU().col(last);
-  const auto& singular = svd.singularValues();
-  const bool is_simple = last == 0 || singular[last - 1] > multiple * singular[0];
+  const ComplexVector z = svd.V.col(last);
+  const ComplexVector y = svd.U.col(last);
+  const bool is_simple = last == 0 || svd.values[last - 1] > multiple * svd.values[0];
   return {s, z, y, y.dot(derivative * z), derivative.norm(), is_simple};
 }
 

@@ -1,11 +1,11 @@
 #include "continuation/tracks/ended_modes.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <sstream>
 
 #include "continuation/tracks/completeness.hpp"
+#include "core/singular_vectors.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -58,7 +58,7 @@ double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
     return ComplexMatrix(qr.householderQ() * ComplexMatrix::Identity(Z.rows(), std::min(Z.rows(), Z.cols())));
   };
   const ComplexMatrix overlap = basis(a).adjoint() * basis(b);
-  const double cosine = Eigen::JacobiSVD<ComplexMatrix>(overlap).singularValues().minCoeff();
+  const double cosine = singular_vectors(overlap).values.minCoeff();
   return cosine * cosine;
 }
 
