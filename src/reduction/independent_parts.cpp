@@ -60,21 +60,46 @@ double power_of_two(double x) {
   return std::exp2(std::round(std::log2(x)));
 }
 
-/// Makes the largest entries of all rows and columns of the sum of magnitudes about equal (Ruiz 2001), every
-/// matrix counting the same. Symmetric matrices are scaled symmetrically.
-Balance balance(const std::vector<Matrix>& coefficients) {
-  constexpr int sweeps = 8;
-  const Eigen::Index n = coefficients[0].rows();
+Matrix sum_of_magnitudes(const std::vector<Matrix>& matrices, Eigen::Index n) {
   Matrix sum = Matrix::Zero(n, n);
-  for (const Matrix& A : coefficients) sum += A.cwiseAbs() / A.norm();
+  for (const Matrix& A : matrices) {
+    if (A.size() > 0 && A.allFinite()) sum += A.cwiseAbs();
+  }
+  return sum;
+}
+
+/// The sum |M| w^2 + |C| w + |K| of magnitudes, at the frequency w at which the first and the last have the
+/// same norm; without M, the last two. No term then counts for more because of the unit of time.
+Matrix at_typical_frequency(const Matrix& M, const Matrix& C, const Matrix& K) {
+  const double m = M.norm();
+  const double c = C.norm();
+  const double k = K.norm();
+  const double w = m > 0.0 && k > 0.0 ? std::sqrt(k / m) : c > 0.0 && k > 0.0 ? k / c : 1.0;
+  return M * (w * w) + C * w + K;
+}
+
+/// Makes the largest entries of all rows and columns of that sum about equal (Ruiz 2001). The frequency is
+/// that of the coordinates found so far: in those given, one unit may hide all others. Symmetric matrices are
+/// scaled symmetrically.
+Balance balance(const CoefficientMatrices& coefficients, Eigen::Index n) {
+  constexpr int most_sweeps =
+      200;                        // of which freedoms without stiffness may need a hundred, others about ten
+  constexpr double enough = 0.1;  // largest deviation of a norm from one
+  const Matrix M = sum_of_magnitudes(coefficients.M, n);
+  const Matrix C = sum_of_magnitudes(coefficients.C, n);
+  const Matrix K = sum_of_magnitudes(coefficients.K, n);
   Balance scaling{Vector::Ones(n), Vector::Ones(n)};
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const auto factor = [](double largest) { return largest > 0.0 ? 1.0 / std::sqrt(largest) : 1.0; };
-    const Vector rows = sum.rowwise().maxCoeff().unaryExpr(factor);
-    const Vector columns = sum.colwise().maxCoeff().transpose().unaryExpr(factor);
-    sum = (rows.asDiagonal() * sum * columns.asDiagonal()).eval();
-    scaling.rows = scaling.rows.cwiseProduct(rows);
-    scaling.columns = scaling.columns.cwiseProduct(columns);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    const Matrix sum = at_typical_frequency(scaling.of(M), scaling.of(C), scaling.of(K));
+    const Vector rows = sum.rowwise().norm();
+    const Vector columns = sum.colwise().norm();
+    const auto deviates = [](double norm) { return norm > 0.0 && std::abs(norm - 1.0) > enough; };
+    if (std::none_of(rows.begin(), rows.end(), deviates) &&
+        std::none_of(columns.begin(), columns.end(), deviates))
+      break;
+    const auto factor = [](double norm) { return norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0; };
+    scaling.rows.array() *= rows.unaryExpr(factor).array();
+    scaling.columns.array() *= columns.unaryExpr(factor).array();
   }
   scaling.rows = scaling.rows.unaryExpr(&power_of_two);
   scaling.columns = scaling.columns.unaryExpr(&power_of_two);
@@ -496,7 +521,7 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
   }
   if (all.empty() || all[0].rows() < 2) return nullptr;
   const Eigen::Index n = all[0].rows();
-  const Balance scaling = balance(all);
+  const Balance scaling = balance(coefficients, n);
   for (Matrix& A : all) {
     A = scaling.of(A);
     A /= A.norm();
