@@ -199,5 +199,48 @@ TEST(PartCrossings, NeedEqualRealParts) {
   }
 }
 
+/// A mass on equal springs, whose drag grows through critical damping: s = -d/2 +- sqrt(d^2/4 - 1), each
+/// twice. The equations of a multibody scene are not split beforehand.
+TEST(EqualPartsOfAScene, AllFourRealEigenvaluesAreModes) {
+  for (const bool upward : {true, false}) {
+    SCOPED_TRACE(upward ? "upward" : "downward");
+    const RecordedTrace trace = record_trace(make_setting(R"(
+[parameters]
+drag = 1.0
+[trace]
+parameter = "drag"
+tolerance = 1e-9
+)" + std::string(upward ? "from = 1\nto = 3\n" : "from = 3\nto = 1\n") +
+                                                          R"(
+[[point]]
+name = "disc"
+mass = 1
+position = [0, 0, 0]
+[[guided_spring]]
+point = "disc"
+direction = [1, 0, 0]
+stiffness = 1
+[[guided_spring]]
+point = "disc"
+direction = [0, 1, 0]
+stiffness = 1
+[[fixed]]
+point = "disc"
+coordinate = "z"
+[[drag]]
+point = "disc"
+coefficient = "drag"
+)"));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    EXPECT_EQ(trace.result.n_columns, 4);
+    ASSERT_EQ(trace.result.events.size(), 1U);
+    const Event& collision = trace.result.events[0];
+    EXPECT_EQ(collision.kind, EventKind::collision);
+    EXPECT_NEAR(collision.p, 2.0, 1e-10);
+    EXPECT_EQ(collision.modes.size(), 4U);
+    EXPECT_NEAR(std::abs(collision.puiseux), 1.0, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace eigentrail::test

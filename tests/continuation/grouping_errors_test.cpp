@@ -201,11 +201,18 @@ TEST(ErrorAsBlock, SeesPartnersInTheChartOfTheTrack) {
   EXPECT_LT(error_as_block(at(-0.2), at(0.2), 0, {{false, 1, eps}}, 0.4, least_gap), rounding / eps);
 }
 
-TEST(ErrorAsBlock, IsUnknownWhereMembersCoincide) {
+/// Those of equal parts have a series, that of their mean.
+TEST(ErrorAsBlock, TakesMembersThatCoincideAsOne) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.0, 0.5}, {2.5, 0.3}}));
   const PathNode left = family.point(0.0, {{{2.5 * j}}, {{2.0 * j, 2.0 * j}}});
   const PathNode right = family.point(0.2, {{{2.56 * j}}, {{2.1 * j, 2.1 * j}}});
-  EXPECT_TRUE(std::isinf(error_as_block(left, right, 0, {{false, 1, 0.0}}, 0.2, least_gap)));
+  EXPECT_EQ(distinct_eigenvalues(left.tracks[1]), 1);
+  EXPECT_LT(error_as_block(left, right, 0, {{false, 1, 0.0}}, 0.2, least_gap), rounding);
+}
+
+TEST(DistinctEigenvalues, CountsAllWhereOnlySomeCoincide) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.0, 0.5}, {2.7, 0.3}}));
+  EXPECT_EQ(distinct_eigenvalues(family.point(0.0, {{{2.0 * j, 2.0 * j, 2.7 * j}}}).tracks[0]), 3);
 }
 
 TEST(ErrorAsBlock, IsUnknownWhereOneEndHasMoreMembers) {

@@ -155,6 +155,23 @@ TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
   }
 }
 
+/// s^2 + s + 1 - p twice: two pairs meet at p = 0.75, s = -0.5. All four are one there, but each varies like
+/// the square root of the distance.
+TEST(NearestMeeting, OfTwoEqualPairsHasTheExponentOfOne) {
+  const Matrix one = Matrix::Identity(2, 2);
+  Planted family({{one}, {one}, {one, -one}});
+  for (const double beside : {1e-9, -1e-9}) {
+    const Complex root = std::sqrt(Complex(beside));
+    const PathNode node =
+        family.point(0.75 + beside, {{{-0.5 + root, -0.5 + root, -0.5 - root, -0.5 - root}}});
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {2}, reach);
+    ASSERT_TRUE(meeting.found) << beside;
+    EXPECT_EQ(meeting.members.size(), 4U) << beside;
+    EXPECT_EQ(meeting.cycle, 2) << beside;
+    EXPECT_NEAR(std::abs(meeting.puiseux), 1.0, 1e-3) << beside;
+  }
+}
+
 class NearestVeering : public testing::TestWithParam<double> {};
 
 TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {

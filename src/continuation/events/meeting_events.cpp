@@ -42,7 +42,7 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   event.modes = modes;
   if (event.kind == EventKind::veering) event.half_width = std::abs(speed) * meeting.half_width;
   if (event.kind == EventKind::collision) {
-    const double exponent = 1.0 / static_cast<double>(meeting.members.size());
+    const double exponent = 1.0 / static_cast<double>(meeting.cycle);
     event.puiseux = meeting.puiseux / std::pow(Complex(speed), exponent);
     if (track.pair.chart == Chart::reciprocal) event.puiseux *= -event.s * event.s;
   }

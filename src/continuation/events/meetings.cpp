@@ -232,8 +232,9 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
 }
 
 /// The collision of all m eigenvalues of a part in one exceptional point. The product of their differences
-/// from the mean has a simple root there, while each of them varies like the m-th root of the distance. Empty
-/// if this does not hold near the point.
+/// from the mean has a simple root there, while each of them varies like the m-th root of the distance; or
+/// like the square root, where several equal parts have a collision of two each. Empty if this does not hold
+/// near the point.
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
   constexpr double on_axis = 1e-3;  // of the reach: about the error of the linear approximation of the root
   // Largest radius of the eigenvalues about their mean at the root, as a share of that beside it. In exact
@@ -256,8 +257,20 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   meeting.found = true;
   meeting.kind = EventKind::collision;
   meeting.offset = root.real();
-  const auto m = static_cast<double>(part[0].rows());
-  meeting.puiseux = std::pow((part[0].rows() % 2 == 0 ? -1.0 : 1.0) * slope, 1.0 / m);
+  const Eigen::Index size = part[0].rows();
+  meeting.cycle = static_cast<int>(size);
+  meeting.puiseux = std::pow((size % 2 == 0 ? -1.0 : 1.0) * slope, 1.0 / static_cast<double>(size));
+  // The radius grows by 2^(1/cycle) when the distance is doubled.
+  const double growth = std::log2(radius(root.real() + 2.0 * width) / radius(root.real() + width));
+  constexpr double nearer_to_a_square_root = 0.4;
+  if (size % 2 == 0 && size > 2 && growth > nearer_to_a_square_root) {
+    const auto square = [&](double h) {
+      const ComplexMatrix N = centred(part, h);
+      return N.cwiseProduct(N.transpose()).sum() / static_cast<double>(size);
+    };
+    meeting.cycle = 2;
+    meeting.puiseux = std::sqrt((square(root.real() + width) - square(root.real() - width)) / (2.0 * width));
+  }
   return meeting;
 }
 

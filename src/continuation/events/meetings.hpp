@@ -24,6 +24,9 @@ struct Meeting {
   double half_width = 0.0;                ///< of a veering, in the path's coordinate
   Complex puiseux;           ///< of a collision: leading Puiseux coefficient in the path's coordinate
   std::vector<int> members;  ///< indices of the roots of the block that meet, ascending
+  /// Of a collision: how many eigenvalues follow one from another around it; they vary like this root of the
+  /// distance. Fewer than the members where several such groups meet at one place, as in equal parts.
+  int cycle = 2;
 };
 
 /// The meeting of two strands of a block (indices of their roots) that is nearest to the point. Other

@@ -10,10 +10,22 @@
 namespace eigentrail {
 namespace {
 
-/// Series of every eigenvalue of a track in a chart. Empty if one of them is not simple, or infinite in that
-/// chart.
+/// Whether all eigenvalues of a block are one.
+bool coincide(const Track& track) {
+  constexpr double known = 1e-7;  // relative: about the root of rounding, to which a double one is known
+  return track.size() > 1 && (track.roots.array() - track.roots.mean()).abs().maxCoeff() <=
+                                 known * track.roots.cwiseAbs().maxCoeff();
+}
+
+/// Series of every eigenvalue of a track in a chart; of one that is multiple, as in equal parts, only one.
+/// Empty if one of them is not simple, or infinite in that chart.
 std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
   std::vector<ComplexVector> all;
+  if (coincide(track)) {
+    const ComplexVector mean = mean_series(track.series.Lambda);
+    if (track.pair.chart != chart && mean[0] == 0.0) return {};
+    return {track.pair.chart == chart ? mean : reciprocal_series(mean)};
+  }
   for (const Complex root : track.roots) {
     ComplexVector series = root_series(track.functions, root);
     if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
@@ -66,6 +78,10 @@ double symmetric_root_error(const ComplexVector& roots, const Vector& errors, do
 }
 
 }  // namespace
+
+Eigen::Index distinct_eigenvalues(const Track& track) {
+  return coincide(track) ? 1 : track.size();
+}
 
 double error_as_block(const PathNode& left, const PathNode& right, std::size_t index,
                       const std::vector<Partner>& partners, double h, double least_gap) {

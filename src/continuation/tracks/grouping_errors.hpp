@@ -7,6 +7,10 @@
 
 namespace eigentrail {
 
+/// Number of eigenvalues of a track; one where all are the same to the root of rounding, as those of equal
+/// parts.
+Eigen::Index distinct_eigenvalues(const Track& track);
+
 /// Absolute error of the eigenvalues of a track and its partners as one block. `least_gap`: distances of
 /// eigenvalues count as no less. Infinite if their series are not known.
 double error_as_block(const PathNode& left, const PathNode& right, std::size_t track,

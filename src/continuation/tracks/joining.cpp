@@ -70,10 +70,10 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
                                : length < shrinking * rules.longest_step    ? 6
                                                                             : 2;
   std::vector<Partner> chosen;
-  Eigen::Index size = there.size();
+  Eigen::Index size = distinct_eigenvalues(there);
   for (const Partner& candidate : candidates) {
     if (candidate.track >= tracks.size()) break;
-    size += tracks[candidate.track].size();
+    size += distinct_eigenvalues(tracks[candidate.track]);
     if (size > largest) break;
     if (candidate.distance > as_near * candidates.front().distance) break;
     chosen.push_back(candidate);
@@ -90,7 +90,6 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
-    if (tracks[i].size() > 1 || step.left->tracks[i].size() > 1) continue;
     const double error = track_error(problem, rules.tolerance, step, i);
     if (error < limiting_error) continue;
     const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
