@@ -295,7 +295,14 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
     const std::vector<ComplexMatrix> part = part_of_track(track, members);
     if (!part.empty()) return discriminant_series(part, static_cast<Eigen::Index>(a.size()));
   }
-  // Another eigenvalue is as close as these two. Each of them may be separated by itself.
+  // Another eigenvalue is as close as these two. Each of them may be separated by itself, unless it is about to
+  // meet another one: its series then says nothing about the distance of these two.
+  constexpr double about_to_meet = 1e-2;
+  double apart = INFINITY;
+  for (const int i : a) {
+    for (const int j : b) apart = std::min(apart, std::abs(track.roots[i] - track.roots[j]));
+  }
+  if (distance_from_others(track.roots, members) < about_to_meet * apart) return {};
   const std::vector<ComplexMatrix> first = part_of_track(track, a);
   const std::vector<ComplexMatrix> second = part_of_track(track, b);
   if (first.empty() || second.empty()) return {};
