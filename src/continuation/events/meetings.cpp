@@ -237,9 +237,9 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
 /// near the point.
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
   constexpr double on_axis = 1e-3;  // of the reach: about the error of the linear approximation of the root
-  // Largest radius of the eigenvalues about their mean at the root, as a share of that beside it. In exact
-  // arithmetic the first is zero.
-  constexpr double closes_in = 0.5;
+  // The m-th power of the radius of the eigenvalues about their mean at the root, as a share of that beside
+  // it. In exact arithmetic the first is zero; the linear approximation leaves about a thousandth.
+  constexpr double closes_in = 1e-2;
   const auto product = [&](double h) { return centred(part, h).determinant(); };
   const auto radius = [&](double h) {
     return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false)
@@ -251,8 +251,9 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   const Complex slope = (product(width) - product(-width)) / (2.0 * width);
   if (slope == 0.0) return std::nullopt;
   const Complex root = -product(0.0) / slope;
+  const double share = std::pow(closes_in, 1.0 / static_cast<double>(part[0].rows()));
   const bool near = std::abs(root.imag()) <= on_axis * std::abs(reach) && std::abs(root) <= std::abs(reach);
-  if (!near || !(radius(root.real()) < closes_in * radius(root.real() + width))) return std::nullopt;
+  if (!near || !(radius(root.real()) < share * radius(root.real() + width))) return std::nullopt;
   Meeting meeting;
   meeting.found = true;
   meeting.kind = EventKind::collision;
@@ -295,8 +296,8 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
     const std::vector<ComplexMatrix> part = part_of_track(track, members);
     if (!part.empty()) return discriminant_series(part, static_cast<Eigen::Index>(a.size()));
   }
-  // Another eigenvalue is as close as these two. Each of them may be separated by itself, unless it is about to
-  // meet another one: its series then says nothing about the distance of these two.
+  // Another eigenvalue is as close as these two. Each of them may be separated by itself, unless it is about
+  // to meet another one: its series then says nothing about the distance of these two.
   constexpr double about_to_meet = 1e-2;
   double apart = INFINITY;
   for (const int i : a) {
