@@ -199,19 +199,18 @@ TEST(PartCrossings, NeedEqualRealParts) {
   }
 }
 
-/// A mass on equal springs, whose drag grows through critical damping: s = -d/2 +- sqrt(d^2/4 - 1), each
-/// twice. The equations of a multibody scene are not split beforehand.
-TEST(EqualPartsOfAScene, AllFourRealEigenvaluesAreModes) {
-  for (const bool upward : {true, false}) {
-    SCOPED_TRACE(upward ? "upward" : "downward");
-    const RecordedTrace trace = record_trace(make_setting(R"(
+/// A mass on equal springs with drag: s = -d/2 +- sqrt(d^2/4 - 1), each twice. The equations of a multibody
+/// scene are not split beforehand.
+RecordedTrace mass_on_equal_springs(const std::string& from, const std::string& to) {
+  return record_trace(make_setting(R"(
 [parameters]
 drag = 1.0
 [trace]
 parameter = "drag"
 tolerance = 1e-9
-)" + std::string(upward ? "from = 1\nto = 3\n" : "from = 3\nto = 1\n") +
-                                                          R"(
+)"
+                                   "from = " +
+                                   from + "\nto = " + to + R"(
 [[point]]
 name = "disc"
 mass = 1
@@ -231,6 +230,13 @@ coordinate = "z"
 point = "disc"
 coefficient = "drag"
 )"));
+}
+
+/// The drag grows through critical damping.
+TEST(EqualPartsOfAScene, AllFourRealEigenvaluesAreModes) {
+  for (const auto& [from, to] : {std::pair{"1", "3"}, std::pair{"3", "1"}}) {
+    SCOPED_TRACE(from);
+    const RecordedTrace trace = mass_on_equal_springs(from, to);
     ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
     EXPECT_EQ(trace.result.n_columns, 4);
     ASSERT_EQ(trace.result.events.size(), 1U);
@@ -239,6 +245,21 @@ coefficient = "drag"
     EXPECT_NEAR(collision.p, 2.0, 1e-10);
     EXPECT_EQ(collision.modes.size(), 4U);
     EXPECT_NEAR(std::abs(collision.puiseux), 1.0, 1e-3);
+  }
+}
+
+/// The drag becomes a drive: both modes flutter at once, and say in which direction.
+TEST(EqualPartsOfAScene, BothFluttersHaveADirection) {
+  for (const auto& [from, to] : {std::pair{"-0.3", "0.5"}, std::pair{"0.5", "-0.3"}}) {
+    SCOPED_TRACE(from);
+    const RecordedTrace trace = mass_on_equal_springs(from, to);
+    ASSERT_EQ(trace.result.events.size(), 2U);
+    for (const Event& event : trace.result.events) {
+      EXPECT_EQ(event.kind, EventKind::flutter);
+      EXPECT_NEAR(event.p, 0.0, 1e-9);
+      EXPECT_EQ(event.direction, -1);
+    }
+    EXPECT_TRUE(trace.result.notes.empty()) << trace.result.notes.front();
   }
 }
 

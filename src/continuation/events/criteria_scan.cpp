@@ -145,7 +145,7 @@ class TrackScan {
     if (seen == Seen::extremum && track().departure && last <= on_step_.begin()) return;
     if (seen == Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = sign_change(on_step_, criterion, member, last, t, before);
-      if (!locate_at(member, {criterion, pair, Sought::zero}, guess) && !criterion.asks_for_pairs())
+      if (!locate_at(member, {criterion, pair, Sought::zero, value}, guess) && !criterion.asks_for_pairs())
         note_unlocated(member, guess);
     } else if (seen == Seen::extremum && criterion.asks_for_extrema()) {
       if (is_told(history)) locate_extremum(member, {criterion, pair, Sought::extremum}, last);

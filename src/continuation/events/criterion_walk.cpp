@@ -302,7 +302,8 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   event.node = search_.node;
   if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
   if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;
-  if (located) event.direction = direction(offset);
+  const double speed = search_.frame().speed(node);
+  event.direction = located ? direction(offset) : sign_of(target_.behind * step_.h * speed);
   // A zero of Re s at a recorded collision on the imaginary axis is that collision, not a second event. A
   // real eigenvalue 1/s that passes zero is at infinity: no divergence.
   if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))

@@ -23,6 +23,8 @@ struct CriterionTarget {
   Criterion criterion;
   bool pair = false;  ///< the eigenvalue is one of a complex pair
   Sought sought = Sought::zero;
+  double behind =
+      0.0;  ///< value behind the zero, by the samples; its sign is the direction where no slope is
   bool by_product = false;  ///< of a real eigenvalue of a block: by the zero of a product (ModeFunction)
 };
 

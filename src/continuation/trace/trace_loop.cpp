@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "continuation/events/criteria_scan.hpp"
+#include "continuation/events/growth_check.hpp"
 #include "continuation/events/meeting_events.hpp"
 #include "continuation/events/part_crossings.hpp"
 #include "continuation/events/static_points.hpp"
@@ -360,6 +361,8 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log(find_part_crossings(search_, step));
   log_branch_point(step.right);
   log(find_fold(search_, step.right, step.h));
+  if (auto remark = unexplained_growth(search_, step); remark && state_.result.notes.size() < most_notes)
+    state_.result.notes.push_back(std::move(*remark));
 }
 
 /// If a point lies on a branch point, records it with a note on the paths that leave it.

@@ -1,0 +1,83 @@
+#include "continuation/events/growth_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "continuation/events/criterion_walk.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Of the growing eigenvalues when p increases over the event; empty for folds and branch points, where the
+/// number depends on the path.
+std::optional<int> change_at(const Event& event) {
+  switch (event.kind) {
+    case EventKind::flutter:
+      return 2 * event.direction;
+    case EventKind::divergence:
+      return event.direction;
+    case EventKind::fold:
+    case EventKind::branch_point:
+      return std::nullopt;
+    default:
+      return 0;
+  }
+}
+
+/// Whether a real eigenvalue passes infinity on the step: 1/s passes zero, and s changes its sign.
+bool passes_infinity(const Step& step) {
+  const auto positive = [](const Track& track) { return (track.roots.array().real() > 0.0).count(); };
+  for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
+    const Track& left = step.left->tracks[i];
+    if (left.pair.chart == Chart::reciprocal && positive(left) != positive(step.right.tracks[i])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<int> growing_eigenvalues(const EventSearch& search, const PathNode& node) {
+  const PathProblem& problem = search.problem();
+  int count = 0;
+  for (const Track& track : node.tracks) {
+    const double width = axis_width(search.thresholds().criterion, track);
+    const Vector errors =
+        root_errors(track.functions.col(0), track.roots, function_rounding(track.pair.Lambda));
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      if (track.modes[static_cast<std::size_t>(i)] == Track::guest) continue;
+      const Complex mu = track.roots[i];
+      const double scale = std::max(std::abs(mu), problem.reference(track.pair.chart));
+      if (std::abs(mu.real()) <= width * scale + errors[i]) return std::nullopt;
+      // A real block holds the conjugates itself.
+      if (mu.real() > 0.0) count += track.pair.is_real || mu.imag() == 0.0 ? 1 : 2;
+    }
+  }
+  return count;
+}
+
+std::optional<std::string> unexplained_growth(const EventSearch& search, const Step& step) {
+  if (search.frame().plane || passes_infinity(step)) return std::nullopt;
+  const std::optional<int> before = growing_eigenvalues(search, *step.left);
+  const std::optional<int> behind = growing_eigenvalues(search, step.right);
+  if (!before || !behind) return std::nullopt;
+  const auto [low, high] = std::minmax(step.left->p, step.right.p);
+  int change = 0;
+  for (const Event& event : search.log.events) {
+    if (!(event.p > low && event.p <= high)) continue;
+    const std::optional<int> here = change_at(event);
+    if (!here) return std::nullopt;
+    change += *here;
+  }
+  const int seen = step.right.p > step.left->p ? *behind - *before : *before - *behind;
+  if (seen == change) return std::nullopt;
+  std::ostringstream end;
+  end.precision(12);
+  end << high;
+  return "between " + place_text(search.options, low) + " and " + end.str() +
+         " the number of eigenvalues with Re s > 0 changes by " + std::to_string(seen) +
+         ", by the events that were found by " + std::to_string(change) + "; see verify";
+}
+
+}  // namespace eigentrail
