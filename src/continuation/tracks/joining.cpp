@@ -90,6 +90,9 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
+    // Tracks that were added or taken apart at the end of the step have no error on it.
+    if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
+      continue;
     const double error = track_error(problem, rules.tolerance, step, i);
     if (error < limiting_error) continue;
     const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
