@@ -57,7 +57,10 @@ TEST(RegroupLimitingModes, JoinsWhatLimitsTheSteps) {
   Veering veering(0.02);
   Step step = veering.step(-0.08, -0.03);
   const JoiningRules rules{1e-9, 3.0, 0.05};
-  for (std::size_t i = 0; i < step.right.tracks.size(); ++i) step.right.tracks[i].lineage = i + 1;
+  PathNode left = *step.left;
+  step.left = &left;
+  for (std::size_t i = 0; i < step.right.tracks.size(); ++i)
+    left.tracks[i].lineage = step.right.tracks[i].lineage = i + 1;
   const Regroupings done = regroup_limiting_modes(veering.planted.family.problem(), rules, step, 0.05,
                                                   veering.planted.family.counts);
   EXPECT_EQ(done.joined, 1);

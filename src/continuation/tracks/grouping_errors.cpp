@@ -17,6 +17,23 @@ bool coincide(const Track& track) {
                                  known * track.roots.cwiseAbs().maxCoeff();
 }
 
+/// Series of every eigenvalue of a track in a chart; of one that is multiple, as in equal parts, only one.
+/// Empty if one of them is not simple, or infinite in that chart.
+std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
+  std::vector<ComplexVector> all;
+  if (coincide(track)) {
+    const ComplexVector mean = mean_series(track.series.Lambda);
+    if (track.pair.chart != chart && mean[0] == 0.0) return {};
+    return {track.pair.chart == chart ? mean : reciprocal_series(mean)};
+  }
+  for (const Complex root : track.roots) {
+    ComplexVector series = root_series(track.functions, root);
+    if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
+    all.push_back(track.pair.chart == chart ? series : reciprocal_series(series));
+  }
+  return all;
+}
+
 /// Smooth functions of the eigenvalues as a block, from their single series: the mean, and the means of the
 /// powers 2 to k of the differences from it.
 ComplexMatrix symmetric_functions(const std::vector<ComplexVector>& series) {
@@ -61,21 +78,6 @@ double symmetric_root_error(const ComplexVector& roots, const Vector& errors, do
 }
 
 }  // namespace
-
-std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
-  std::vector<ComplexVector> all;
-  if (coincide(track)) {
-    const ComplexVector mean = mean_series(track.series.Lambda);
-    if (track.pair.chart != chart && mean[0] == 0.0) return {};
-    return {track.pair.chart == chart ? mean : reciprocal_series(mean)};
-  }
-  for (const Complex root : track.roots) {
-    ComplexVector series = root_series(track.functions, root);
-    if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
-    all.push_back(track.pair.chart == chart ? series : reciprocal_series(series));
-  }
-  return all;
-}
 
 Eigen::Index distinct_eigenvalues(const Track& track) {
   return coincide(track) ? 1 : track.size();

@@ -7,10 +7,6 @@
 
 namespace eigentrail {
 
-/// Power series of every eigenvalue of a track in a chart, in the order of its roots; of one that is
-/// multiple, as in equal parts, only one. Empty where one of them is not simple, or infinite in that chart.
-std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart);
-
 /// Number of eigenvalues of a track; one where all are the same to the root of rounding, as those of equal
 /// parts.
 Eigen::Index distinct_eigenvalues(const Track& track);

@@ -90,18 +90,6 @@ double meeting_distance(const ComplexVector& a, const ComplexVector& b, double s
   return nearest;
 }
 
-/// The same for the nearest meeting of two members of different tracks. Infinite where they have no series of
-/// their own.
-double members_distance(const Track& a, const Track& b, double h, double limit) {
-  const std::vector<ComplexVector> of_a = eigenvalue_series(a, a.pair.chart);
-  double nearest = INFINITY;
-  for (const ComplexVector& theirs : eigenvalue_series(b, a.pair.chart)) {
-    for (const ComplexVector& own : of_a)
-      nearest = std::min(nearest, meeting_distance(own, theirs, 0.0, h, limit, Doubtful::is_left_out));
-  }
-  return nearest;
-}
-
 /// Square of the largest distance of an eigenvalue of a track from the mean.
 double square_radius(const Track& track) {
   double radius = 0.0;
@@ -152,6 +140,11 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   const double limit = reach * std::abs(h);
   const ComplexVector mean = mean_series(track.series.Lambda);
   std::vector<Partner> partners;
+  const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
+    if (other.size() == 0) return;
+    partner.distance = meeting_distance(mean, other, spread, h, limit, Doubtful::is_left_out);
+    if (partner.distance <= limit) partners.push_back(partner);
+  };
   // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
   // the track is joined with its own conjugate.
   double nearest_conjugate = INFINITY;
@@ -161,13 +154,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const double spread =
         i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
     const ComplexVector series = mean_in(other, track.pair.chart);
-    if (i != index && series.size() > 0) {
-      double distance = meeting_distance(mean, series, spread, h, limit, Doubtful::is_left_out);
-      // The mean of a large block says little about its members.
-      if (std::max(track.size(), other.size()) > 2)
-        distance = std::min(distance, members_distance(track, other, h, limit));
-      if (distance <= limit) partners.push_back({false, i, distance});
-    }
+    if (i != index) consider(series, spread, {false, i});
     if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
     nearest_conjugate = std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h,
                                                                      limit, Doubtful::is_left_out));
