@@ -90,8 +90,10 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
+    // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
     // Tracks that were added or taken apart at the end of the step have no error on it.
-    if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
+    if (tracks[i].lineage != step.left->tracks[i].lineage ||
+        tracks[i].size() != step.left->tracks[i].size() || distinct_eigenvalues(tracks[i]) > 1)
       continue;
     const double error = track_error(problem, rules.tolerance, step, i);
     if (error < limiting_error) continue;
