@@ -217,13 +217,14 @@ int run_explain(const ExplainArguments& arguments) {
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,
   // which is not known here.
-  const auto modes =
-      std::min<Eigen::Index>(options.modes.value_or(static_cast<int>(sizes.freedoms)), 2 * sizes.freedoms);
+  const auto modes = std::min<Eigen::Index>(options.modes.count.value_or(static_cast<int>(sizes.freedoms)),
+                                            2 * sizes.freedoms);
   // Independent parts are followed one by one, each with matrices of its own size.
   const bool apart = parts && parts->count() > 1;
   Eigen::Index size = apart ? 0 : sizes.freedoms;
   for (std::size_t i = 0; apart && i < parts->count(); ++i) size = std::max(size, parts->ranges[i].size);
-  print_solvers(*model, structure, {size, modes, !options.modes && !apart, options.order.value_or(cheapest)},
+  print_solvers(*model, structure,
+                {size, modes, options.modes.is_all() && !apart, options.order.value_or(cheapest)},
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
   if (!computed) throw InputError(scene.path + ": " + point.message);
   if (arguments.sensitivity) explain_sensitivity(scene, arguments);

@@ -61,9 +61,9 @@ void print_uncertified(const LociFile& loci) {
 std::string followed_modes(const LociFile& loci) {
   const std::string wanted = attribute(loci, "option_modes");
   const std::string available = attribute(loci, "count_modes_available");
-  const bool some =
-      wanted != "all" && wanted != "?" && available != "?" && std::stol(wanted) < std::stol(available);
-  return some ? wanted + " of " + available + " modes followed" : "";
+  if (wanted == "all" || wanted == "?" || available == "?") return "";
+  if (wanted.find('=') != std::string::npos) return "modes with " + wanted + " followed, of " + available;
+  return std::stol(wanted) < std::stol(available) ? wanted + " of " + available + " modes followed" : "";
 }
 
 /// The order of the series as text, for example ", order 3 (auto)"; empty if the file does not contain it.

@@ -1,5 +1,7 @@
 #include "scene_in_words.hpp"
 
+#include <cctype>
+
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
@@ -49,10 +51,10 @@ std::string equilibrium(const Structure& structure, const std::string& parameter
 std::string followed(const TraceSetup& setup, const Sizes& sizes) {
   const TraceOptions& options = setup.options;
   const std::string unit = setup.model->description().parameters.at(options.parameter).unit;
-  const std::string modes = options.modes && *options.modes < sizes.freedoms
-                                ? "The " + std::to_string(*options.modes) + " lowest modes are"
-                                : "All modes are";
-  return modes + " followed from " + options.parameter + " = " + exact_text(options.from) + " to " +
+  std::string modes =
+      options.modes.count.value_or(0) >= sizes.freedoms ? "all modes" : in_words(options.modes);
+  modes.front() = static_cast<char>(std::toupper(modes.front()));
+  return modes + " are followed from " + options.parameter + " = " + exact_text(options.from) + " to " +
          exact_text(options.to) + (unit.empty() ? "" : " " + unit) + ", every eigenvalue to " +
          exact_text(options.tolerance) + " of its magnitude, everywhere on the range.";
 }

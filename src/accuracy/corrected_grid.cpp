@@ -57,17 +57,17 @@ std::vector<InvariantPair> as_pairs(const Modes& modes, const std::vector<Invari
 }
 
 /// The first point, with modes from the full spectrum; empty if there is no equilibrium or spectrum.
-std::optional<PathPoint> first_point(const PathProblem& problem, double p, std::optional<int> modes,
+std::optional<PathPoint> first_point(const PathProblem& problem, double p, const ModeChoice& modes,
                                      RunCounts& counts) {
   const EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p)), {}, false};
   const PathPoint reduced = reduce_at(problem, p, guess, Matrix(), counts);
   if (reduced.status != PointStatus::computed) return std::nullopt;
-  const Spectrum spectrum = compute_spectrum(reduced.pencil.M[0], reduced.pencil.C[0], reduced.pencil.K[0]);
+  Spectrum spectrum = compute_spectrum(reduced.pencil.M[0], reduced.pencil.C[0], reduced.pencil.K[0]);
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return std::nullopt;
   Prediction prediction{p, {reduced.equilibrium.x, reduced.equilibrium.lambda, true}, {}};
+  spectrum.modes.resize(static_cast<std::size_t>(choose_modes(modes, spectrum.modes)));
   for (const StartingMode& mode : spectrum.modes) {
-    if (modes && static_cast<int>(prediction.pairs.size()) == *modes) break;
     InvariantPair& pair = prediction.pairs.emplace_back();
     pair.Z = reduced.basis.T[0].cast<Complex>() * mode.z;
     pair.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
@@ -77,7 +77,7 @@ std::optional<PathPoint> first_point(const PathProblem& problem, double p, std::
 
 }  // namespace
 
-GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes,
+GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, const ModeChoice& modes,
                         Method method) {
   GridLoci loci;
   std::optional<PathPoint> point = first_point(problem, p.front(), modes, loci.counts);

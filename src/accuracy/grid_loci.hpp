@@ -1,7 +1,6 @@
 // Eigenvalues on an equidistant grid of the parameter, by the methods with which a trace is compared.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +21,11 @@ struct GridLoci {
 
 /// Computes the spectrum by QZ at every point. Modes are matched with those of the last point by modal
 /// assurance and optimal assignment. Cost per point: one spectrum and one O(n^3) assignment.
-GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes);
+GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, const ModeChoice& modes);
 
 /// Corrects each mode separately from point to point, from the prediction of `method` (zero_order, secant or
 /// tangent). Ends at the first point where the corrector does not converge.
-GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes,
+GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p, const ModeChoice& modes,
                         Method method);
 
 }  // namespace eigentrail

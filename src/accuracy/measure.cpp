@@ -158,7 +158,7 @@ GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Me
     result.s_ref = reference.s_ref;
     return result;
   }();
-  const std::optional<int> modes = setup.options.modes;
+  const ModeChoice& modes = setup.options.modes;
   const std::vector<double> p = equidistant(setup.options, points);
   GridLoci loci;
   std::vector<double> seconds;

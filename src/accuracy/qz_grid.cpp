@@ -37,11 +37,10 @@ GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
   return result;
 }
 
-/// Number of eigenvalues of the first `modes` modes, both members of complex pairs counted. members_of puts
-/// them first.
-Eigen::Index count_members(const Spectrum& spectrum, std::optional<int> modes) {
-  const auto all = static_cast<int>(spectrum.modes.size());
-  const auto end = spectrum.modes.begin() + std::min(modes.value_or(all), all);
+/// Brings the chosen modes to the front, and returns the number of their eigenvalues, both members of complex
+/// pairs counted. members_of keeps them first.
+Eigen::Index choose_members(const ModeChoice& modes, Spectrum& spectrum) {
+  const auto end = spectrum.modes.begin() + choose_modes(modes, spectrum.modes);
   return std::accumulate(
       spectrum.modes.begin(), end, Eigen::Index{0},
       [](Eigen::Index count, const StartingMode& mode) { return count + (mode.s.imag() == 0.0 ? 1 : 2); });
@@ -73,7 +72,7 @@ GridPoint in_order(const GridPoint& last, const GridPoint& next) {
 
 }  // namespace
 
-GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, std::optional<int> modes) {
+GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, const ModeChoice& modes) {
   GridLoci loci;
   Eigen::Index followed = 0;
   loci.both_members = true;
@@ -84,12 +83,12 @@ GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, std::
     loci.message = point.message;
     if (point.status != PointStatus::computed) return loci;
     guess = {point.equilibrium.x, point.equilibrium.lambda, true};
-    const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+    Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
     ++loci.counts.spectra;
     loci.message = "QZ did not yield a spectrum";
     if (spectrum.status != SpectrumStatus::complete) return loci;
+    if (loci.p.empty()) followed = choose_members(modes, spectrum);
     GridPoint next = members_of(spectrum, point);
-    if (loci.p.empty()) followed = count_members(spectrum, modes);
     loci.message = "the number of finite eigenvalues changes";
     if (!loci.p.empty() && next.s.size() != last.s.size()) return loci;
     last = loci.p.empty() ? std::move(next) : in_order(last, next);

@@ -169,7 +169,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.steady.relax = false;  // relaxation may lead to another equilibrium than the stored one
   const double reference = std::stod(loci.attribute("reference"));
-  const bool follows_all = !setup.options.modes;
+  const bool follows_all = setup.options.modes.is_all();
   const double largest_finite = largest_of(loci);
   VerifyReport report;
   report.tolerance = setup.options.tolerance;

@@ -262,6 +262,24 @@ std::string TableReader::text(const std::string& key) {
   return *text;
 }
 
+std::vector<std::string> TableReader::texts(const std::string& key) {
+  const Value& value = require(key, "a text, or a list of texts");
+  const auto to_text = [&](const Value& item) {
+    if (const auto* number = std::get_if<double>(&item.data)) return exact_text(*number);
+    const auto* text = std::get_if<std::string>(&item.data);
+    if (text == nullptr) fail(key, "expected a text or a number, found " + item.kind());
+    return *text;
+  };
+  const auto* array = std::get_if<Array>(&value.data);
+  if (array == nullptr) return {to_text(value)};
+  if (array->size() > limits::list_length)
+    fail(key, "expected at most " + std::to_string(limits::list_length) + " texts, found " +
+                  std::to_string(array->size()));
+  std::vector<std::string> result;
+  for (const Value& item : *array) result.push_back(to_text(item));
+  return result;
+}
+
 bool TableReader::flag(const std::string& key) {
   const Value& value = require(key, "true or false");
   const auto* flag = std::get_if<bool>(&value.data);

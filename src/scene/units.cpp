@@ -121,4 +121,24 @@ std::optional<double> unit_factor(std::string_view unit) {
   return usable ? std::optional(factor) : std::nullopt;
 }
 
+std::optional<double> angular_frequency(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 8> units = {{{"", 1.0},
+                                                                         {"rad/s", 1.0},
+                                                                         {"1/s", 1.0},
+                                                                         {"Hz", 2 * pi},
+                                                                         {"kHz", 2e3 * pi},
+                                                                         {"rev/s", 2 * pi},
+                                                                         {"rpm", 2 * pi / 60},
+                                                                         {"deg/s", pi / 180}}};
+  double value = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc() || !std::isfinite(value)) return std::nullopt;
+  std::string_view unit(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  for (const auto& [name, factor] : units) {
+    if (name == unit) return value * factor;
+  }
+  return std::nullopt;
+}
+
 }  // namespace eigentrail

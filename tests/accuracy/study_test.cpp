@@ -94,9 +94,9 @@ TEST(GridRivals, AreMeasuredOnTheModesThatATraceFollows) {
   Setting setting = make_setting(scene);
   const ReferenceSet reference = references(setting);
   for (const Method method : {Method::qz, Method::zero_order, Method::secant, Method::tangent}) {
-    setting.options.modes = 1;
+    setting.options.modes.count = 1;
     EXPECT_LT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-14) << method_name(method);
-    setting.options.modes.reset();
+    setting.options.modes = {};
     EXPECT_GT(measure_grid(setting, reference, method, 6, 1).linear.error, 1e-3) << method_name(method);
   }
 }

@@ -13,7 +13,7 @@ namespace {
 TraceOptions ten_modes_of(const Setting& setting) {
   TraceOptions options = setting.options;
   options.tolerance = 1e-6;
-  options.modes = 10;
+  options.modes.count = 10;
   return options;
 }
 

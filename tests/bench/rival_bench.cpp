@@ -99,7 +99,7 @@ Figures few_modes(const BenchOptions& options) {
   const int modes = options.smoke ? 3 : 6;
   const Setting setting = gyroscopic_family(n, seed, {});
   TraceOptions traced = traced_at(setting, options.smoke ? 1e-4 : 1e-6);
-  traced.modes = modes;
+  traced.modes.count = modes;
   const Contest fought = contest(setting, traced, options);
   const std::string name = "n = " + std::to_string(n) + ", " + std::to_string(modes) + " modes";
   Figures figures = against_grid(name, setting, traced, fought, 20.0, options.smoke ? 8 : 4, options);

@@ -18,7 +18,7 @@ constexpr unsigned seed = 7;
 TraceOptions few_modes_of(const Setting& setting, int modes, bool certify) {
   TraceOptions options = setting.options;
   options.tolerance = 1e-6;
-  options.modes = modes;
+  options.modes.count = modes;
   options.certify = certify;
   return options;
 }

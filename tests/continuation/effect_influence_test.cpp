@@ -89,7 +89,7 @@ TEST(EffectInfluences, DoubleEigenvalueHasNone) {
 
 TEST(EffectInfluences, AreOfAsManyModesAsAreFollowed) {
   TraceSetup setup = mass_on_springs(3.0);
-  setup.options.modes = 1;
+  setup.options.modes.count = 1;
   const Influences influences = effect_influences(setup);
   EXPECT_EQ(influences.s.size(), 1);
   EXPECT_EQ(of(influences, "drag").size(), 1);

@@ -117,7 +117,7 @@ TEST_F(SparseRoute, TracesAgreeWithTheDenseRoute) {
   TraceOptions options = setting.options;
   options.to = 4.0;
   options.tolerance = 1e-6;
-  options.modes = 6;
+  options.modes.count = 6;
   const auto record = [&](const Model& model) {
     ComplexVector last;
     TraceObserver observer;

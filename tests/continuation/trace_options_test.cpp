@@ -17,7 +17,8 @@ TraceOptions read(const std::string& trace, const OptionTexts& overrides = {}) {
 TEST(TraceOptions, DefaultsAreDocumented) {
   const TraceOptions options = read("parameter = \"p\"\nfrom = 0\nto = 1\n");
   EXPECT_EQ(options.tolerance, 1e-6);
-  EXPECT_FALSE(options.order || options.modes || options.reference || options.first_step || options.max_step);
+  EXPECT_FALSE(options.order || options.modes.count || options.reference || options.first_step ||
+               options.max_step);
   EXPECT_TRUE(options.certify);
 }
 
@@ -27,7 +28,7 @@ TEST(TraceOptions, CommandLineOverridesTheScene) {
            {{"to", "2.5"}, {"modes", "all"}, {"tolerance", "1e-9"}, {"certify", "false"}});
   EXPECT_EQ(options.to, 2.5);
   EXPECT_FALSE(options.certify);
-  EXPECT_FALSE(options.modes);
+  EXPECT_TRUE(options.modes.is_all());
   EXPECT_EQ(options.tolerance, 1e-9);
 }
 
@@ -40,6 +41,48 @@ TEST(TraceOptions, OrderIsANumberOrTheWordAuto) {
   // The word of another option.
   EXPECT_THROW(static_cast<void>(read(range + "order = \"all\"\n")), InputError);
   EXPECT_THROW(static_cast<void>(read(range + "modes = \"auto\"\n")), InputError);
+}
+
+TEST(TraceOptions, ModesAreANumberOrATableInTheSameWordsOnTheCommandLine) {
+  const std::string range = "parameter = \"p\"\nfrom = 0\nto = 1\n";
+  const ModeChoice wanted{.count = 12, .band = FrequencyBand{M_PI, 6 * M_PI}, .damping_below = 0.9};
+  const auto near = [&](const ModeChoice& found) {
+    EXPECT_EQ(found.count, wanted.count);
+    EXPECT_EQ(found.damping_below, wanted.damping_below);
+    ASSERT_TRUE(found.band.has_value());
+    EXPECT_NEAR(found.band->lowest, wanted.band->lowest, 1e-12);
+    EXPECT_NEAR(found.band->highest, wanted.band->highest, 1e-12);
+  };
+  near(read(range + "modes = { count = 12, band = [\"0.5 Hz\", \"180 rpm\"], damping_below = 0.9 }\n").modes);
+  const TraceOptions overridden = read(
+      range + "modes = 3\n", {{"modes", "count = 12, band = ['0.5 Hz', '180 rpm'], damping_below = 0.9"}});
+  near(overridden.modes);
+  ASSERT_EQ(overridden.events.wanted.size(), 2u) << "the ends of the band are looked for";
+  EXPECT_EQ(overridden.events.wanted[0].kind, EventKind::band_edge);
+  // The text in the loci file reads back as the same choice.
+  for (const auto& [key, text] : describe_options(overridden)) {
+    if (key != "modes") continue;
+    EXPECT_EQ(read(range, {{"modes", text}}).modes, overridden.modes) << text;
+  }
+}
+
+TEST(TraceOptions, ChoicesOfModesThatMakeNoSenseAreRefused) {
+  const std::string range = "parameter = \"p\"\nfrom = 0\nto = 1\nmodes = ";
+  const auto message = [&](const std::string& modes) {
+    try {
+      read(range + modes + "\n");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(message("{ count = 1.5 }").find("whole number of at least 1, found 1.5"), std::string::npos);
+  EXPECT_NE(message("{ count = 0 }").find("at least 1"), std::string::npos);
+  EXPECT_NE(message("{ band = [3, 2] }").find("the lower one first"), std::string::npos);
+  EXPECT_NE(message("{ band = [\"3 m\", \"4 m\"] }").find("found \"3 m\""), std::string::npos);
+  EXPECT_NE(message("{ damping_below = 3 }").find("found 3"), std::string::npos);
+  EXPECT_NE(message("{ near = 4 }").find("how many"), std::string::npos);
+  EXPECT_NE(message("{ bands = [1, 2] }").find("did you mean 'band'"), std::string::npos);
 }
 
 TEST(TraceOptions, OrderIsDescribedAsItWasGiven) {

@@ -56,7 +56,7 @@ TEST(ComputeStart, FollowsAllModesByMagnitude) {
 
 TEST(ComputeStart, FollowsAsManyAsAreAskedFor) {
   TraceOptions options;
-  options.modes = 2;
+  options.modes.count = 2;
   const Started start(oscillators(), options);
   ASSERT_FALSE(start.failure);
   EXPECT_EQ(start.state.origin.node.tracks.size(), 2U);

@@ -21,6 +21,7 @@ enum class EventKind {
   resonance,      ///< Im s of a complex pair is a requested multiple of the excitation frequency
   extremum,       ///< the damping ratio of a complex pair has a local minimum or maximum
   log_decrement,  ///< the logarithmic decrement of a complex pair has a requested value
+  band_edge,      ///< Im s of a complex pair passes an end of the band of frequencies that is followed
 };
 
 struct Event {
@@ -34,11 +35,11 @@ struct Event {
   Complex puiseux = {};
   /// Flutter, divergence, damping_ratio, log_decrement: 1 if the mode becomes less stable there with growing
   /// p, -1 if more stable. Resonance: 1 if Im s grows faster with p than the multiple of the excitation
-  /// frequency. Extremum: 1 at a minimum of the damping ratio, -1 at a maximum. 0: the function touches zero
-  /// without a change of sign, or the kind has no direction.
+  /// frequency; band_edge: if it grows with p. Extremum: 1 at a minimum of the damping ratio, -1 at a
+  /// maximum. 0: the function touches zero without a change of sign, or the kind has no direction.
   int direction = 0;
   /// damping_ratio, extremum: the damping ratio -Re s/|s|; log_decrement: the decrement; resonance: the
-  /// multiple of the excitation frequency.
+  /// multiple of the excitation frequency; band_edge: the end of the band, rad/s.
   double value = NAN;
   ComplexVector shape = {};  ///< eigenvector of the first of `modes`, physical coordinates, unit M-norm
   /// ds/dq for every parameter q, the others constant; s is the mean of all that coincide. NaN where it is

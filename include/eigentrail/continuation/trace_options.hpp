@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/continuation/thresholds.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/modes/mode_choice.hpp"
 
 namespace eigentrail {
 
@@ -24,7 +25,7 @@ struct TraceOptions {
   double from = 0.0;                ///< where the trace begins, in the parameter's unit
   double to = 0.0;                  ///< where it ends; may be below `from`, not equal
   double tolerance = 1e-6;          ///< bounds |s_dense - s| <= tolerance * max(|s|, reference); 1e-13 to 0.1
-  std::optional<int> modes;         ///< follow the N modes of least |s|, >= 1; absent: all
+  ModeChoice modes = {};            ///< which modes are followed
   std::optional<int> order;         ///< of the series at each point, 1 to 4; absent: the one that costs least
   std::optional<double> reference;  ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
                                     ///< absent: 1e-3 of the median |s| of the followed modes at the start
@@ -59,7 +60,11 @@ struct TraceOptions {
     visit("to", "where the trace ends, in the parameter's unit", self.to);
     visit("tolerance", "bound of the relative error of every eigenvalue, everywhere on the range",
           self.tolerance);
-    visit("modes", "follow this many modes of lowest |s|, or \"all\"", self.modes);
+    visit("modes",
+          "which modes to follow: \"all\", the number of the lowest ones, or some of count = 12, band = "
+          "[\"0.05 Hz\", \"3 "
+          "Hz\"], damping_below = 0.9, near = \"10 Hz\"",
+          self.modes);
     visit("order", "order of the power series at each point, 1 to 4, or \"auto\"", self.order);
     visit("reference", "eigenvalues below this (1/s) count as zero in the tolerance", self.reference);
     visit("first_step", "length of the first step, in the parameter's unit", self.first_step);

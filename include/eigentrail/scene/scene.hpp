@@ -70,6 +70,9 @@ class TableReader {
 
   std::string text(const std::string& key);
 
+  /// A list of texts; a single text counts as a list of one, and numbers as their texts.
+  std::vector<std::string> texts(const std::string& key);
+
   /// true or false.
   bool flag(const std::string& key);
 

@@ -11,4 +11,8 @@ namespace eigentrail {
 /// and "-" give 1. Returns an empty value if the unit is not understood.
 std::optional<double> unit_factor(std::string_view unit);
 
+/// "3 Hz", "200 rpm", "5 rad/s" or "5" as an angular frequency in rad/s. Hertz are turns per second here. An
+/// empty value if the text is no number, or the unit none of a frequency.
+std::optional<double> angular_frequency(std::string_view text);
+
 }  // namespace eigentrail

@@ -30,6 +30,8 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
     case EventKind::resonance:
       return chart == Chart::finite ? im - criterion.value * excitation
                                     : -im - criterion.value * (excitation * square);
+    case EventKind::band_edge:
+      return chart == Chart::finite ? im - criterion.value : -im - criterion.value * square;
     case EventKind::extremum:
       return re / sqrt(square);
     default:

@@ -55,6 +55,10 @@ std::string decrement_remark(const EventFacts& facts) {
   return "decrement " + rounded(facts.value) + turns(facts, ", falling", ", rising");
 }
 
+std::string band_remark(const EventFacts& facts) {
+  return "of " + rounded(facts.value) + " rad/s" + turns(facts, ", rises through it", ", falls through it");
+}
+
 /// Zero is allowed: a damping ratio of zero is flutter, which every trace looks for.
 bool is_ratio(double value) {
   return std::abs(value) < 1.0;
@@ -68,7 +72,7 @@ bool is_finite(double value) {
   return std::isfinite(value);
 }
 
-constexpr std::array<EventKindInfo, 11> kinds{{
+constexpr std::array<EventKindInfo, 12> kinds{{
     {EventKind::flutter, "flutter", "flutter", "x", true, stability_remark},
     {EventKind::divergence, "divergence", "divergence", "cross", true, stability_remark},
     {EventKind::collision, "collision", "collision", "star", true, collision_remark},
@@ -101,6 +105,7 @@ constexpr std::array<EventKindInfo, 11> kinds{{
      decrement_remark,
      {"log_decrement", "where the logarithmic decrement of a pair has this value", "must be a finite number",
       is_finite}},
+    {EventKind::band_edge, "band_edge", "edge of the band", "line-ew-open", false, band_remark},
 }};
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 constexpr double at_end = 1e-14;
 constexpr double share_of_end = 0.1;
 
-/// The pair that the series of a track predict at distance h, Z in physical coordinates.
+}  // namespace
+
 InvariantPair predicted_pair(const Track& track, double h) {
   InvariantPair pair;
   pair.chart = track.pair.chart;
@@ -22,8 +23,6 @@ InvariantPair predicted_pair(const Track& track, double h) {
   pair.Lambda = evaluate_series(track.series.Lambda, h);
   return pair;
 }
-
-}  // namespace
 
 TracksAt all_tracks(const PathNode& node) {
   TracksAt all{node, {}};

@@ -16,6 +16,9 @@ struct TracksAt {
 TracksAt all_tracks(const PathNode& node);
 TracksAt one_track(const PathNode& node, std::size_t track);
 
+/// The pair that the series of a track predict at distance h, Z in physical coordinates.
+InvariantPair predicted_pair(const Track& track, double h);
+
 /// A point with its factorizations, for derivatives with respect to other parameters, and its series.
 struct SolvedPoint {
   PathPoint point;

@@ -67,16 +67,15 @@ Influences effect_influences(const TraceSetup& setup) {
     result.fault = point.message;
     return result;
   }
-  const Spectrum spectrum = compute_eigenvalues(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  Spectrum spectrum = compute_eigenvalues(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) {
     result.fault = "there are no modes where the trace begins";
     return result;
   }
   std::vector<ModeVectors> modes;
-  for (const StartingMode& mode : spectrum.modes) {
-    if (setup.options.modes && static_cast<int>(modes.size()) == *setup.options.modes) break;
-    modes.push_back(vectors_of(point.pencil, mode.s));
-  }
+  const int chosen = choose_modes(setup.options.modes, spectrum.modes);
+  for (int i = 0; i < chosen; ++i)
+    modes.push_back(vectors_of(point.pencil, spectrum.modes[static_cast<std::size_t>(i)].s));
   result.s.resize(static_cast<Eigen::Index>(modes.size()));
   for (std::size_t i = 0; i < modes.size(); ++i) result.s[static_cast<Eigen::Index>(i)] = modes[i].s;
   const Parameters& parameters = setup.model->description().parameters;

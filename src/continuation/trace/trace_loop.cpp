@@ -17,6 +17,7 @@
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/mode_states.hpp"
+#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "scene/narrow_places.hpp"
 
@@ -304,11 +305,17 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
 
 /// Takes a step: finds its events, stores and emits it, checks that no mode is missing, chooses what is
 /// followed together behind its end, and makes the end the origin of the next step. Returns whether the trace
-/// goes on.
+/// goes on. Where the chosen modes include one that nobody follows, the step is not taken, but tried again
+/// with it.
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
-  settle_events(landed);
   Step& step = landed.step;
   TraceResult& result = state_.result;
+  std::vector<Track> wanted = newcomers(problem_, options_.modes, step.right, result.counts);
+  if (follow_back(problem_, wanted, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
+    state_.origin.tried.reset();
+    return true;  // the step is taken again, with them
+  }
+  settle_events(landed);
   const PathStep stored = stored_step(problem_, step, certified);
   for (const std::string& who : find_again(problem_, step.right, state_.ended, result.counts))
     result.notes.push_back(who + " was found again at " + place_text(options_, step.right.p) +
@@ -321,6 +328,12 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
                            " two tracks share an eigenvalue, or one has left the spectrum; see verify");
   for (int i = 0; i < found.added; ++i) result.notes.push_back("a mode that was missing was added " + where);
   result.regroupings.repaired += found.added;
+  const int begun = begin_here(problem_, std::move(wanted), step.right, state_.numbers);
+  for (int i = 0; i < begun; ++i) {
+    if (result.notes.size() < most_notes)
+      result.notes.push_back("a mode that is wanted was noticed " + where +
+                             " and could not be followed back; it begins there");
+  }
   result.n_columns = state_.numbers.count;
   for (const DenseBlock& block : stored.blocks) {
     result.mode_steps += static_cast<long>(block.modes.size());

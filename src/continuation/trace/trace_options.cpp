@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "continuation/trace/mode_choice_option.hpp"
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 
@@ -23,11 +24,6 @@ constexpr double largest_whole_number = 1e9;
 /// error would be of the size of the distances between modes.
 constexpr double least_tolerance = 1e-13;
 constexpr double largest_tolerance = 0.1;
-
-/// The word for a whole number that is not given.
-std::string word_for_absent(std::string_view key) {
-  return key == "modes" ? "all" : "auto";
-}
 
 /// Reads the options from a table of texts and numbers: the [trace] table merged with the command line.
 class OptionReader {
@@ -80,13 +76,12 @@ class OptionReader {
     if (table_.has(key)) value = number(key);
   }
   void operator()(const char* key, const char*, std::optional<int>& value) {
+    if (table_.has(key)) value = whole_number_or(key, "auto");
+  }
+  void operator()(const char* key, const char*, ModeChoice& value) {
     if (!table_.has(key)) return;
-    if (is_text(key) && table_.text(key) == word_for_absent(key)) {
-      value.reset();
-    } else {
-      reject_other_word(key);
-      value = whole_number(key);
-    }
+    value =
+        table_.is_table(key) ? read_mode_choice(table_.table(key)) : ModeChoice{whole_number_or(key, "all")};
   }
 
  private:
@@ -98,13 +93,20 @@ class OptionReader {
     }
   }
 
+  /// A whole number; empty for the word that stands for its absence.
+  std::optional<int> whole_number_or(const char* key, const std::string& word_for_absent) {
+    if (is_text(key) && table_.text(key) == word_for_absent) return std::nullopt;
+    reject_other_word(key, word_for_absent);
+    return whole_number(key);
+  }
+
   /// Reports a word that is neither a parameter nor the word for an absent number.
-  void reject_other_word(const char* key) {
+  void reject_other_word(const char* key, const std::string& word_for_absent) {
     if (!is_text(key)) return;
     const std::string text = table_.text(key);
     const bool word = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c); });
     if (word && !scene_.parameters.index(text))
-      table_.fail(key, "expected a whole number or \"" + word_for_absent(key) + "\", found \"" + text + "\"");
+      table_.fail(key, "expected a whole number or \"" + word_for_absent + "\", found \"" + text + "\"");
   }
 
   /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
@@ -141,8 +143,16 @@ class OptionReader {
   TableReader& table_;
 };
 
+/// "count = 12, near = '3 Hz'", as on the command line, as a table.
+Table table_of(const std::string& key, const std::string& text) {
+  Table parsed = parse_toml(key + " = {" + text + "}", "--" + key);
+  Table table = std::get<Table>(parsed.entries.front().second.data);
+  for (auto& [name, value] : table.entries) value.where = {};  // no place in the scene file
+  return table;
+}
+
 /// The [trace] table in which values from the command line replace those of the same key. Texts of the
-/// command line that are numbers become numbers, "true" and "false" become flags.
+/// command line that are numbers become numbers, "true" and "false" become flags, "key = value" tables.
 Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const auto found = tables(scene, "trace");
   if (found.size() > 1)
@@ -156,6 +166,7 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
     if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
     if (text == "true" || text == "false") value.data = text == "true";
+    if (text.find('=') != std::string::npos) value.data = table_of(option.first, text);
     std::erase_if(merged.entries, [&option](const auto& entry) { return entry.first == option.first; });
     merged.entries.emplace_back(option.first, std::move(value));
   }
@@ -189,7 +200,7 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
           "equals from (" + exact_text(options.from) + "): the range is empty");
   require(options.tolerance >= least_tolerance && options.tolerance <= largest_tolerance, "tolerance",
           "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
-  require(!options.modes || *options.modes >= 1, "modes", "must be at least 1, or \"all\"");
+  require(options.modes.count.value_or(1) >= 1, "modes", "must be at least 1, or \"all\"");
   require(!options.order || (*options.order >= 1 && *options.order < max_order), "order",
           "must lie between 1 and " + std::to_string(max_order - 1) + ", or be \"auto\"");
   require(positive(options.reference), "reference", "must be positive");
@@ -235,6 +246,11 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   OptionReader reader(scene, table);
   TraceOptions::fields(options, reader);
   options.events = read_event_options(scene, options.parameter, used);
+  if (const auto& band = options.modes.band) {
+    for (const double edge : {band->lowest, band->highest}) {
+      if (edge > 0.0) options.events.wanted.push_back({EventKind::band_edge, edge});
+    }
+  }
   for (const char* key : {"from", "to"}) {
     if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
   }
@@ -284,7 +300,9 @@ OptionTexts describe_options(const TraceOptions& options) {
       for (const std::string& item : value) list += (list.empty() ? "" : ", ") + item;
       texts.emplace_back(key, list.empty() ? "none" : list);
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
-      texts.emplace_back(key, value ? std::to_string(*value) : word_for_absent(key));
+      texts.emplace_back(key, value ? std::to_string(*value) : "auto");
+    } else if constexpr (std::is_same_v<T, ModeChoice>) {
+      texts.emplace_back(key, text_of(value));
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
       texts.emplace_back(key, value ? exact_text(*value) : "auto");
     } else if constexpr (std::is_same_v<T, int>) {

@@ -140,13 +140,17 @@ std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) cons
 std::optional<StartFailure> Start::find_modes() {
   const ReducedPencil& pencil = point_.pencil;
   const StageTimer timer(result_.counts.modes_seconds);
-  const bool few = options_.modes && few_share * *options_.modes < static_cast<double>(pencil.size());
+  const bool few =
+      options_.modes.count && few_share * *options_.modes.count < static_cast<double>(pencil.size());
   Spectrum spectrum = few ? compute_eigenvalues(pencil) : compute_spectrum(pencil);
   ++result_.counts.spectra;
   result_.n_infinite = spectrum.n_infinite;
   result_.n_available = static_cast<int>(spectrum.modes.size());
   if (auto failure = check_spectrum(spectrum)) return failure;
-  result_.n_modes = std::min(options_.modes.value_or(result_.n_available), result_.n_available);
+  result_.n_modes = choose_modes(options_.modes, spectrum.modes);
+  if (result_.n_modes == 1 && !options_.modes.wants(spectrum.modes.front().s))
+    result_.notes.push_back("none of " + in_words(options_.modes) + where() +
+                            "; the mode that misses this least is followed");
   result_.n_columns = state_.numbers.count = result_.n_modes;
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
@@ -168,7 +172,11 @@ void Start::settle_magnitudes(const Spectrum& spectrum) {
   const double median = std::max(std::abs(typical[middle].s), rigid_share * spectrum.scale);
   TraceSettings& settings = state_.settings;
   settings.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
-  settings.s_max = infinity_share * std::max(std::abs(typical.back().s), settings.s_ref);
+  const double largest =
+      std::abs(std::max_element(typical.begin(), typical.end(), [](const auto& a, const auto& b) {
+                 return std::abs(a.s) < std::abs(b.s);
+               })->s);
+  settings.s_max = infinity_share * std::max(largest, settings.s_ref);
   apply(settings, problem_);
 }
 

@@ -1,13 +1,10 @@
 #include "continuation/tracks/ended_modes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <sstream>
 
-#include "continuation/tracks/completeness.hpp"
-#include "core/singular_vectors.hpp"
+#include "continuation/tracks/recognition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
-#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -38,47 +35,17 @@ std::string text_of(const Model& model, const Track& track) {
   return text.str();
 }
 
-/// The last pair of a track in the reduced coordinates of another point.
-InvariantPair pair_at(const PathNode& node, const Track& track) {
-  InvariantPair pair = track.pair;
-  pair.factors.reset();
-  const TangentBasis& basis = node.basis;
-  if (basis.parts) {
-    pair.Z = basis.coordinates(track.series.Z[0], pair.part);
-  } else if (!basis.is_identity) {
-    pair.Z = multiply(Matrix(basis.T[0].transpose()), track.series.Z[0]);
-  }
-  return pair;
-}
-
-/// Cosine of the largest angle between the spaces of two tracks, squared.
-double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
-  const auto basis = [](const ComplexMatrix& Z) {
-    const Eigen::HouseholderQR<ComplexMatrix> qr(Z);
-    return ComplexMatrix(qr.householderQ() * ComplexMatrix::Identity(Z.rows(), std::min(Z.rows(), Z.cols())));
-  };
-  const ComplexMatrix overlap = basis(a).adjoint() * basis(b);
-  const double cosine = singular_vectors(overlap).values.minCoeff();
-  return cosine * cosine;
-}
-
 /// The ended track at this point; empty if it is not recognized there.
 std::optional<Track> at_point(const PathProblem& problem, const PathNode& node, const Track& ended,
                               RunCounts& counts) {
-  const InvariantPair start = pair_at(node, ended);
-  const double reference = problem.reference(start.chart);
-  const PencilAtPoint pencil(node.pencil.of(start.part), start.chart);
-  InvariantPair pair = correct_pair(pencil, start, reference, problem.corrector, counts.modes);
-  if (pair.status != PairStatus::converged) return std::nullopt;
-  if (resemblance(pair.Z, start.Z) < problem.thresholds.identity.least_assurance) return std::nullopt;
-  Track track = differentiate_track(problem, node, std::move(pair), counts);
-  if (!track.functions.allFinite()) return std::nullopt;
-  for (const Track& other : node.tracks) {
-    if (have_common_eigenpair(track, other, reference, problem.thresholds.identity)) return std::nullopt;
-  }
+  InvariantPair start = ended.pair;
+  start.Z = ended.series.Z[0];
+  auto found = recognize(problem, node, start, counts);
+  if (!found) return std::nullopt;
+  Track& track = *found;
   track.roots = in_order_of(ended.roots, track.roots);
   track.modes = track.arriving = ended.modes;
-  return track;
+  return found;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
@@ -93,10 +94,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     if (pair.status != PairStatus::converged) continue;
     Track guest = differentiate_track(problem, node, std::move(pair), counts);
     if (!guest.functions.allFinite()) continue;
-    const bool is_followed = std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& other) {
-      return have_common_eigenpair(guest, other, problem.s_ref, problem.thresholds.identity);
-    });
-    if (is_followed) continue;
+    if (is_followed(problem, node, guest)) continue;
     guest.roots = in_order_of(group.roots, guest.roots);
     guest.modes.assign(group.modes.size(), Track::guest);
     node.tracks.push_back(std::move(guest));
