@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -57,6 +58,14 @@ void print_uncertified(const LociFile& loci) {
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
 }
 
+/// The number in an attribute; empty if the file has none.
+std::optional<double> number_in(const LociFile& loci, const std::string& name) {
+  const std::string text = attribute(loci, name);
+  double value = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  return parsed.ec == std::errc() ? std::optional(value) : std::nullopt;
+}
+
 /// To which modes the stable ranges refer, in words; empty if to all.
 std::string followed_modes(const LociFile& loci) {
   const std::string wanted = attribute(loci, "option_modes");
@@ -112,6 +121,9 @@ void print_for_people(const LociFile& loci) {
   }
   print_table(rows);
   print_uncertified(loci);
+  const auto tolerance = number_in(loci, "tolerance");
+  const auto reference = number_in(loci, "reference");
+  if (tolerance && reference) print_permanent(loci, {*tolerance, *reference}, loci.mode_names);
   if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
   if (!loci.events.empty())
     std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "eigentrail/core/text.hpp"
 #include "output.hpp"
 
 namespace eigentrail::app {
@@ -22,6 +23,30 @@ nlohmann::ordered_json end_json(const RangeEnd& end) {
 }
 
 }  // namespace
+
+void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accuracy,
+                     const std::vector<std::string>& names) {
+  const std::vector<Permanence> all = permanence_of_modes(path, accuracy);
+  const auto list = [&](Permanence wanted, bool with_names) {
+    std::string text;
+    for (std::size_t mode = 0; mode < all.size(); ++mode) {
+      if (all[mode] != wanted) continue;
+      text += (text.empty() ? "" : ", ") + std::to_string(mode + 1);
+      if (with_names && mode < names.size() && !names[mode].empty())
+        text += " (" + printable(names[mode]) + ")";
+    }
+    return text;
+  };
+  const std::string zeros = list(Permanence::zero, true);
+  if (!zeros.empty()) {
+    std::printf(
+        "  zero throughout  modes %s: rigid-body motions, integrators or placeholders; stable ranges leave "
+        "them out\n",
+        zeros.c_str());
+  }
+  const std::string constants = list(Permanence::constant, false);
+  if (!constants.empty()) std::printf("  constant  modes %s\n", constants.c_str());
+}
 
 void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter,
                   const std::string& whose) {

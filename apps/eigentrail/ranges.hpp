@@ -5,9 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/stability/permanent_modes.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail::app {
+
+/// Prints which modes do not move with the parameter, and what moves in those that are zero throughout, which
+/// the stable ranges leave out. Nothing if all modes move. `names`: what moves, per mode; may be empty.
+void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accuracy,
+                     const std::vector<std::string>& names);
 
 /// Prints the ranges, one line each, under a heading. `whose`: the modes to which they refer, if not to all,
 /// for example "4 of 10 modes followed".

@@ -146,6 +146,7 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   }
   print_table(rows);
   print_findings(options, result);
+  print_permanent(path, {options.tolerance, result.s_ref}, names);
   print_ranges(ranges, options.parameter, followed_modes(result));
   print_work(result);
   print_effects(model, result.counts.evaluations);

@@ -36,8 +36,9 @@ bool ModeChoice::wants(Complex s) const {
 
 int choose_modes(const ModeChoice& choice, std::vector<StartingMode>& modes) {
   if (modes.empty()) return 0;
-  auto end = std::stable_partition(modes.begin(), modes.end(),
-                                   [&](const StartingMode& mode) { return choice.wants(mode.s); });
+  auto end = std::stable_partition(modes.begin(), modes.end(), [&](const StartingMode& mode) {
+    return choice.is_all() || (choice.wants(mode.s) && !mode.is_permanent_zero);
+  });
   if (end == modes.begin()) {
     const auto nearest =
         std::min_element(modes.begin(), modes.end(), [&](const StartingMode& a, const StartingMode& b) {

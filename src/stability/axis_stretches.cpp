@@ -7,16 +7,12 @@
 #include <optional>
 
 #include "eigentrail/continuation/eigenvalue_error.hpp"
+#include "eigentrail/stability/permanent_modes.hpp"
+#include "stability/zero_level.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// At stored points |Re s| below this multiple of max(|s|, reference) counts as zero. Without this, rounding
-/// would make undamped systems alternate between stable and unstable.
-constexpr double vanishing_damping = 1e-9;
-/// A defective double eigenvalue zero (a rigid-body motion) is known only to the square root of rounding,
-/// 1.5e-8, relative to the largest eigenvalue of the system. This is twice that.
-constexpr double double_zero = 3e-8;
 /// An event with |Re s| below this multiple of max(|s|, reference) lies on the imaginary axis.
 constexpr double axis_width = 1e-6;
 constexpr int samples_per_step = 8;
@@ -24,8 +20,19 @@ constexpr int samples_per_step = 8;
 constexpr double same_place = 1e-9;
 /// An event closer to a stored point than this, relative to the parameter range, is at that point.
 constexpr double on_node = 1e-8;
-/// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
-constexpr double infinite_size = 1e9;
+/// How samples are judged: the accuracy of the dense output, and per mode whether it is left out, because its
+/// eigenvalue is zero throughout.
+struct Judging {
+  EigenvalueAccuracy accuracy;
+  std::vector<bool> left_out;
+};
+
+Judging judging_of(const RecordedPath& path, const EigenvalueAccuracy& accuracy) {
+  Judging judging{accuracy, {}};
+  for (const Permanence permanence : permanence_of_modes(path, accuracy))
+    judging.left_out.push_back(permanence == Permanence::zero);
+  return judging;
+}
 
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
@@ -45,27 +52,20 @@ Vector uncertainty(const DenseBlock& block, double length, double t, const Compl
   return doubts;
 }
 
-double largest_magnitude(const ComplexVector& s) {
-  double largest = 0.0;
-  for (const Complex value : s) {
-    if (std::isfinite(value.real())) largest = std::max(largest, std::abs(value));
-  }
-  return largest;
-}
-
-AxisSample sample(const RecordedPath& path, const PathPosition& at, const EigenvalueAccuracy& accuracy) {
+AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judging& judging) {
   AxisSample result;
   result.at = at;
   result.exact = at.t == 0.0 || at.t == 1.0;
   result.all_decay = true;
   const ComplexVector s = path.eigenvalues_at(at);
-  const double zero = double_zero * std::min(largest_magnitude(s), infinite_size * accuracy.reference);
+  const double zero = zero_of_blocks(s, judging.accuracy.reference);
   double fastest = -INFINITY;
   const PathStep& step = path.steps[at.step];
   for (const DenseBlock& block : step.blocks) {
-    const Vector doubts = uncertainty(block, step.length, at.t, s, result.exact, accuracy);
+    const Vector doubts = uncertainty(block, step.length, at.t, s, result.exact, judging.accuracy);
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       const int mode = block.modes[i];
+      if (judging.left_out[static_cast<std::size_t>(mode)]) continue;
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
       const bool vanishes = block.size() > 1 && std::abs(s[mode]) <= zero;
@@ -153,11 +153,11 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
 
 /// Samples the stretch: all stored points inside, samples_per_step places of every step or part of a step,
 /// and its ends where they are not on the axis.
-void add_samples(const RecordedPath& path, const EigenvalueAccuracy& accuracy, AxisStretch& stretch) {
+void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& stretch) {
   const PathPosition from = stretch.from.at;
   const PathPosition to = stretch.to.at;
   const auto add = [&](std::size_t step, double t) {
-    stretch.samples.push_back(sample(path, {step, t}, accuracy));
+    stretch.samples.push_back(sample(path, {step, t}, judging));
   };
   for (std::size_t step = from.step; step <= to.step; ++step) {
     const double low = step == from.step ? from.t : 0.0;
@@ -172,7 +172,7 @@ void add_samples(const RecordedPath& path, const EigenvalueAccuracy& accuracy, A
 /// The place between two samples, one growing and one not, at which the dense output changes from growing to
 /// not growing, by bisection.
 AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const AxisSample& second,
-                    const EigenvalueAccuracy& accuracy) {
+                    const Judging& judging) {
   constexpr int halvings = 60;  // more than the 53 bits of a double: the loop ends before
   const AxisSample& growing = first.unstable.empty() ? second : first;
   const AxisSample& other = first.unstable.empty() ? first : second;
@@ -190,7 +190,7 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (inside + outside);
     if (middle == inside || middle == outside) break;
-    const AxisSample there = sample(path, position(middle), accuracy);
+    const AxisSample there = sample(path, position(middle), judging);
     (grows(there) ? inside : outside) = middle;
     if (grows(there)) nearest = there;
   }
@@ -199,20 +199,20 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
   cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = std::abs(cut.s) > infinite_size * accuracy.reference ? "infinity" : "sign change";
+  cut.cause = std::abs(cut.s) > infinite_size * judging.accuracy.reference ? "infinity" : "sign change";
   return cut;
 }
 
 /// A cut between the first two neighbouring samples of which one is unstable and the other is not; empty if
 /// there are none. Samples without a verdict are passed over.
 std::optional<AxisCut> missing_cut(const RecordedPath& path, const AxisStretch& stretch,
-                                   const EigenvalueAccuracy& accuracy) {
+                                   const Judging& judging) {
   const AxisSample* before = nullptr;
   for (const AxisSample& here : stretch.samples) {
     const auto told = verdict(here);
     if (!told) continue;
     if (before != nullptr && (*told == Stability::unstable) != (verdict(*before) == Stability::unstable))
-      return sign_change(path, *before, here, accuracy);
+      return sign_change(path, *before, here, judging);
     before = &here;
   }
   return std::nullopt;
@@ -232,15 +232,15 @@ std::optional<Stability> verdict(const AxisStretch& stretch) {
 
 /// Appends the stretch between two cuts. Where the samples show that a cut is missing, the stretch is split
 /// there and both parts are treated likewise.
-void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut& to,
-                   const EigenvalueAccuracy& accuracy, int depth, std::vector<AxisStretch>& stretches) {
+void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut& to, const Judging& judging,
+                   int depth, std::vector<AxisStretch>& stretches) {
   constexpr int deepest = 12;  // limits the recursion where noise makes signs alternate
   AxisStretch stretch{from, to};
-  add_samples(path, accuracy, stretch);
+  add_samples(path, judging, stretch);
   if (stretch.samples.empty()) return;  // the sign change lies at a cut that exists already
-  if (const auto cut = depth < deepest ? missing_cut(path, stretch, accuracy) : std::nullopt) {
-    add_stretches(path, from, *cut, accuracy, depth + 1, stretches);
-    add_stretches(path, *cut, to, accuracy, depth + 1, stretches);
+  if (const auto cut = depth < deepest ? missing_cut(path, stretch, judging) : std::nullopt) {
+    add_stretches(path, from, *cut, judging, depth + 1, stretches);
+    add_stretches(path, *cut, to, judging, depth + 1, stretches);
     return;
   }
   const auto told = verdict(stretch);
@@ -312,9 +312,10 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
                                         const EigenvalueAccuracy& accuracy) {
   if (path.steps.empty()) return {};
   const std::vector<AxisCut> cuts = united_cuts(path, event_cuts(path, events, accuracy));
+  const Judging judging = judging_of(path, accuracy);
   std::vector<AxisStretch> stretches;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    add_stretches(path, cuts[i], cuts[i + 1], accuracy, 0, stretches);
+    add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches);
   settle_unseen(stretches);
   return stretches;
 }

@@ -136,6 +136,7 @@ class InH5py(unittest.TestCase):
         options = {name[7:]: text for name, text in attributes.items() if name.startswith("option_")}
         self.assertEqual(options, {
             "parameter": "omega", "from": "100", "to": "5", "tolerance": "1e-08", "modes": "all", "order": "auto",
+            "constant_modes": "list",
             "reference": "auto", "first_step": "auto", "max_step": "auto", "max_nodes": "100000",
             "branch": "auto", "without": "none", "certify": "true"})
         self.assertGreater(attributes["reference"], 0.0)

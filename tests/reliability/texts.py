@@ -13,7 +13,7 @@ UNKNOWN_NAMES = [
     blade("unknown key of trace", "to = 5.0", "to = 5.0\n§tolerence = 1e-6",
           "[trace] tolerence: unknown key", "did you mean 'tolerance'?"),
     blade("unknown key unlike any known one", "to = 5.0", "to = 5.0\n§colour = 1", "[trace] colour: unknown key; known: "
-          "parameter, from, to, tolerance, modes, order, reference, first_step, max_step, max_nodes, branch, without, certify"),
+          "parameter, from, to, tolerance, modes, constant_modes, order, reference, first_step, max_step, max_nodes, branch, without, certify"),
     blade("unknown key of a parameter", 'unit = "rad/s"', '§units = "rad/s"',
           "[parameters] omega: unknown key 'units'", "did you mean 'unit'?"),
     blade("unknown key at top level", "title =", "§titel =", "titel: unknown key", "did you mean 'title'?"),

@@ -21,11 +21,14 @@ namespace eigentrail {
 constexpr int usual_order = 3;
 
 struct TraceOptions {
-  std::string parameter;            ///< name of the traced parameter
-  double from = 0.0;                ///< where the trace begins, in the parameter's unit
-  double to = 0.0;                  ///< where it ends; may be below `from`, not equal
-  double tolerance = 1e-6;          ///< bounds |s_dense - s| <= tolerance * max(|s|, reference); 1e-13 to 0.1
-  ModeChoice modes = {};            ///< which modes are followed
+  std::string parameter;    ///< name of the traced parameter
+  double from = 0.0;        ///< where the trace begins, in the parameter's unit
+  double to = 0.0;          ///< where it ends; may be below `from`, not equal
+  double tolerance = 1e-6;  ///< bounds |s_dense - s| <= tolerance * max(|s|, reference); 1e-13 to 0.1
+  ModeChoice modes = {};    ///< which modes are followed
+  /// "list": zeros that do not move with the parameter are listed, and no number in `modes` counts them;
+  /// "follow": they are modes like others.
+  std::string constant_modes = "list";
   std::optional<int> order;         ///< of the series at each point, 1 to 4; absent: the one that costs least
   std::optional<double> reference;  ///< eigenvalues below this count as zero in `tolerance`, 1/s, > 0;
                                     ///< absent: 1e-3 of the median |s| of the followed modes at the start
@@ -65,6 +68,11 @@ struct TraceOptions {
           "[\"0.05 Hz\", \"3 "
           "Hz\"], damping_below = 0.9, near = \"10 Hz\"",
           self.modes);
+    visit("constant_modes",
+          "eigenvalues that are zero for every value of the parameter (rigid-body motions): \"list\" them "
+          "apart, or "
+          "\"follow\" them like others",
+          self.constant_modes);
     visit("order", "order of the power series at each point, 1 to 4, or \"auto\"", self.order);
     visit("reference", "eigenvalues below this (1/s) count as zero in the tolerance", self.reference);
     visit("first_step", "length of the first step, in the parameter's unit", self.first_step);

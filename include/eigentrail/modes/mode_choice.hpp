@@ -33,9 +33,9 @@ struct ModeChoice {
   bool wants(Complex s) const;
 };
 
-/// Brings the chosen modes of a spectrum to its front, by increasing |s|, the others behind them likewise.
-/// Where nothing lies in the band, or everything is damped more, the mode that misses it least is chosen.
-/// Returns the number of the chosen ones.
+/// Permanent zeros are chosen only with all modes. Brings the chosen modes of a spectrum to its front, by
+/// increasing |s|, the others behind them likewise. Where nothing lies in the band, or everything is damped
+/// more, the mode that misses it least is chosen. Returns the number of the chosen ones.
 int choose_modes(const ModeChoice& choice, std::vector<StartingMode>& modes);
 
 /// The choice in the words of a scene: "all", "12", or "count = 12, band = [0.5, 20]" with frequencies in

@@ -11,6 +11,8 @@ struct StartingMode {
   Complex s;        ///< Im s >= 0; this member represents a complex pair
   ComplexVector z;  ///< unit length; empty if only eigenvalues were requested
   int part = 0;     ///< of the equations, where they fall apart
+  bool is_permanent_zero =
+      false;  ///< zero for every value of the parameter, and left out of choices of modes
 };
 
 enum class SpectrumStatus { complete, singular_pencil, not_converged };

@@ -39,7 +39,7 @@ struct AxisCut {
 struct AxisSample {
   PathPosition at;
   double margin = 0.0;        ///< -max Re s, 1/s
-  int critical = -1;          ///< the mode with the largest Re s; -1: no mode exists
+  int critical = -1;          ///< the mode with the largest Re s; -1: no mode exists that moves
   std::vector<int> unstable;  ///< modes with Re s above its error bound, ascending
   bool all_decay = false;     ///< Re s of every mode is below minus its error bound
   bool exact = false;         ///< a stored point, not a place on the dense output
@@ -65,7 +65,8 @@ struct EigenvalueAccuracy {
 };
 
 /// The stretches from the first point of `path` to the last, in the order of the trace; none if there are
-/// fewer than two points. `events`: all events of the trace, in any order.
+/// fewer than two points. Modes that are zero throughout (permanent_modes.hpp) are left out. `events`: all
+/// events of the trace, in any order.
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 

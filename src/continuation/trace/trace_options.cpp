@@ -201,6 +201,8 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   require(options.tolerance >= least_tolerance && options.tolerance <= largest_tolerance, "tolerance",
           "must lie between 1e-13 and 0.1; found " + exact_text(options.tolerance));
   require(options.modes.count.value_or(1) >= 1, "modes", "must be at least 1, or \"all\"");
+  require(options.constant_modes == "list" || options.constant_modes == "follow", "constant_modes",
+          "must be \"list\" or \"follow\"; found \"" + options.constant_modes + "\"");
   require(!options.order || (*options.order >= 1 && *options.order < max_order), "order",
           "must lie between 1 and " + std::to_string(max_order - 1) + ", or be \"auto\"");
   require(positive(options.reference), "reference", "must be positive");

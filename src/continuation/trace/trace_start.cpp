@@ -69,6 +69,8 @@ class Start {
   void settle_order();
   Failure find_modes();
   Failure check_spectrum(const Spectrum& spectrum) const;
+  void mark_permanent_zeros(Spectrum& spectrum) const;
+  void list_permanent_zeros(const Spectrum& spectrum);
   void settle_magnitudes(const Spectrum& spectrum);
   Failure correct_groups(const std::vector<StartingGroup>& groups);
   Failure make_node(const std::vector<StartingGroup>& groups);
@@ -147,11 +149,13 @@ std::optional<StartFailure> Start::find_modes() {
   result_.n_infinite = spectrum.n_infinite;
   result_.n_available = static_cast<int>(spectrum.modes.size());
   if (auto failure = check_spectrum(spectrum)) return failure;
+  if (options_.constant_modes == "list") mark_permanent_zeros(spectrum);
   result_.n_modes = choose_modes(options_.modes, spectrum.modes);
   if (result_.n_modes == 1 && !options_.modes.wants(spectrum.modes.front().s))
     result_.notes.push_back("none of " + in_words(options_.modes) + where() +
                             "; the mode that misses this least is followed");
   result_.n_columns = state_.numbers.count = result_.n_modes;
+  list_permanent_zeros(spectrum);
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
   // Infinite eigenvalues are not followed, and independent parts are followed each by itself.
@@ -161,6 +165,38 @@ std::optional<StartFailure> Start::find_modes() {
   settle_magnitudes(spectrum);
   modes_ = std::move(spectrum.modes);
   return std::nullopt;
+}
+
+/// Marks eigenvalues zero of parts of one freedom that have no stiffness for any value of the parameter.
+void Start::mark_permanent_zeros(Spectrum& spectrum) const {
+  if (!problem_.parts || point_.pencil.parts.empty()) return;
+  for (StartingMode& mode : spectrum.modes) {
+    const IndependentParts::Range& range = problem_.parts->ranges[static_cast<std::size_t>(mode.part)];
+    const bool has_no_stiffness =
+        range.size == 1 && problem_.parts->pattern_K(range.first, range.first) == 0.0;
+    mode.is_permanent_zero = has_no_stiffness && mode.s == 0.0;
+  }
+}
+
+/// A note on the permanent zeros among the modes that are not followed, with what moves in them.
+void Start::list_permanent_zeros(const Spectrum& spectrum) {
+  int count = 0;
+  std::string motions;
+  int last_part = -1;
+  for (auto mode = spectrum.modes.begin() + result_.n_modes; mode != spectrum.modes.end(); ++mode) {
+    if (!mode->is_permanent_zero) continue;
+    ++count;
+    if (mode->part == last_part) continue;
+    last_part = mode->part;
+    Eigen::Index most = 0;
+    problem_.parts->columns(static_cast<std::size_t>(mode->part)).col(0).cwiseAbs().maxCoeff(&most);
+    motions += (motions.empty() ? "" : ", ") +
+               problem_.model.description().coordinate_names[static_cast<std::size_t>(most)];
+  }
+  if (count == 0) return;
+  result_.notes.push_back(std::to_string(count) + (count == 1 ? " eigenvalue is" : " eigenvalues are") +
+                          " zero for every " + options_.parameter + " (rigid-body motions, integrators: " +
+                          motions + ") and not among the modes chosen");
 }
 
 /// Sets s_ref and s_max, the magnitudes that count as zero and as infinite.

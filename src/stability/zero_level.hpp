@@ -1,0 +1,29 @@
+// What counts as zero at the stored points of a path.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+/// At stored points |Re s| below this multiple of max(|s|, reference) counts as zero. Without this, rounding
+/// would make undamped systems alternate between stable and unstable.
+constexpr double vanishing_damping = 1e-9;
+/// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
+constexpr double infinite_size = 1e9;
+
+/// Magnitude up to which an eigenvalue of a block counts as zero, 1/s. A defective double zero (a rigid-body
+/// motion) is known only to the square root of rounding, 1.5e-8, relative to the largest eigenvalue of the
+/// system; this is twice that. `s`: all eigenvalues, 1/s; those that are not finite do not count.
+inline double zero_of_blocks(const ComplexVector& s, double reference) {
+  constexpr double double_zero = 3e-8;
+  double largest = 0.0;
+  for (const Complex value : s) {
+    if (std::isfinite(value.real())) largest = std::max(largest, std::abs(value));
+  }
+  return double_zero * std::min(largest, infinite_size * reference);
+}
+
+}  // namespace eigentrail
