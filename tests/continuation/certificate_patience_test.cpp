@@ -53,14 +53,28 @@ TEST(CertificatePatience, LeavesOutTheTestIfItCostsTooMuch) {
 
 TEST(CertificateMayCost, AFixedAmountAndAShareOfAllOtherWork) {
   RunCounts counts;
-  counts.certificate_factorizations = 4000;
+  const auto count = [&counts](double factorizations, double n) {
+    counts.certificate_work = factorizations * n * n * (n / 3.0 + 30.0);
+  };
+  count(4000, 24);
   EXPECT_TRUE(certificate_may_cost(counts, 24, 0.0)) << "small";
+  count(400, 224);
   EXPECT_FALSE(certificate_may_cost(counts, 224, 0.1));
   EXPECT_TRUE(certificate_may_cost(counts, 224, 1.0));
-  counts.certificate_factorizations = 50000;
+  count(50000, 224);
   EXPECT_FALSE(certificate_may_cost(counts, 224, 1.0));
   counts.modes.factorizations = 200000;
   EXPECT_TRUE(certificate_may_cost(counts, 224, 1.0));
+}
+
+TEST(CertificateMayCost, LessWhereItDoesNotClose) {
+  RunCounts counts;
+  counts.certificate_work = 2e9;
+  EXPECT_TRUE(certificate_may_cost(counts, 24, 1.0));
+  counts.certificate_in_vain = 1.1e9;
+  EXPECT_TRUE(certificate_may_cost(counts, 24, 1.0)) << "most of it was useful";
+  counts.certificate_in_vain = 1.8e9;
+  EXPECT_FALSE(certificate_may_cost(counts, 24, 1.0));
 }
 
 /// Two failures before every step: they add up.

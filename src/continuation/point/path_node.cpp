@@ -14,9 +14,9 @@ void add(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part
 
 RunCounts& RunCounts::operator+=(const RunCounts& other) {
   // With a structured binding the code does not compile if a member is added and not listed here.
-  const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases,
-               equilibrium, reduction, correction, differentiation, matching, certificate, event, output] =
-      other;
+  const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases, work,
+               in_vain, equilibrium, reduction, correction, differentiation, matching, certificate, event,
+               output] = other;
   add(evaluations.residual, evaluations_.residual);
   add(evaluations.linearization, evaluations_.linearization);
   modes += modes_;
@@ -26,6 +26,8 @@ RunCounts& RunCounts::operator+=(const RunCounts& other) {
   event_factorizations += events;
   certificate_factorizations += certificates;
   certificate_bases += bases;
+  certificate_work += work;
+  certificate_in_vain += in_vain;
   equilibrium_seconds += equilibrium;
   reduction_seconds += reduction;
   modes_seconds += correction;

@@ -32,6 +32,9 @@ constexpr double curvature_safety = 1.5;
 /// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
 constexpr std::size_t most_samples = 64;
 
+/// Solutions with each factorization, about: only the budget of the certificate depends on it.
+constexpr double solutions = 30.0;
+
 /// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
 /// size n + k. Affects only the time.
 constexpr Eigen::Index largest_matrix = 80;
@@ -168,11 +171,18 @@ class Tube {
     const double scale = unknown_scale(gap_, centre.Lambda.norm());
     const auto samples = samples_of(begin, middle, end);
     if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
-      ++counts_.certificate_factorizations;
+      count(1, centre.Z.size() + centre.Lambda.size());
       return closes_about(centre, WholeInverse(centre.place(), W_, scale), samples, Z1);
     }
-    counts_.certificate_factorizations += static_cast<std::uint64_t>(W_.cols());
+    count(W_.cols(), centre.Z.rows() + W_.cols());
     return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), samples, Z1);
+  }
+
+  /// Counts LUs of a size, with the solutions for the bounds.
+  void count(Eigen::Index factorizations, Eigen::Index size) {
+    const auto n = static_cast<double>(size);
+    counts_.certificate_factorizations += static_cast<std::uint64_t>(factorizations);
+    counts_.certificate_work += static_cast<double>(factorizations) * n * n * (n / 3.0 + solutions);
   }
 
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies

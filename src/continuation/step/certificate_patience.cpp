@@ -21,10 +21,14 @@ constexpr double enough_failures = 2.5;
 constexpr double not_by_error = 1e-2;
 
 /// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
-/// range: about 10 s on a processor of 2020. Beyond, it may take this share of all other work.
-constexpr double free_work = 2.4e10;
+/// range: about 1 s on a processor of 2020. Beyond, it may take this share of all other work.
+constexpr double free_work = 2.4e9;
 constexpr double free_at_start = 0.1;
 constexpr double share_of_work = 0.5;
+/// The same for what it may take in vain, for tracks that it does not certify: where it seldom closes it is
+/// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
+constexpr double free_in_vain = 1e9;
+constexpr double share_in_vain = 0.25;
 /// For each factorization, of n^3 / 3 multiplications, the certificate applies the inverse to about this many
 /// vectors, of n^2 each; the corrections of a mode take few.
 constexpr double solutions = 30.0;
@@ -48,13 +52,14 @@ bool certificate_may_cost(const RunCounts& counts, Eigen::Index n, double progre
     return static_cast<double>(factorizations) * size * size * (size / 3.0 + vectors);
   };
   // A basis for all modes has size 2n.
-  const double certificate =
-      work(counts.certificate_factorizations, solutions) + work(8 * counts.certificate_bases, solutions);
+  const double certificate = counts.certificate_work + work(8 * counts.certificate_bases, solutions);
   const double others = work(counts.modes.factorizations + counts.event_factorizations, solutions_of_mode) +
                         work(8 * counts.modes.modal_bases, solutions_of_mode) +
                         static_cast<double>(counts.spectra) * spectrum_work * size * size * size;
   const double free = free_work * (free_at_start + (1.0 - free_at_start) * progress);
-  return certificate <= free + share_of_work * others;
+  const double useful = certificate - counts.certificate_in_vain;
+  return certificate <= free + share_of_work * others &&
+         counts.certificate_in_vain <= free_in_vain + share_in_vain * (others + useful);
 }
 
 void CertificatePatience::count_failure() {

@@ -64,7 +64,10 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
   for (std::size_t i = 0; i < count; ++i) {
     const bool counts_here = all_count || i <= first_open;
     certified[i] = closed[i] != 0 && counts_here;
-    if (counts_here) counts.certificate_factorizations += own[i].certificate_factorizations;
+    if (!counts_here) continue;
+    counts.certificate_factorizations += own[i].certificate_factorizations;
+    counts.certificate_work += own[i].certificate_work;
+    if (closed[i] == 0) counts.certificate_in_vain += own[i].certificate_work;
   }
   return certified;
 }

@@ -98,11 +98,11 @@ static void fields(Self& self, Visit& visit) {
 template <SameAs<RunCounts> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-         certificate_factorizations, certificate_bases, equilibrium, reduction, correction, differentiation,
-         matching, certificate, events, output] = self;
+         certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
+         differentiation, matching, certificate, events, output] = self;
   visit(evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-        certificate_factorizations, certificate_bases, equilibrium, reduction, correction, differentiation,
-        matching, certificate, events, output);
+        certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
+        differentiation, matching, certificate, events, output);
 }
 
 template <SameAs<Rejections> Self, class Visit>

@@ -86,6 +86,11 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
   if (node.pencil.of(node.tracks[track].pair.part).size() > most_freedoms) return;
   const StageTimer timer(counts.matching_seconds);
+  // An inaccurate start may converge to a pair that is followed. Where that has just met, its eigenvalues
+  // differ from those of the guest by the root of rounding; the spaces agree.
+  PathProblem beside_meetings = problem;
+  beside_meetings.thresholds.identity.merged_distance =
+      std::max(same, problem.thresholds.identity.merged_distance);
   const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
@@ -94,7 +99,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     if (pair.status != PairStatus::converged) continue;
     Track guest = differentiate_track(problem, node, std::move(pair), counts);
     if (!guest.functions.allFinite()) continue;
-    if (is_followed(problem, node, guest)) continue;
+    if (is_followed(beside_meetings, node, guest)) continue;
     guest.roots = in_order_of(group.roots, guest.roots);
     guest.modes.assign(group.modes.size(), Track::guest);
     node.tracks.push_back(std::move(guest));
