@@ -92,9 +92,17 @@ Symmetry symmetry(const MatrixPolynomial& polynomial) {
 }  // namespace
 
 MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
-                           MatrixPolynomial K, MatrixPolynomial A)
+                           MatrixPolynomial K, MatrixPolynomial A, FamilyForm form)
     : Model([&] {
         const auto count = [](const MatrixPolynomial& p) { return static_cast<int>(p.coefficients.size()); };
+        if (form == FamilyForm::first_order) {
+          description.effects = {
+              {"M", "mass matrix", 0, {.inertia = true}},
+              {"E", "matrix of the derivatives", count(C), {.dissipative = true, .gyroscopic = true}},
+              {"A", "state matrix", count(K), {.conservative = true, .circulatory = true}},
+              {"constraints", "constraint matrix", 0, {.constraint = true}}};
+          return std::move(description);
+        }
         const Symmetry c = C.empty() ? Symmetry::symmetric : symmetry(C);
         const bool k_symmetric = symmetry(K) == Symmetry::symmetric;
         description.effects = {

@@ -1,4 +1,5 @@
-// A model given by matrices: (M(p) s^2 + C(p) s + K(p)) z = 0, optionally with constraints A(p) x = 0.
+// A model given by matrices: (M(p) s^2 + C(p) s + K(p)) z = 0, optionally with constraints A(p) x = 0; or
+// E(p) s z = A(p) z.
 #pragma once
 
 #include <memory>
@@ -23,12 +24,16 @@ struct MatrixPolynomial {
   bool empty() const { return coefficients.empty(); }
 };
 
+/// Whether the matrices were given as M, C, K, or as E and A of E x' = A x: then C is E, K is -A, and M is
+/// zero.
+enum class FamilyForm { second_order, first_order };
+
 class MatrixFamily final : public Model {
  public:
   /// `variable` is the index of the parameter whose powers multiply the coefficients. C and A may be empty.
   /// M, C and K are n x n, A is m x n; the caller must have checked the shapes.
   MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
-               MatrixPolynomial K, MatrixPolynomial A);
+               MatrixPolynomial K, MatrixPolynomial A, FamilyForm form = FamilyForm::second_order);
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;

@@ -22,6 +22,17 @@ struct FamilyReader {
     table.fail(key, message);
   }
 
+  /// The keys of the scene's matrices, or those of an empty form if it has none.
+  bool is_first_order(bool has_M, bool has_C, bool has_K, bool has_E, bool has_A,
+                      const std::string& key) const {
+    const bool second_order = has_M || has_C || has_K;
+    if (has_E && second_order)
+      fail(key,
+           "E and A stand for E x' = A x; beside M, C and K write E as C, and A as K with the other sign");
+    if (has_E && !has_A) fail(key, "E without A; the equations are E x' = A x");
+    return has_A && !second_order;
+  }
+
   /// The polynomial as written in the scene. Constants are stored in the coefficients, expressions as
   /// entries.
   MatrixPolynomial from_scene(const std::string& key) {
@@ -111,7 +122,7 @@ struct FamilyReader {
 
   /// Rejects unknown groups: a misspelt one would otherwise count as a matrix that is zero.
   void reject_unknown_groups(const Hdf5File& file) const {
-    const std::vector<std::string> known = {"M", "C", "K", "A"};
+    const std::vector<std::string> known = {"M", "C", "K", "A", "E", "state_names"};
     for (const std::string& name : file.members("/")) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {
         fail("file", "unknown '" + name + "' in it; " + suggestion(name, known));
@@ -119,15 +130,17 @@ struct FamilyReader {
     }
   }
 
-  void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n) const {
+  /// `first`: the key of the matrix that gives the size. `constraints`: rows of the matrix are constraints.
+  void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n,
+                   const std::string& first, bool constraints) const {
     for (const Matrix& c : polynomial.coefficients) {
-      const bool square = key == "A" || c.rows() == n;
+      const bool square = constraints || c.rows() == n;
       if (c.cols() != n || !square || c.rows() != polynomial.coefficients[0].rows()) {
         const std::string size = "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols());
-        if (key == "M" && &c == &polynomial.coefficients[0]) fail(key, size + "; expected a square matrix");
-        fail(key, size + ", M is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
-                      (key == "A" ? "A needs as many columns, and the same rows for every power"
-                                  : "all have the same size"));
+        if (key == first && &c == &polynomial.coefficients[0]) fail(key, size + "; expected a square matrix");
+        fail(key, size + ", " + first + " is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
+                      (constraints ? "A needs as many columns, and the same rows for every power"
+                                   : "all have the same size"));
       }
       if (!c.allFinite()) fail(key, "has an entry that is not finite");
     }
@@ -172,10 +185,30 @@ int variable_index(const Scene& scene) {
 
 struct Polynomials {
   MatrixPolynomial M, C, K, A;
+  bool first_order = false;  ///< C and K are E and -A of E x' = A x
+  std::vector<std::string> state_names = {};
 };
 
+MatrixPolynomial negated(MatrixPolynomial polynomial) {
+  for (Matrix& c : polynomial.coefficients) c = -c;
+  for (MatrixPolynomial::Entry& entry : polynomial.entries) entry.expression = -entry.expression;
+  return polynomial;
+}
+
+MatrixPolynomial constant(const Matrix& matrix) {
+  return {{matrix}, {}};
+}
+
+/// Writes E x' = A x, E the identity if it is absent, with the matrices of the second-order form. The shapes
+/// are checked later.
+Polynomials first_order(MatrixPolynomial E, MatrixPolynomial A) {
+  const Eigen::Index n = A.coefficients[0].cols();
+  if (E.empty()) E = constant(Matrix::Identity(n, n));
+  return {{}, std::move(E), negated(std::move(A)), {}, true};
+}
+
 Polynomials read_file(FamilyReader& reader) {
-  for (const char* key : {"M", "C", "K", "A"}) {
+  for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
   }
   const std::string path = beside_scene(reader, reader.table.text("file"));
@@ -183,30 +216,46 @@ Polynomials read_file(FamilyReader& reader) {
   try {
     const Hdf5File file = Hdf5File::open(path);
     reader.reject_unknown_groups(file);
-    p = {reader.from_file(file, "M"), reader.from_file(file, "C"), reader.from_file(file, "K"),
-         reader.from_file(file, "A")};
+    const auto has = [&](const char* name) { return file.has(name); };
+    if (reader.is_first_order(has("/M"), has("/C"), has("/K"), has("/E"), has("/A"), "file")) {
+      p = first_order(reader.from_file(file, "E"), reader.from_file(file, "A"));
+    } else {
+      p = {reader.from_file(file, "M"), reader.from_file(file, "C"), reader.from_file(file, "K"),
+           reader.from_file(file, "A")};
+    }
+    if (has("/state_names")) p.state_names = file.read_texts("/state_names");
   } catch (const Hdf5Error& error) {
-    const std::string expected = "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ...";
+    const std::string expected =
+        "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
     reader.fail("file", error.what() + expected);
   }
-  if (p.M.empty() || p.K.empty()) reader.fail("file", path + " has no dataset /M/0 or no /K/0");
+  if (p.K.empty() || (p.M.empty() && p.C.empty()))
+    reader.fail("file", path + " has no dataset /K/0, or neither /M/0 nor /C/0");
   return p;
 }
 
 Polynomials read_table(FamilyReader& reader) {
+  TableReader& table = reader.table;
   Polynomials p;
-  p.M = reader.from_scene("M");
+  if (reader.is_first_order(table.has("M"), table.has("C"), table.has("K"), table.has("E"), table.has("A"),
+                            "E")) {
+    MatrixPolynomial E;
+    if (table.has("E")) E = reader.from_scene("E");
+    return first_order(std::move(E), reader.from_scene("A"));
+  }
+  if (table.has("M") || !table.has("C")) p.M = reader.from_scene("M");
   p.K = reader.from_scene("K");
-  if (reader.table.has("C")) p.C = reader.from_scene("C");
-  if (reader.table.has("A")) p.A = reader.from_scene("A");
+  if (table.has("C")) p.C = reader.from_scene("C");
+  if (table.has("A")) p.A = reader.from_scene("A");
   return p;
 }
 
 ModelDescription describe(Eigen::Index n_coordinates, Eigen::Index n_constraints,
-                          const Parameters& parameters) {
+                          const std::vector<std::string>& names, const Parameters& parameters) {
   ModelDescription description;
   for (Eigen::Index i = 0; i < n_coordinates; ++i) {
-    description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_names.push_back(names.empty() ? "x" + std::to_string(i + 1)
+                                                         : names[static_cast<std::size_t>(i)]);
     description.coordinate_units.emplace_back("1");
   }
   for (Eigen::Index i = 0; i < n_constraints; ++i) {
@@ -227,22 +276,34 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
   std::set<int> used = used_elsewhere;
   FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}, 0};
   Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
+  if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
   reader.table.finish();
 
-  const Eigen::Index n = p.M.coefficients[0].rows();
+  const std::string first = p.first_order ? "A" : p.M.empty() ? "K" : "M";
+  const Eigen::Index n = (p.M.empty() || p.first_order ? p.K : p.M).coefficients[0].rows();
   if (n == 0 || n > max_size) {
-    reader.fail("M", "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
+    reader.fail(first, "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
   }
+  if (!p.state_names.empty() && static_cast<Eigen::Index>(p.state_names.size()) != n)
+    reader.fail("state_names", "has " + std::to_string(p.state_names.size()) + " names for " +
+                                   std::to_string(n) + " states");
   const int variable = variable_index(scene);
-  for (const auto& [polynomial, key] :
-       {std::pair(&p.M, "M"), std::pair(&p.C, "C"), std::pair(&p.K, "K"), std::pair(&p.A, "A")}) {
-    reader.check_shape(*polynomial, key, n);
+  const char* damping = p.first_order ? "E" : "C";
+  const char* stiffness = p.first_order ? "A" : "K";
+  std::vector<std::pair<MatrixPolynomial*, std::string>> all{
+      {&p.M, "M"}, {&p.C, damping}, {&p.K, stiffness}, {&p.A, "A"}};
+  // The matrix that gives the size is the first to be checked.
+  std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one.second == first; });
+  for (const auto& [polynomial, key] : all) {
+    reader.check_shape(*polynomial, key, n, first, polynomial == &p.A);
     if (polynomial->coefficients.size() > 1) used.insert(variable);
   }
+  if (p.M.empty()) p.M = constant(Matrix::Zero(n, n));
   reject_unused_parameters(scene, used);
   const Eigen::Index m = p.A.empty() ? 0 : p.A.coefficients[0].rows();
-  return std::make_unique<MatrixFamily>(describe(n, m, scene.parameters), variable, std::move(p.M),
-                                        std::move(p.C), std::move(p.K), std::move(p.A));
+  return std::make_unique<MatrixFamily>(describe(n, m, p.state_names, scene.parameters), variable,
+                                        std::move(p.M), std::move(p.C), std::move(p.K), std::move(p.A),
+                                        p.first_order ? FamilyForm::first_order : FamilyForm::second_order);
 }
 
 }  // namespace eigentrail

@@ -165,13 +165,13 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
 
 }  // namespace
 
-bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index n) {
+bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index states) {
   Eigen::Index columns = 0;
   for (const InvariantPair& pair : pairs) {
     if (pair.chart != Chart::finite || pair.size() > largest_block) return false;
     columns += pair.size() * (pair.is_real ? 1 : 2);
   }
-  return columns == 2 * n;
+  return columns == states;
 }
 
 std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,

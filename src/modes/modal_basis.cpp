@@ -52,18 +52,23 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     for (Eigen::Index i = 0; i < place.size; ++i)
       basis.conjugate_[static_cast<std::size_t>(place.first + i)] = rows++;
   }
-  if (rows != 2 * n) return std::nullopt;
+  const std::vector<bool> with_mass = has_mass(pencil.M);
+  std::vector<Eigen::Index> velocities;  // coordinates whose velocities are states, too
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (with_mass[static_cast<std::size_t>(i)]) velocities.push_back(i);
+  }
+  if (rows != n + static_cast<Eigen::Index>(velocities.size())) return std::nullopt;
 
   double gamma = 0.0;
   for (const PairSet::Place& place : pairs.places)
     gamma = std::max(gamma, pairs.block(pairs.Lambda, place).norm());
   if (!(gamma > 0.0) || !std::isfinite(gamma)) return std::nullopt;
-  Matrix V(2 * n, 2 * n);
+  Matrix V(rows, rows);
   Eigen::Index row = 0;
   basis.s_.assign(static_cast<std::size_t>(rows), std::numeric_limits<double>::quiet_NaN());
   for (const PairSet::Place& place : pairs.places) {
     const auto Z = pairs.Z.middleCols(place.first, place.size);
-    const ComplexMatrix ZL = Z * pairs.block(pairs.Lambda, place) / gamma;
+    const ComplexMatrix ZL = (Z * pairs.block(pairs.Lambda, place) / gamma)(velocities, Eigen::all);
     for (Eigen::Index i = 0; i < place.size; ++i) {
       const auto column = static_cast<std::size_t>(place.first + i);
       basis.real_row_[column] = row;
@@ -79,13 +84,16 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     if (!place.is_real)
       basis.s_[static_cast<std::size_t>(basis.conjugate_[column])] = std::conj(basis.s_[column]);
   }
-  const Eigen::PartialPivLU<Matrix> mass(pencil.M);
+  const Eigen::PartialPivLU<Matrix> leading(leading_matrix(pencil.M, pencil.C, gamma));
   const Eigen::PartialPivLU<Matrix> lu(V);
   const double rcond = reciprocal_condition(lu);
-  if (!(rcond > least_rcond) || !(reciprocal_condition(mass) > least_rcond)) return std::nullopt;
+  if (!(rcond > least_rcond) || !(reciprocal_condition(leading) > least_rcond)) return std::nullopt;
   basis.rounding_ = 10.0 * std::numeric_limits<double>::epsilon() / rcond;
-  Matrix load = Matrix::Zero(2 * n, n);
-  load.bottomRows(n) = mass.inverse() / gamma;
+  // A force changes the velocities of coordinates with mass, and the values of the others.
+  Matrix load = Matrix::Zero(rows, n);
+  const Matrix inverse = leading.inverse();
+  for (Eigen::Index i = 0, velocity = n; i < n; ++i)
+    load.row(with_mass[static_cast<std::size_t>(i)] ? velocity++ : i) = inverse.row(i);
   basis.left_ = lu.solve(load);
   basis.right_ = V.topRows(n);
 

@@ -54,6 +54,61 @@ TEST(MatrixFamily, PolynomialIsExpandedAboutThePoint) {
   EXPECT_EQ(lin.C.size(), 1U);
 }
 
+/// x'' + c x' + (2 + p) x = 0 and another one, coupled; in both orders.
+TEST(MatrixFamily, FirstOrderFormHasTheSameLociAsTheSecondOrderForm) {
+  const std::string range =
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\ntolerance = 1e-9\n[matrix_family]\n";
+  const Setting second = make_setting(range +
+                                      "M = [ [[1, 0], [0, 2]] ]\nC = [ [[0.1, 0.5], [-0.5, 0.2]] ]\nK = [ "
+                                      "[[2, 0], [0, 9]], [[1, 0.3], [0.2, 0]] ]\n");
+  const Setting first =
+      make_setting(range +
+                   "E = [ [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]] ]\n"
+                   "A = [ [[0, 0, 1, 0], [0, 0, 0, 1], [-2, 0, -0.1, -0.5], [0, -9, 0.5, -0.2]],\n"
+                   "[[0, 0, 0, 0], [0, 0, 0, 0], [\"-1\", -0.3, 0, 0], [-0.2, 0, 0, 0]] ]\n"
+                   "state_names = [\"x\", \"y\", \"u\", \"v\"]\n");
+  EXPECT_EQ(first.model->description().coordinate_names, (std::vector<std::string>{"x", "y", "u", "v"}));
+  const RecordedTrace one = record_trace(first);
+  const RecordedTrace two = record_trace(second);
+  ASSERT_EQ(one.result.status, TraceStatus::completed);
+  EXPECT_EQ(one.result.n_infinite, 0);
+  EXPECT_GT(one.result.counts.modes.modal_bases, 0u) << "all modes at once";
+  EXPECT_EQ(one.result.certified_steps, one.result.mode_steps);
+  const std::size_t last = one.nodes.size() - 1;
+  EXPECT_LT((one.eigenvalues_of_node(last) - two.eigenvalues_of_node(two.nodes.size() - 1)).norm(), 1e-12);
+  for (const double p : {0.3, 0.9, 1.7})
+    EXPECT_LT((one.eigenvalues_at(p) - two.eigenvalues_at(p)).norm(), 1e-8);
+}
+
+TEST(MatrixFamily, EIsTheIdentityAndMIsZeroIfAbsent) {
+  const std::string range = "[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n[matrix_family]\n";
+  const Linearization state =
+      linearize(make_setting(range + "A = [ [[0, 1], [-1, -1]], [[0, 0], [0, 1]] ]\n"), 0.5, 2);
+  const Linearization mixed = linearize(
+      make_setting(range + "C = [ [[1, 0], [0, 1]] ]\nK = [ [[0, -1], [1, 1]], [[0, 0], [0, -1]] ]\n"), 0.5,
+      2);
+  for (const Linearization* lin : {&state, &mixed}) {
+    EXPECT_EQ(lin->M[0](1, 1), 0.0);
+    EXPECT_EQ(lin->C[0](1, 1), 1.0);
+    EXPECT_NEAR(lin->K[0](1, 1), 0.5, tolerance);
+    EXPECT_NEAR(lin->K[1](1, 1), -1.0, tolerance);
+  }
+}
+
+TEST(MatrixFamily, FirstOrderFormsThatMakeNoSenseAreRefused) {
+  const std::string range = "[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n[matrix_family]\n";
+  const auto message = [&](const std::string& matrices) {
+    return input_error([&] { make_setting(range + matrices); });
+  };
+  EXPECT_NE(message("E = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n").find("beside M, C and K"), std::string::npos);
+  EXPECT_NE(message("E = [ [[1]] ]\n").find("E without A"), std::string::npos);
+  EXPECT_NE(message("A = [ [[1, 2]] ]\n").find("A: is 1 x 2; expected a square matrix"), std::string::npos);
+  EXPECT_NE(message("E = [ [[1, 0], [0, 1]] ]\nA = [ [[1]], [[1]] ]\n").find("E: is 2 x 2, A is 1 x 1"),
+            std::string::npos);
+  EXPECT_NE(message("A = [ [[1]], [[1]] ]\nstate_names = [\"a\", \"b\"]\n").find("2 names for 1 states"),
+            std::string::npos);
+}
+
 TEST(MatrixFamily, EntriesMayBeExpressionsOfTheTracedParameter) {
   const Setting setting = make_setting(
       "[parameters]\na = 0.5\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 6\n"

@@ -46,7 +46,8 @@ class StepPencil {
   std::shared_ptr<const Sample> at(double t) const;
 
   const PathNode& left() const { return left_; }
-  bool has_constant_mass() const { return left_pencil_.M.size() == 1 && right_.M.size() == 1; }
+  /// Whether M is constant, and C, too, unless every coordinate has mass.
+  bool has_constant_leading_matrix() const;
 
  private:
   std::shared_ptr<const Sample> sample(double t) const;

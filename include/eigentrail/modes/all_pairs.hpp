@@ -1,8 +1,8 @@
 // Corrects and differentiates all invariant pairs of a pencil at once, by matrix products.
 //
-// If every mode is followed, the vectors of all pairs and their conjugates form a basis of the state space.
-// In this basis the linearized equations of the pairs decouple. With V = [Z; Z Lambda] of all pairs, D the
-// block diagonal matrix of all Lambda, and the companion matrix A of the pencil, A V = V D,
+// If every finite mode is followed, the vectors of all pairs and their conjugates form a basis of the state
+// space. In this basis the linearized equations of the pairs decouple. With V = [Z; Z Lambda] of all pairs, D
+// the block diagonal matrix of all Lambda, and the companion matrix A of the pencil, A V = V D,
 //
 //     dZ_b = sum_a Z_a U_ab,    D_a U_ab - U_ab Lambda_b = -G_ab  (a /= b),    dLambda_b = G_bb,
 //     G = V^-1 [0; M^-1 R]
@@ -11,6 +11,9 @@
 // resolvent, Lancaster, Lambda-matrices and vibrating systems, 1966, Sect. 4.3). One inverse of size 2n then
 // serves the corrections of all pairs and all orders of their series, at the speed of matrix products. One LU
 // per mode would take n times as many operations of the same order.
+//
+// Coordinates without mass are of first order: their velocities are no states. The companion form then has a
+// state less for each, and the columns of C of these coordinates take the place of those of M.
 #pragma once
 
 #include <memory>
@@ -41,12 +44,13 @@ struct PairSet {
 /// The modal basis of a pencil. Solves the linearized equations of all its pairs.
 class ModalBasis {
  public:
-  /// Returns an empty value if the pairs and their conjugates are not 2n columns, or if the basis or M is
-  /// ill-conditioned (reciprocal condition below 1e-9).
+  /// Returns an empty value if the pairs and their conjugates are not as many as the states, or if the
+  /// basis or the leading matrix is ill-conditioned (reciprocal condition below 1e-9).
   static std::optional<ModalBasis> from(const PencilAtPoint& pencil, const PairSet& pairs);
 
-  /// G = V^-1 [0; M^-1 R], the modal coordinates of the columns of R (n x m). Rows 0 ... N - 1 belong to the
-  /// columns of the pairs, the rows from N on to the conjugates of the complex columns, in the same order.
+  /// G = V^-1 [0; M^-1 R] (for coordinates of first order, a row of M^-1 R is one of the upper half), the
+  /// modal coordinates of the columns of R (n x m). Rows 0 ... N - 1 belong to the columns of the pairs, the
+  /// rows from N on to the conjugates of the complex columns, in the same order.
   ComplexMatrix coordinates(const ComplexMatrix& R) const;
 
   /// Changes dZ (n x N) and dLambda (blocks as in PairSet) of all pairs. They change the residuals of the
@@ -98,9 +102,9 @@ struct AllPairs {
   ModalBasis basis;
 };
 
-/// Whether the pairs and the conjugates of the complex ones are all 2n modes of a pencil of size n. False
+/// Whether the pairs and the conjugates of the complex ones are as many as the states (state_size). False
 /// also if a pair is in the reciprocal chart or has more than two columns.
-bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index n);
+bool is_complete(const std::vector<InvariantPair>& pairs, Eigen::Index states);
 
 /// Refines all pairs of a pencil (finite chart) by the chord-Newton method, as correct_pair does for each.
 /// Null if the iteration or the basis fails; the pairs must then be corrected one by one. `corrected` gets

@@ -1,6 +1,8 @@
 // The quadratic pencil at one point of the path, in the form that the correctors use.
 #pragma once
 
+#include <vector>
+
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
@@ -12,6 +14,18 @@ enum class Chart { finite, reciprocal };
 constexpr Chart other(Chart chart) {
   return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
 }
+
+/// Whether a coordinate has mass, by its column of M. Without, but with a column in C, it is of first order:
+/// its state space holds its value, and no velocity.
+std::vector<bool> has_mass(const Matrix& M);
+
+/// Number of finite eigenvalues if every coordinate without mass is of first order: n plus the number of
+/// coordinates with mass.
+Eigen::Index state_size(const Matrix& M);
+
+/// The matrix by which the highest derivatives are multiplied, n x n: the columns of `per_mass` M for
+/// coordinates with mass, those of C for the others.
+Matrix leading_matrix(const Matrix& M, const Matrix& C, double per_mass = 1.0);
 
 /// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
 struct PencilAtPoint {

@@ -104,7 +104,7 @@ class ModeCorrections {
 bool correct_together(const PathProblem& problem, const Prediction& prediction,
                       const ModeCorrections& corrections, PathPoint& point, ModeCounts& counts) {
   if (problem.route == ModeRoute::one_by_one || !point.pencil.parts.empty() ||
-      !is_complete(prediction.pairs, point.pencil.size()))
+      !is_complete(prediction.pairs, state_size(point.pencil.M[0])))
     return false;
   const double reference = problem.reference(Chart::finite);
   const std::vector<InvariantPair> starts = corrections.starts();

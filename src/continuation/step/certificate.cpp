@@ -329,6 +329,12 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
             project(change, right.pencil.K, order)};
 }
 
+bool StepPencil::has_constant_leading_matrix() const {
+  const bool constant_M = left_pencil_.M.size() == 1 && right_.M.size() == 1;
+  const bool constant_C = left_pencil_.C.size() == 1 && right_.C.size() == 1;
+  return constant_M && (constant_C || state_size(left_pencil_.M[0]) == 2 * left_pencil_.size());
+}
+
 Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
                                const Vector& weights) const {
   if (left.size() == 1 && right.size() == 1) return left[0];

@@ -33,7 +33,7 @@ bool is_basis(const PathNode& node) {
     if (track.pair.chart != Chart::finite) return false;
     columns += track.size() * (track.pair.is_real ? 1 : 2);
   }
-  return columns == 2 * node.pencil.size();
+  return columns == state_size(node.pencil.M[0]);
 }
 
 /// The certificates of all tracks on one step.
@@ -175,21 +175,23 @@ class ModalTube {
   struct Sampled {
     std::shared_ptr<const StepPencil::Sample> sample;
     PairSet set;
-    Matrix from_mass;  ///< M at the middle times M^-1 at this point; empty if M is constant
+    /// Leading matrix at the middle times its inverse at this point; empty if it is constant.
+    Matrix from_leading;
   };
 
   /// The sample at t. `middle` is the one at the middle of the piece; null for that one itself.
   Sampled sampled_at(double t, const StepPencil::Sample* middle) const {
     const auto sample = pencil_.at(t);
-    if (middle == nullptr || pencil_.has_constant_mass()) return {sample, at(*sample), Matrix()};
-    return {sample, at(*sample), middle->at.M * sample->at.M.partialPivLu().inverse()};
+    if (middle == nullptr || pencil_.has_constant_leading_matrix()) return {sample, at(*sample), Matrix()};
+    const auto leading = [](const PencilAtPoint& pencil) { return leading_matrix(pencil.M, pencil.C); };
+    return {sample, at(*sample), leading(middle->at) * leading(sample->at).partialPivLu().inverse()};
   }
 
   /// Residuals of pairs with the pencil at a sample point, in modal coordinates of the companion form.
   static ComplexMatrix modal_residual(const ModalBasis& basis, const Sampled& place, const PairSet& set) {
     const PencilAtPoint& pencil = place.sample->at;
     const ComplexMatrix R = residual(pencil.M, pencil.C, pencil.K, set);
-    return basis.coordinates(place.from_mass.size() == 0 ? R : multiply_many(place.from_mass, R));
+    return basis.coordinates(place.from_leading.size() == 0 ? R : multiply_many(place.from_leading, R));
   }
 
   /// Y of every mode.

@@ -71,6 +71,7 @@ class Start {
   Failure check_spectrum(const Spectrum& spectrum) const;
   void mark_permanent_zeros(Spectrum& spectrum) const;
   void list_permanent_zeros(const Spectrum& spectrum);
+  int structural_infinities() const;
   void settle_magnitudes(const Spectrum& spectrum);
   Failure correct_groups(const std::vector<StartingGroup>& groups);
   Failure make_node(const std::vector<StartingGroup>& groups);
@@ -146,7 +147,7 @@ std::optional<StartFailure> Start::find_modes() {
       options_.modes.count && few_share * *options_.modes.count < static_cast<double>(pencil.size());
   Spectrum spectrum = few ? compute_eigenvalues(pencil) : compute_spectrum(pencil);
   ++result_.counts.spectra;
-  result_.n_infinite = spectrum.n_infinite;
+  result_.n_infinite = spectrum.n_infinite - structural_infinities();
   result_.n_available = static_cast<int>(spectrum.modes.size());
   if (auto failure = check_spectrum(spectrum)) return failure;
   if (options_.constant_modes == "list") mark_permanent_zeros(spectrum);
@@ -158,8 +159,10 @@ std::optional<StartFailure> Start::find_modes() {
   list_permanent_zeros(spectrum);
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
-  // Infinite eigenvalues are not followed, and independent parts are followed each by itself.
-  const bool at_once = settings.follows_all && spectrum.n_infinite == 0 && pencil.parts.empty();
+  // Infinite eigenvalues are not followed, except those that coordinates of first order have in the form with
+  // velocities. Independent parts are followed each by itself.
+  const bool none_infinite = spectrum.n_infinite == 2 * pencil.size() - state_size(pencil.M[0]);
+  const bool at_once = settings.follows_all && none_infinite && pencil.parts.empty();
   settings.route =
       cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, settings.order});
   settle_magnitudes(spectrum);
@@ -197,6 +200,23 @@ void Start::list_permanent_zeros(const Spectrum& spectrum) {
   result_.notes.push_back(std::to_string(count) + (count == 1 ? " eigenvalue is" : " eigenvalues are") +
                           " zero for every " + options_.parameter + " (rigid-body motions, integrators: " +
                           motions + ") and not among the modes chosen");
+}
+
+/// Number of infinite eigenvalues that the form with velocities has for every value of the parameter:
+/// coordinates without mass have one, those without mass and damping two.
+int Start::structural_infinities() const {
+  const CoefficientMatrices all = problem_.model.coefficient_matrices();
+  const auto is_zero = [](const std::vector<Matrix>& matrices, Eigen::Index column) {
+    return std::all_of(matrices.begin(), matrices.end(), [&](const Matrix& matrix) {
+      return matrix.size() == 0 || matrix.col(column).isZero(0.0);
+    });
+  };
+  if (all.M.empty()) return 0;
+  int count = 0;
+  for (Eigen::Index j = 0; j < all.M[0].cols(); ++j) {
+    if (is_zero(all.M, j)) count += is_zero(all.C, j) ? 2 : 1;
+  }
+  return count;
 }
 
 /// Sets s_ref and s_max, the magnitudes that count as zero and as infinite.
