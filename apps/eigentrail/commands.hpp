@@ -12,6 +12,7 @@ enum ExitCode { done = 0, numbers_failed = 1, bad_input = 2 };
 
 void add_new(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
+void add_spectrum(CLI::App& program, int& exit_code);
 void add_eval(CLI::App& program, int& exit_code);
 void add_events(CLI::App& program, int& exit_code);
 void add_boundary(CLI::App& program, int& exit_code);

@@ -94,7 +94,8 @@ void print_influences(const Influences& influences, const std::string& at) {
 }
 
 void explain_sensitivity(const Scene& scene, const ExplainArguments& arguments) {
-  const TraceSetup setup = prepare_trace(scene, {arguments.options.begin(), arguments.options.end()}, true);
+  const TraceSetup setup =
+      prepare_trace(scene, {arguments.options.begin(), arguments.options.end()}, Purpose::strengths);
   const Influences influences = effect_influences(setup);
   if (!influences.fault.empty()) throw InputError(arguments.scene + ": " + influences.fault);
   print_influences(influences, setup.options.parameter + " = " + exact_text(setup.options.from));

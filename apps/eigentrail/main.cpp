@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   add_new(program, exit_code);
   add_explain(program, exit_code);
   add_trace(program, exit_code);
+  add_spectrum(program, exit_code);
   add_eval(program, exit_code);
   add_events(program, exit_code);
   add_boundary(program, exit_code);

@@ -84,7 +84,9 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     if (!place.is_real)
       basis.s_[static_cast<std::size_t>(basis.conjugate_[column])] = std::conj(basis.s_[column]);
   }
-  const Eigen::PartialPivLU<Matrix> leading(leading_matrix(pencil.M, pencil.C, gamma));
+  // Where columns of M and C stand side by side, those of M are scaled like velocities.
+  const double per_mass = rows == 2 * n ? 1.0 : gamma;
+  const Eigen::PartialPivLU<Matrix> leading(leading_matrix(pencil.M, pencil.C, per_mass));
   const Eigen::PartialPivLU<Matrix> lu(V);
   const double rcond = reciprocal_condition(lu);
   if (!(rcond > least_rcond) || !(reciprocal_condition(leading) > least_rcond)) return std::nullopt;
@@ -92,8 +94,13 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
   // A force changes the velocities of coordinates with mass, and the values of the others.
   Matrix load = Matrix::Zero(rows, n);
   const Matrix inverse = leading.inverse();
-  for (Eigen::Index i = 0, velocity = n; i < n; ++i)
-    load.row(with_mass[static_cast<std::size_t>(i)] ? velocity++ : i) = inverse.row(i);
+  for (Eigen::Index i = 0, velocity = n; i < n; ++i) {
+    if (with_mass[static_cast<std::size_t>(i)]) {
+      load.row(velocity++) = inverse.row(i) / (gamma / per_mass);
+    } else {
+      load.row(i) = inverse.row(i);
+    }
+  }
   basis.left_ = lu.solve(load);
   basis.right_ = V.topRows(n);
 

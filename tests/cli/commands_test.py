@@ -13,7 +13,7 @@ import numpy as np
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
 from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, SCENES, edited
 
-COMMANDS = ["trace", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
+COMMANDS = ["trace", "spectrum", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
 
 
 class Program(CommandTest):
@@ -29,6 +29,40 @@ class Program(CommandTest):
         for command in COMMANDS:
             with self.subTest(command):
                 self.assertIn(f"  eigentrail {command} ", self.run_well(command, "--help").split("Example")[1])
+
+
+class Spectrum(CommandTest):
+    def write_blade(self):
+        self.write("scene.toml", BLADE)
+        return "scene.toml"
+
+    def test_csv_and_json_hold_the_closed_form(self):
+        scene = self.write_blade()
+        rows = json.loads(self.run_well("spectrum", scene, "--at", "50", "7.5", "--json"))
+        lines = self.run_well("spectrum", scene, "--at", "50", "7.5", "--csv").splitlines()
+        self.assertEqual(lines[0], "parameter,mode,real,imag,natural_frequency_hz,damped_frequency_hz,damping_ratio,"
+                                   "condition,what_moves")
+        self.assertEqual(len(rows), 4)
+        for row, line in zip(rows, lines[1:]):
+            s = complex(row["real"], row["imag"])
+            self.assertEqual([float(x) for x in line.split(",")[2:4]], [s.real, s.imag])
+            self.assertLess(min(abs(s - exact) for exact in blade_eigenvalues(row["parameter"])), 1e-12 * abs(s))
+            self.assertAlmostEqual(row["natural_frequency_hz"] * 2 * np.pi, abs(s), delta=1e-12 * abs(s))
+            self.assertAlmostEqual(row["damping_ratio"], -s.real / abs(s), delta=1e-12)
+
+    def test_begins_where_the_trace_does_and_names_what_moves(self):
+        lines = self.run_well("spectrum", self.write_blade()).splitlines()
+        self.assertTrue(any(line.startswith("omega = 100") for line in lines))
+        self.assertTrue(any(line.endswith("flap") for line in lines))
+
+    def test_modes_are_chosen_in_the_same_words(self):
+        rows = json.loads(self.run_well("spectrum", self.write_blade(), "--at", "50", "--modes", "count = 1, near = '1 kHz'",
+                                        "--json"))
+        self.assertEqual(len(rows), 1)
+
+    def test_a_choice_that_cannot_be_read_is_bad_input(self):
+        self.assert_refused(self.run_program("spectrum", self.write_blade(), "--modes", "band = ['1 m', '2 m']"),
+                            ["expected a frequency"])
 
 
 class Eval(CommandTest):

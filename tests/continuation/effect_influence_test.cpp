@@ -24,7 +24,7 @@ TraceSetup mass_on_springs(double ratio) {
       "[[guided_spring]]\npoint = \"a\"\ndirection = [1, 0, 0]\nstiffness = \"k\"\n"
       "[[guided_spring]]\npoint = \"a\"\ndirection = [0, 1, 0]\nstiffness = \"" +
       std::to_string(ratio) + " * k\"\n";
-  return prepare_trace(parse_scene(text, "test.toml"), {}, true);
+  return prepare_trace(parse_scene(text, "test.toml"), {}, Purpose::strengths);
 }
 
 Complex eigenvalue(double k) {
@@ -77,7 +77,8 @@ TEST(EffectInfluences, DoubleEigenvalueHasNone) {
       "[[fixed]]\npoint = \"a\"\ncoordinate = \"z\"\n"
       "[[spring]]\nfrom = [-0.6, -0.8, 0]\nto = \"a\"\nstiffness = \"k\"\nfree_length = 1\n"
       "[[guided_spring]]\npoint = \"a\"\ndirection = [-0.8, 0.6, 0]\nstiffness = 50\n";
-  const Influences influences = effect_influences(prepare_trace(parse_scene(text, "test.toml"), {}, true));
+  const Influences influences =
+      effect_influences(prepare_trace(parse_scene(text, "test.toml"), {}, Purpose::strengths));
   ASSERT_EQ(influences.fault, "");
   ASSERT_EQ(influences.s.size(), 2);
   ASSERT_LT(std::abs(influences.s[0] - influences.s[1]), 1e-12);

@@ -115,9 +115,16 @@ struct TraceSetup {
   int traced() const { return scene.parameters.index(options.parameter).value(); }
 };
 
-/// Reads the options and builds the model of a scene. With `strengths` the model has the strengths of its
-/// effects as further parameters. Throws InputError for faults of the options or the model.
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths = false);
+/// What a scene is prepared for.
+enum class Purpose {
+  trace,           ///< the model must depend on the traced parameter
+  strengths,       ///< the same, with the strengths of the effects as further parameters
+  operating_point  ///< single values of the parameter; the model may be the same for all
+};
+
+/// Reads the options and builds the model of a scene. Throws InputError for faults of the options or the
+/// model.
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purpose = Purpose::trace);
 
 /// Every option as text, for the record in the loci file; options that were not given are "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);

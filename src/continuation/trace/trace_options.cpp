@@ -267,12 +267,17 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   table.fail(faults.front().key, message);
 }
 
-TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengths) {
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purpose) {
   check_top_level(scene);
   TraceSetup setup{std::move(scene), {}, nullptr};
   std::set<int> used;
   setup.options = read_trace_options(setup.scene, overrides, used);
-  used.erase(setup.traced());  // the model itself must depend on the traced parameter
+  // The model itself must depend on the traced parameter, unless only single values are looked at.
+  if (purpose == Purpose::operating_point) {
+    used.insert(setup.traced());
+  } else {
+    used.erase(setup.traced());
+  }
   const TraceOptions& options = setup.options;
   std::vector<Vector> points(checked_points, setup.scene.parameters.declared_values());
   points[0][setup.traced()] = options.from;
@@ -281,7 +286,7 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, bool strengt
     const double share = static_cast<double>(i - 1) / (checked_points - 1);
     points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
   }
-  setup.model = build_model(setup.scene, {points, used, options.without, strengths});
+  setup.model = build_model(setup.scene, {points, used, options.without, purpose == Purpose::strengths});
   return setup;
 }
 

@@ -1,0 +1,34 @@
+// The whole spectrum at one value of the parameter, without a trace.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eigentrail/continuation/trace_options.hpp"
+
+namespace eigentrail {
+
+/// A mode at an operating point.
+struct OperatingMode {
+  Complex s;               ///< 1/s; of a complex pair the member with Im s > 0
+  double condition = 0.0;  ///< relative condition number; infinite where the eigenvalue is defective
+  double backward_error = 0.0;
+  ComplexVector shape;     ///< physical coordinates, of unit length
+  std::string what_moves;  ///< "blade flap", or the coordinates that take part most: "q3 71 %, q4 24 %"
+};
+
+/// Natural frequency |s|, rad/s; damping ratio -Re s / |s|, NaN at zero.
+double natural_frequency(const OperatingMode& mode);
+double damping_ratio(const OperatingMode& mode);
+
+struct OperatingPoint {
+  double p = 0.0;
+  std::string fault = {};                 ///< why there is no spectrum; empty if there is one
+  std::vector<OperatingMode> modes = {};  ///< by increasing |s|
+};
+
+/// The chosen modes (`modes` of the options) at values of the traced parameter, in its unit. Each equilibrium
+/// starts from the last one found. Cost: a spectrum by QZ and an LU per mode, for each value.
+std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values);
+
+}  // namespace eigentrail

@@ -1,0 +1,151 @@
+#include "eigentrail/continuation/operating_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/modes/energy_shares.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/reduction/independent_parts.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Magnitude below which an eigenvalue counts as zero, as a share of the scale of the pencil.
+constexpr double zero_share = 1e-9;
+/// Coordinates are named down to this share of the participation, and at most so many.
+constexpr double least_share = 0.15;
+constexpr std::size_t most_named = 3;
+
+/// An eigenvalue s with its right vector, and what follows from the left one.
+class ModeAtPoint {
+ public:
+  /// `s` and `z` are those of QZ; the eigenvalue is improved by a Rayleigh quotient.
+  ModeAtPoint(const ReducedPencil& pencil, Complex s, const ComplexVector& z, double scale)
+      : M_(pencil.M[0]), C_(pencil.C[0]), K_(pencil.K[0]), s_(s), z_(z.normalized()) {
+    const double s_ref = zero_share * scale;
+    left_ = eigenvector_near(M_.transpose(), C_.transpose(), K_.transpose(), s_, s_ref);  // y^T P(s) = 0
+    slope_ = 2.0 * s_ * (M_ * z_) + C_ * z_;
+    const Complex product = left_.transpose() * slope_;
+    const Complex residual = left_.transpose() * force();
+    const Complex better = s_ - residual / product;
+    const bool is_close = std::abs(better - s_) <= 1e-6 * std::max(std::abs(s_), s_ref);
+    if (is_close) s_ = s_.imag() == 0.0 ? Complex(better.real()) : better;
+    const double magnitude = std::norm(s_) * M_.norm() + std::abs(s_) * C_.norm() + K_.norm();
+    backward_error_ = magnitude > 0.0 ? force().norm() / magnitude : 0.0;
+    condition_ = magnitude * left_.norm() / (std::abs(product) * std::max(std::abs(s_), s_ref));
+    if (!(condition_ * std::numeric_limits<double>::epsilon() < 1.0))
+      condition_ = std::numeric_limits<double>::infinity();
+  }
+
+  OperatingMode mode() const { return {s_, condition_, backward_error_, {}, {}}; }
+
+  /// |y_i (P'(s) z)_i|, as shares: by how much an equation and its coordinate take part in the mode. Where
+  /// the eigenvalue is defective, |z_i|^2.
+  Vector participation() const {
+    const Vector product = left_.cwiseProduct(slope_).cwiseAbs();
+    const double sum = product.sum();
+    return std::isfinite(condition_) && sum > 0.0 && std::isfinite(sum) ? Vector(product / sum)
+                                                                        : Vector(z_.cwiseAbs2());
+  }
+
+ private:
+  ComplexVector force() const { return s_ * (s_ * (M_ * z_) + C_ * z_) + K_ * z_; }
+
+  const Matrix &M_, &C_, &K_;
+  Complex s_;
+  ComplexVector z_, left_, slope_;
+  double condition_ = 0.0, backward_error_ = 0.0;
+};
+
+/// "q3 71 %, q4 24 %".
+std::string largest_names(const Vector& shares, const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return shares[static_cast<Eigen::Index>(a)] > shares[static_cast<Eigen::Index>(b)];
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(order.size(), most_named); ++i) {
+    const double share = shares[static_cast<Eigen::Index>(order[i])];
+    if (i > 0 && share < least_share) break;
+    text += (i > 0 ? ", " : "") + names[order[i]] + " " + std::to_string(std::lround(100.0 * share)) + " %";
+  }
+  return text;
+}
+
+/// Names the modes by their kinetic energy, where the masses are known.
+void name_by_energy(const ModelDescription& description, const PathPoint& point,
+                    std::vector<OperatingMode>& modes) {
+  const SystemMatrix& M = point.equilibrium.linearization.M[0];
+  const Vector& x = point.equilibrium.x;
+  const EnergyShares shares(description, M, x);
+  if (shares.motions().empty() || modes.empty()) return;
+  ComplexMatrix shapes(x.size(), static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) shapes.col(static_cast<Eigen::Index>(i)) = modes[i].shape;
+  const std::vector<std::string> names = shares.names(shares.of(M, x, shapes));
+  for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
+}
+
+/// `point` is computed in the coordinates in which the equations fall apart, if they do: zeros of rigid-body
+/// motions are exact there.
+OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, double p) {
+  OperatingPoint result{p};
+  Spectrum spectrum = compute_spectrum(point.pencil);
+  if (spectrum.status != SpectrumStatus::complete) {
+    result.fault = spectrum.status == SpectrumStatus::singular_pencil
+                       ? "the pencil is singular: every number is an eigenvalue"
+                       : "LAPACK's QZ did not converge";
+    return result;
+  }
+  spectrum.modes.resize(static_cast<std::size_t>(choose_modes(setup.options.modes, spectrum.modes)));
+  const ModelDescription& description = setup.model->description();
+  const bool unconstrained = point.basis.is_identity || point.basis.parts;
+  const Linearization& physical = point.equilibrium.linearization;
+  const ReducedPencil in_coordinates =
+      unconstrained
+          ? ReducedPencil{{physical.M[0].dense()}, {physical.C[0].dense()}, {physical.K[0].dense()}, {}}
+          : point.pencil;
+  for (const StartingMode& start : spectrum.modes) {
+    const ComplexVector shape = point.basis.shapes(start.z, start.part).col(0);
+    const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
+    OperatingMode& mode = result.modes.emplace_back(at.mode());
+    mode.shape = shape.normalized();
+    if (unconstrained) mode.what_moves = largest_names(at.participation(), description.coordinate_names);
+  }
+  name_by_energy(description, point, result.modes);
+  return result;
+}
+
+}  // namespace
+
+double natural_frequency(const OperatingMode& mode) {
+  return std::abs(mode.s);
+}
+
+double damping_ratio(const OperatingMode& mode) {
+  return -mode.s.real() / std::abs(mode.s);
+}
+
+std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {
+  PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  problem.parts = find_independent_parts(setup.model->coefficient_matrices());
+  RunCounts counts;
+  std::vector<OperatingPoint> points;
+  EquilibriumGuess guess;
+  for (const double p : values) {
+    if (guess.x.size() == 0) guess = {setup.model->initial_guess(parameters_at(problem, p)), Vector(), false};
+    const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
+    if (point.status != PointStatus::computed) {
+      points.push_back({p, point.message});
+      continue;
+    }
+    points.push_back(spectrum_at(setup, point, p));
+    guess = {point.equilibrium.x, point.equilibrium.lambda, true};
+  }
+  return points;
+}
+
+}  // namespace eigentrail
