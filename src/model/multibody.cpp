@@ -1,5 +1,6 @@
 #include "model/multibody.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace eigentrail {
@@ -148,6 +149,15 @@ EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual&
 EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
                                      EvaluationCounts& counts) const {
   return dispatch(order, [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
+}
+
+std::vector<Expression> Multibody::expressions() const {
+  std::vector<Expression> all;
+  for (const Expression& quantity : data_.quantities) {
+    const bool is_new = std::find(all.begin(), all.end(), quantity) == all.end();
+    if (!quantity.is_constant() && is_new) all.push_back(quantity);
+  }
+  return all;
 }
 
 EvaluationFault Multibody::extended_residual(const BasicPath<Extended>& path,

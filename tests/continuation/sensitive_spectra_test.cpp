@@ -152,6 +152,30 @@ TEST(SensitiveSpectra, ANarrowBumpIsNotSteppedOver) {
   EXPECT_NEAR(places[1], c + half, 1e-10);
 }
 
+/// The same as a mass on a spring with a damper: where the spring loses its stiffness, every position is an
+/// equilibrium.
+TEST(SensitiveSpectra, ANarrowBumpOfASpringIsNotSteppedOver) {
+  const RecordedTrace trace = record_trace(make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-8\n[parameters]\np = 0.0\n"
+      "[[point]]\nname = \"a\"\nmass = 1\nposition = [0, 0, 0]\n"
+      "[[fixed]]\npoint = \"a\"\ncoordinate = \"y\"\n[[fixed]]\npoint = \"a\"\ncoordinate = \"z\"\n"
+      "[[spring]]\nfrom = [-1, 0, 0]\nto = \"a\"\nfree_length = 1\n"
+      "stiffness = \"1 - 2*exp(-((p - 0.3137)/1e-3)^2)\"\n"
+      "[[damper]]\nfrom = [-1, 0, 0]\nto = \"a\"\ncoefficient = 0.1\n"));
+  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  std::vector<double> places;
+  for (const Event& event : trace.result.events) {
+    if (event.kind == EventKind::branch_point) places.push_back(event.p);
+  }
+  std::sort(places.begin(), places.end());
+  ASSERT_EQ(places.size(), 2U);
+  const double half = 1e-3 * std::sqrt(std::log(2.0));
+  for (const std::string& note : trace.result.notes)
+    EXPECT_EQ(note.find("by the events that were found"), std::string::npos) << note;
+  EXPECT_NEAR(places[0], 0.3137 - half, 1e-9);
+  EXPECT_NEAR(places[1], 0.3137 + half, 1e-9);
+}
+
 /// An unbalanced disc without damping: x = 0.001 k / (k - omega^2), a pole at omega = 10.
 TEST(SensitiveSpectra, APoleOfTheEquilibriumEndsTheTraceWithAReason) {
   const auto spring = [](const std::string& direction, const std::string& reference) {

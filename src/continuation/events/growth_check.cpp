@@ -65,10 +65,10 @@ std::optional<std::string> unexplained_growth(const EventSearch& search, const S
   const auto [low, high] = std::minmax(step.left->p, step.right.p);
   int change = 0;
   for (const Event& event : search.log.events) {
-    if (!(event.p > low && event.p <= high)) continue;
+    if (event.p < low || event.p > high) continue;
     const std::optional<int> here = change_at(event);
-    if (!here) return std::nullopt;
-    change += *here;
+    if (!here) return std::nullopt;  // also where the step begins there
+    if (event.p > low) change += *here;
   }
   const int seen = step.right.p > step.left->p ? *behind - *before : *before - *behind;
   if (seen == change) return std::nullopt;
