@@ -141,6 +141,8 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
   };
   const Eigen::Index last = path.eigenvalues.rows() - 1;
   for (int mode = 0; mode < result.n_columns; ++mode) {
+    // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
+    if (path.eigenvalues.col(mode).array().isNaN().all()) continue;
     rows.push_back({std::to_string(mode + 1), text(path.eigenvalues(0, mode)),
                     text(path.eigenvalues(last, mode)), printable(names[static_cast<std::size_t>(mode)])});
   }

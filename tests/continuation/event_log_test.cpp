@@ -37,6 +37,16 @@ TEST_F(Log, AnEventSeenFromTwoStepsIsOne) {
   EXPECT_FALSE(are_same(a, later)) << "a path that turns back passes the place again";
 }
 
+TEST_F(Log, WhatRoundingPutsBesideTheRangeIsAtItsEnd) {
+  FoundEvents found;
+  found.events = {event_at(EventKind::crossing, -1.0 - 1e-12, {0.0, 2.0}, {0, 1}),
+                  event_at(EventKind::crossing, 1.0 + 1e-6, {0.0, 3.0}, {0, 1})};
+  std::vector<std::string> notes;
+  record({events, dismissed, range, thresholds}, std::move(found), events, dismissed, notes);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].p, -1.0);
+}
+
 TEST_F(Log, OtherModesPlacesKindsAndDirectionsAreOthers) {
   const Event a = event_at(EventKind::flutter, 0.3, {0.0, 2.0}, {1});
   EXPECT_FALSE(are_same(a, event_at(EventKind::flutter, 0.3, {0.0, 2.0}, {2})));

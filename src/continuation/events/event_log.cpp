@@ -106,8 +106,11 @@ bool EventLog::is_on_range(const Event& event) const {
 
 void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, std::vector<Event>& dismissed,
             std::vector<std::string>& notes) {
+  const auto [low, high] = std::minmax(log.range.from, log.range.to);
   for (Event& event : found.events) {
-    if (log.is_on_range(event) && !log.has(event)) events.push_back(std::move(event));
+    if (!log.is_on_range(event) || log.has(event)) continue;
+    event.p = std::clamp(event.p, low, high);  // by rounding it may lie outside
+    events.push_back(std::move(event));
   }
   for (Event& event : found.dismissed) dismissed.push_back(std::move(event));
   for (std::string& note : found.notes) notes.push_back(std::move(note));
