@@ -82,6 +82,12 @@ TEST(TraceOptions, ChoicesOfModesThatMakeNoSenseAreRefused) {
   EXPECT_NE(message("{ band = [\"3 m\", \"4 m\"] }").find("found \"3 m\""), std::string::npos);
   EXPECT_NE(message("{ damping_below = 3 }").find("found 3"), std::string::npos);
   EXPECT_NE(message("{ near = 4 }").find("how many"), std::string::npos);
+  try {
+    read("parameter = \"p\"\nfrom = 0\nto = 1\n", {{"modes", "count = 3]"}});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected keys with values"), std::string::npos);
+  }
   EXPECT_NE(message("{ bands = [1, 2] }").find("did you mean 'band'"), std::string::npos);
 }
 

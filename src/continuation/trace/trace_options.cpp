@@ -145,7 +145,13 @@ class OptionReader {
 
 /// "count = 12, near = '3 Hz'", as on the command line, as a table.
 Table table_of(const std::string& key, const std::string& text) {
-  Table parsed = parse_toml(key + " = {" + text + "}", "--" + key);
+  Table parsed;
+  try {
+    parsed = parse_toml(key + " = {" + text + "}", "--" + key);
+  } catch (const InputError&) {
+    throw InputError("--" + key + " \"" + text +
+                     "\": expected keys with values, such as \"count = 12, band = ['0.05 Hz', '3 Hz']\"");
+  }
   Table table = std::get<Table>(parsed.entries.front().second.data);
   for (auto& [name, value] : table.entries) value.where = {};  // no place in the scene file
   return table;
