@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -140,7 +141,9 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
     return std::isnan(s.real()) ? std::string("-") : complex_text(s.real(), s.imag(), 8);
   };
   const Eigen::Index last = path.eigenvalues.rows() - 1;
-  for (int mode = 0; mode < result.n_columns; ++mode) {
+  // A mode that was found on the step at which the trace was stopped has no column yet.
+  const int columns = std::min(result.n_columns, static_cast<int>(path.eigenvalues.cols()));
+  for (int mode = 0; mode < columns; ++mode) {
     // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
     if (path.eigenvalues.col(mode).array().isNaN().all()) continue;
     rows.push_back({std::to_string(mode + 1), text(path.eigenvalues(0, mode)),

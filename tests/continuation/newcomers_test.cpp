@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail {
@@ -64,6 +65,11 @@ TEST(NewcomersOnTheRange, LeavingTheBandIsAnEventAndTheModeIsFollowedOn) {
   EXPECT_EQ(edges[0].direction, -1);
   EXPECT_NEAR(edges[1].p, 2.5, 1e-9);  // 1 + p rises through 3.5
   EXPECT_EQ(edges[1].direction, 1);
+}
+
+TEST(NewcomersOnTheRange, AResumedTraceIsTheSameBitForBit) {
+  const test::Setting setting = make_setting(two_oscillators(0.1, "{ band = [2.5, 6] }"));
+  EXPECT_EQ(test::first_resumed_difference(*setting.model, setting.options, 40), "");
 }
 
 TEST(NewcomersOnTheRange, AChoiceByCountDoesNotGrow) {

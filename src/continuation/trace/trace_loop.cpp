@@ -310,8 +310,10 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
-  std::vector<Track> wanted = newcomers(problem_, options_.modes, step.right, result.counts);
+  std::vector<Track> wanted;
+  if (landed.meetings.empty()) wanted = newcomers(problem_, options_.modes, step.right, result.counts);
   if (follow_back(problem_, wanted, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
+    result.n_columns = state_.numbers.count;
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them
   }

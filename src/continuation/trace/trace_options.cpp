@@ -158,7 +158,8 @@ Table table_of(const std::string& key, const std::string& text) {
 }
 
 /// The [trace] table in which values from the command line replace those of the same key. Texts of the
-/// command line that are numbers become numbers, "true" and "false" become flags, "key = value" tables.
+/// command line that are numbers become numbers, "true" and "false" become flags, a choice of modes a
+/// table.
 Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const auto found = tables(scene, "trace");
   if (found.size() > 1)
@@ -172,7 +173,8 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
     if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
     if (text == "true" || text == "false") value.data = text == "true";
-    if (text.find('=') != std::string::npos) value.data = table_of(option.first, text);
+    const bool is_choice = option.first == "modes" && text.find('=') != std::string::npos;
+    if (is_choice) value.data = table_of(option.first, text);
     std::erase_if(merged.entries, [&option](const auto& entry) { return entry.first == option.first; });
     merged.entries.emplace_back(option.first, std::move(value));
   }
