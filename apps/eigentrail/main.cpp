@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
   int exit_code = done;
   add_new(program, exit_code);
+  add_import(program, exit_code);
   add_explain(program, exit_code);
   add_trace(program, exit_code);
   add_spectrum(program, exit_code);

@@ -44,4 +44,7 @@ inline constexpr int matrix_rows = 5000;
 inline constexpr int matrix_power = 16;
 inline constexpr std::size_t matrix_numbers = 200'000'000;
 
+/// Samples of a sampled family.
+inline constexpr std::size_t samples = 10'000;
+
 }  // namespace eigentrail::limits

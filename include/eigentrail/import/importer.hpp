@@ -1,0 +1,54 @@
+// Models of other programs: each importer reads the files of one format into samples of matrices.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "eigentrail/model/sampled_data.hpp"
+
+namespace eigentrail {
+
+struct ImportRequest {
+  std::vector<std::string> files;  ///< paths as the user gave them
+  /// Options of the format, such as "parameter"; without an entry the importer chooses.
+  std::map<std::string, std::string> options;
+};
+
+/// What an importer has read.
+struct Imported {
+  std::string title;
+  std::string parameter;  ///< name of the parameter, an identifier
+  SampledData samples;
+  std::vector<std::string> understood;  ///< sentences for the user: what was found and what was done with it
+  std::vector<std::string> warnings;    ///< sentences for the user: what is doubtful
+};
+
+/// One thing in the files of a format, and what becomes of it. For help and documentation.
+struct ImportedItem {
+  std::string item;
+  std::string becomes;
+};
+
+/// A format. `read` throws InputError for files that cannot be used; the message names file, place and
+/// remedy.
+struct Importer {
+  std::string format;       ///< as on the command line: "openfast"
+  std::string description;  ///< one line
+  std::vector<ImportedItem> reads;
+  std::map<std::string, std::string> options;  ///< name and help of each option
+  Imported (*read)(const ImportRequest& request);
+};
+
+/// All formats, in the order of the documentation.
+const std::vector<Importer>& importers();
+
+/// The importer of a format; throws InputError that names the known ones.
+const Importer& importer(const std::string& format);
+
+/// Writes `name`.toml and `name`.h5 to `folder`, which is made if it does not exist. Existing files are
+/// replaced only if `force` is set. Returns the path of the scene. Throws InputError or std::runtime_error.
+std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,
+                         bool force);
+
+}  // namespace eigentrail

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/import/importer.hpp"
+#include "eigentrail/import/write_samples.hpp"
+#include "eigentrail/scene/units.hpp"
+#include "eigentrail/store/output_file.hpp"
+
+namespace eigentrail {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+const char* frame_name(StateFrame frame) {
+  return frame == StateFrame::fixed ? "fixed" : "rotating";
+}
+
+void write_list(Hdf5File& file, const std::string& name, ElementType type, const auto& list) {
+  if (list.empty()) return;
+  file.create_dataset({name, type, {list.size()}, false, {}});
+  file.write_rows(name, 0, list);
+}
+
+}  // namespace
+
+void write_samples(const std::string& path, const SampledData& data) {
+  check(data);
+  Hdf5File file = Hdf5File::in_memory(path);
+  file.create_dataset({"parameter",
+                       ElementType::real,
+                       {data.count()},
+                       false,
+                       {{"units", data.parameter_unit.empty() ? "1" : data.parameter_unit}}});
+  file.write_rows("parameter", 0, data.values);
+  const auto n = static_cast<std::uint64_t>(data.size());
+  for (const SampledMatrix& named : sampled_matrices()) {
+    const std::vector<Matrix>& samples = data.*named.samples;
+    if (samples.empty()) continue;
+    std::vector<double> rows;
+    for (const Matrix& sample : samples) {
+      const RowMajor ordered = sample;
+      rows.insert(rows.end(), ordered.data(), ordered.data() + ordered.size());
+    }
+    file.create_dataset({named.name, ElementType::real, {data.count(), n, n}, false, {}});
+    file.write_rows(named.name, 0, rows);
+  }
+  write_list(file, "state_names", ElementType::text, data.state_names);
+  write_list(file, "state_units", ElementType::text, data.state_units);
+  write_list(file, "derivative_order", ElementType::integer,
+             std::vector<std::int64_t>(data.derivative_order.begin(), data.derivative_order.end()));
+  std::vector<std::string> frames;
+  for (const StateFrame frame : data.state_frames) frames.emplace_back(frame_name(frame));
+  write_list(file, "frame", ElementType::text, frames);
+  if (data.digits) file.set_attribute("digits", static_cast<std::int64_t>(*data.digits));
+  if (!data.source.empty()) file.set_attribute("source", data.source);
+  write_durably(path, {file.image()});
+}
+
+namespace {
+
+/// A text as a TOML string.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : printable(text)) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string scene_text(const Imported& imported, const std::string& file) {
+  const SampledData& samples = imported.samples;
+  const auto [least, largest] = std::minmax_element(samples.values.begin(), samples.values.end());
+  const std::string& unit = samples.parameter_unit;
+  const bool known_unit = !unit.empty() && unit_factor(unit).has_value();
+  std::string text = "title = " + quoted(imported.title) + "\n\n";
+  for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
+  text += "\n[parameters]\n" + imported.parameter + " = { value = " + exact_text(*least);
+  text += (known_unit ? ", unit = " + quoted(unit) : "") + " }";
+  text += (unit.empty() || known_unit ? "" : "  # " + printable(unit)) + "\n\n";
+  text += "[sampled_family]\nfile = " + quoted(file) + "\n\n[trace]\n";
+  text += "parameter = " + quoted(imported.parameter) + "\n";
+  text += "from = " + exact_text(*least) + "\nto = " + exact_text(*largest) + "\ntolerance = 1e-6\n";
+  return text;
+}
+
+}  // namespace
+
+std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,
+                         bool force) {
+  namespace fs = std::filesystem;
+  const fs::path scene = fs::path(folder) / (name + ".toml");
+  const fs::path data = fs::path(folder) / (name + ".h5");
+  std::error_code error;
+  for (const fs::path& path : {scene, data}) {
+    if (!force && fs::exists(path, error))
+      throw InputError(path.string() + ": exists already; --force replaces it, --name gives another name");
+  }
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
+  write_samples(data.string(), imported.samples);
+  write_durably(scene.string(), {scene_text(imported, data.filename().string())});
+  return scene.string();
+}
+
+}  // namespace eigentrail

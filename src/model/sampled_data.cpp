@@ -1,0 +1,253 @@
+#include "eigentrail/model/sampled_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+
+namespace eigentrail {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What users keep beside the matrices of the equations. The program does not read it.
+const std::vector<std::string> kept = {"B", "D", "F", "x_op", "u_op", "y_op", "xdot_op", "kept"};
+
+[[noreturn]] void fail(const std::string& message) {
+  throw std::invalid_argument(message);
+}
+
+std::string plural(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+void check_samples(const SampledData& data, const SampledMatrix& named, Eigen::Index n) {
+  const std::vector<Matrix>& list = data.*named.samples;
+  if (list.empty()) return;
+  const std::string name = named.name;
+  if (list.size() != data.count())
+    fail(name + " has " + plural(list.size(), "sample") + " for " + plural(data.count(), "value") +
+         " of the parameter");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string which = name + ", sample " + std::to_string(i + 1);
+    if (list[i].rows() != n || list[i].cols() != n)
+      fail(which + " is " + std::to_string(list[i].rows()) + " x " + std::to_string(list[i].cols()) +
+           "; expected " + std::to_string(n) + " x " + std::to_string(n));
+    if (!list[i].allFinite()) fail(which + " has an entry that is not finite");
+  }
+}
+
+void check_form(const SampledData& data) {
+  const bool second_order = !data.M.empty() || !data.C.empty() || !data.K.empty();
+  if (data.first_order() && second_order) fail("A belongs to E x' = A x and cannot stand beside M, C or K");
+  if (!data.E.empty() && !data.first_order()) fail("E without A; the equations are E x' = A x");
+  if (!data.first_order() && (data.K.empty() || (data.M.empty() && data.C.empty())))
+    fail("expected A (and optionally E), or K with M, C or both");
+}
+
+void check_values(const std::vector<double>& values) {
+  if (values.empty()) fail("parameter has no values");
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  for (const double value : sorted) {
+    if (!std::isfinite(value)) fail("parameter has a value that is not finite");
+  }
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) fail("parameter has the value " + exact_text(*twice) + " twice");
+}
+
+template <class List>
+void check_length(const List& list, const char* name, Eigen::Index n) {
+  if (!list.empty() && static_cast<Eigen::Index>(list.size()) != n)
+    fail(std::string(name) + " has " + plural(list.size(), "entry") + "; expected " + std::to_string(n));
+}
+
+/// Brings the rows and columns of a sample in the order `from`: entry i of the result is state from[i].
+void reorder(Matrix& matrix, const std::vector<Eigen::Index>& from) {
+  matrix = matrix(from, from).eval();
+}
+
+/// For each of `names` its place in `own`; an error names the sample and a state that is not in both.
+std::vector<Eigen::Index> places(const std::vector<std::string>& names, const std::vector<std::string>& own,
+                                 std::size_t sample) {
+  std::vector<Eigen::Index> result;
+  for (const std::string& name : names) {
+    const auto found = std::find(own.begin(), own.end(), name);
+    if (found == own.end() || std::find(found + 1, own.end(), name) != own.end())
+      fail("state_names: sample " + std::to_string(sample + 1) + " has " +
+           (found == own.end() ? "no state '" : "more than one state '") + name +
+           "'; samples are matched by the names of their states");
+    result.push_back(found - own.begin());
+  }
+  return result;
+}
+
+class SampleReader {
+ public:
+  explicit SampleReader(const std::string& path) : file_(Hdf5File::open(path)) {}
+
+  SampledData read() {
+    reject_unknown();
+    read_values();
+    const bool state_space = file_.has("/A");
+    by_columns_ = file_.has_attribute("matrix_order") && file_.text_attribute("matrix_order") == "columns";
+    for (const SampledMatrix& named : sampled_matrices()) {
+      // Beside A, a dataset C holds the outputs of a state-space model, which are kept and not read.
+      if (state_space && named.name == std::string("C")) continue;
+      if (file_.has("/" + std::string(named.name))) data_.*named.samples = read_matrices(named.name);
+    }
+    read_states();
+    if (file_.has_attribute("digits")) data_.digits = static_cast<int>(file_.integer_attribute("digits"));
+    if (file_.has_attribute("source")) data_.source = file_.text_attribute("source");
+    check(data_);
+    match_states();
+    sort();
+    return std::move(data_);
+  }
+
+ private:
+  void reject_unknown() const {
+    std::vector<std::string> known = {
+        "parameter", "M", "C", "K", "E", "A", "state_names", "state_units", "derivative_order", "frame"};
+    known.insert(known.end(), kept.begin(), kept.end());
+    for (const std::string& name : file_.members("/")) {
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        fail("unknown '" + name + "' in it; " + suggestion(name, known));
+    }
+  }
+
+  void read_values() {
+    if (!file_.has("/parameter")) fail("no dataset /parameter with the values at which the matrices hold");
+    if (file_.shape("/parameter").size() != 1) fail("parameter: expected a list of values");
+    if (file_.shape("/parameter")[0] > limits::samples)
+      fail("parameter has more than " + std::to_string(limits::samples) + " values");
+    data_.values = file_.read_real("/parameter");
+    data_.parameter_unit = file_.text_attribute("/parameter", "units");
+  }
+
+  std::vector<Matrix> read_matrices(const std::string& name) {
+    const Shape shape = file_.shape("/" + name);
+    if (shape.size() != 3 || shape[1] != shape[2] || shape[1] > limits::matrix_rows ||
+        shape[0] > limits::samples)
+      fail("dataset " + name + ": expected the shape samples x n x n with n up to " +
+           std::to_string(limits::matrix_rows) + " and up to " + std::to_string(limits::samples) +
+           " samples");
+    numbers_ += shape[0] * shape[1] * shape[2];
+    if (numbers_ > limits::matrix_numbers)
+      fail("more than " + std::to_string(limits::matrix_numbers) + " numbers in all matrices together");
+    const std::vector<double> all = file_.read_real("/" + name);
+    const auto n = static_cast<Eigen::Index>(shape[1]);
+    std::vector<Matrix> result;
+    for (std::uint64_t i = 0; i < shape[0]; ++i) {
+      const Eigen::Map<const RowMajor> rows(all.data() + static_cast<Eigen::Index>(i) * n * n, n, n);
+      result.emplace_back(by_columns_ ? Matrix(rows.transpose()) : Matrix(rows));
+    }
+    return result;
+  }
+
+  void read_states() {
+    if (file_.has("/state_names")) {
+      const Shape shape = file_.shape("/state_names");
+      if (shape.empty() || shape.size() > 2) fail("state_names: expected n names, or n for each sample");
+      names_ = file_.read_texts("/state_names");
+      const std::size_t n = shape.back();
+      if (shape.size() == 2 && shape[0] != data_.count())
+        fail("state_names has rows for " + plural(shape[0], "sample") + " of " +
+             std::to_string(data_.count()));
+      data_.state_names.assign(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(n));
+      if (shape.size() == 1) names_.clear();
+    }
+    if (file_.has("/state_units")) data_.state_units = file_.read_texts("/state_units");
+    if (file_.has("/derivative_order")) {
+      for (const std::int64_t order : file_.read_integers("/derivative_order")) {
+        if (order < 0 || order > 2)
+          fail("derivative_order: expected 0, 1 or 2, found " + std::to_string(order));
+        data_.derivative_order.push_back(static_cast<int>(order));
+      }
+    }
+    if (!file_.has("/frame")) return;
+    for (const std::string& frame : file_.read_texts("/frame")) {
+      if (frame != "fixed" && frame != "rotating")
+        fail("frame: expected fixed or rotating, found '" + frame + "'");
+      data_.state_frames.push_back(frame == "fixed" ? StateFrame::fixed : StateFrame::rotating);
+    }
+  }
+
+  /// Brings all samples in the order of states of the first one.
+  void match_states() {
+    if (names_.empty()) return;
+    const std::size_t n = data_.state_names.size();
+    for (std::size_t i = 1; i < data_.count(); ++i) {
+      const auto begin = names_.begin() + static_cast<std::ptrdiff_t>(i * n);
+      const auto from = places(data_.state_names, {begin, begin + static_cast<std::ptrdiff_t>(n)}, i);
+      for (const SampledMatrix& named : sampled_matrices()) {
+        if (!(data_.*named.samples).empty()) reorder((data_.*named.samples)[i], from);
+      }
+    }
+  }
+
+  void sort() {
+    std::vector<std::size_t> order(data_.count());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return data_.values[a] < data_.values[b]; });
+    const auto sorted = [&order](auto list) {
+      auto result = list;
+      for (std::size_t i = 0; i < list.size(); ++i) result[i] = std::move(list[order[i]]);
+      return result;
+    };
+    data_.values = sorted(data_.values);
+    for (const SampledMatrix& named : sampled_matrices())
+      data_.*named.samples = sorted(std::move(data_.*named.samples));
+  }
+
+  Hdf5File file_;
+  bool by_columns_ = false;
+  std::size_t numbers_ = 0;
+  std::vector<std::string> names_;  ///< of the states of each sample; empty if all have the same order
+  SampledData data_;
+};
+
+}  // namespace
+
+const std::array<SampledMatrix, 5>& sampled_matrices() {
+  static constexpr std::array<SampledMatrix, 5> all{{{"M", &SampledData::M},
+                                                     {"C", &SampledData::C},
+                                                     {"K", &SampledData::K},
+                                                     {"E", &SampledData::E},
+                                                     {"A", &SampledData::A}}};
+  return all;
+}
+
+Eigen::Index SampledData::size() const {
+  for (const SampledMatrix& named : sampled_matrices()) {
+    if (!(this->*named.samples).empty()) return (this->*named.samples).front().rows();
+  }
+  return 0;
+}
+
+void check(const SampledData& data) {
+  check_values(data.values);
+  check_form(data);
+  const Eigen::Index n = data.size();
+  if (n == 0) fail("the matrices have no rows");
+  for (const SampledMatrix& named : sampled_matrices()) check_samples(data, named, n);
+  check_length(data.state_names, "state_names", n);
+  check_length(data.state_units, "state_units", n);
+  check_length(data.derivative_order, "derivative_order", n);
+  check_length(data.state_frames, "frame", n);
+  if (data.digits && (*data.digits < 1 || *data.digits > 17))
+    fail("digits: expected 1 to 17, found " + std::to_string(*data.digits));
+}
+
+SampledData read_samples(const std::string& path) {
+  return SampleReader(path).read();
+}
+
+}  // namespace eigentrail
