@@ -19,6 +19,7 @@ namespace {
 /// exists and has the text stored in the loci file. Throws InputError otherwise.
 void check_place_of_matrices(const Scene& scene, const std::string& path) {
   const Value* family = scene.root.find("matrix_family");
+  if (family == nullptr) family = scene.root.find("sampled_family");
   const auto* table = family != nullptr ? std::get_if<Table>(&family->data) : nullptr;
   if (table == nullptr || table->find("file") == nullptr) return;
   if (read_scene(scene.path).text != scene.text) {

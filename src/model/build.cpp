@@ -6,6 +6,7 @@
 #include "model/draft.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
+#include "model/sampled_family.hpp"
 
 namespace eigentrail {
 namespace {
@@ -29,13 +30,18 @@ void check_entries(const Scene& scene, const ModelRequest& request) {
 }  // namespace
 
 void check_top_level(const Scene& scene) {
-  std::vector<std::string> known = {"title", "parameters", "trace", "events", "matrix_family"};
+  std::vector<std::string> known = {"title",  "parameters",    "trace",
+                                    "events", "matrix_family", "sampled_family"};
+  const char* family = scene.root.find("matrix_family") != nullptr ? "matrix_family" : "sampled_family";
   if (!is_matrix_family(scene)) {
     for (const EffectHelp& effect : effect_reference()) known.push_back(effect.name);
+  } else {
+    std::erase_if(known,
+                  [family](const std::string& key) { return key.ends_with("_family") && key != family; });
   }
   for (const auto& [key, value] : scene.root.entries) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::string kind = is_matrix_family(scene) ? " in a scene with [matrix_family]" : "";
+    const std::string kind = is_matrix_family(scene) ? " in a scene with [" + std::string(family) + "]" : "";
     throw scene_error(scene, value.where, key + ": unknown key" + kind + "; " + suggestion(key, known));
   }
 }
@@ -45,7 +51,7 @@ std::string strength_parameter(const std::string& effect) {
 }
 
 bool is_matrix_family(const Scene& scene) {
-  return scene.root.find("matrix_family") != nullptr;
+  return scene.root.find("matrix_family") != nullptr || scene.root.find("sampled_family") != nullptr;
 }
 
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
@@ -55,6 +61,8 @@ std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& reque
     throw without_error(scene, request.without.front(),
                         "cannot be left out: a family of matrices has no effects");
   }
+  if (scene.root.find("sampled_family") != nullptr)
+    return read_sampled_family(scene, request.used_elsewhere, request.check_at);
   std::unique_ptr<Model> model = read_matrix_family(scene, request.used_elsewhere);
   check_entries(scene, request);
   return model;

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "model/beside_scene.hpp"
 #include "model/matrix_family.hpp"
 
 namespace eigentrail {
@@ -147,29 +147,6 @@ struct FamilyReader {
   }
 };
 
-/// Path of the file that the scene names, relative to the folder of the scene. The file must be in that
-/// folder or below it, also after symbolic links are resolved.
-std::string beside_scene(const FamilyReader& reader, const std::string& name) {
-  namespace fs = std::filesystem;
-  const fs::path path(name);
-  const bool leaves = std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
-  if (path.is_absolute() || leaves || name.empty()) {
-    reader.fail("file", "expected a file in the scene's folder or below it, found \"" + name + "\"");
-  }
-  const fs::path beside = fs::path(reader.scene.path).parent_path();
-  std::error_code error;
-  const fs::path folder = fs::canonical(beside.empty() ? "." : beside, error);
-  const fs::path file = error ? fs::path() : fs::canonical(folder / path, error);
-  // A missing file is reported when it is opened.
-  const bool within =
-      std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-  if (!error && !within) {
-    reader.fail("file", "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
-                            "; expected a file in the folder or below it");
-  }
-  return (beside / path).string();
-}
-
 /// Index of the parameter whose powers multiply the coefficients: the one that [trace] of the scene names.
 int variable_index(const Scene& scene) {
   for (const Table* trace : tables(scene, "trace")) {
@@ -211,7 +188,7 @@ Polynomials read_file(FamilyReader& reader) {
   for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
   }
-  const std::string path = beside_scene(reader, reader.table.text("file"));
+  const std::string path = beside_scene(reader.scene, reader.table);
   Polynomials p;
   try {
     const Hdf5File file = Hdf5File::open(path);

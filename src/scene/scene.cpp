@@ -105,10 +105,11 @@ class ParameterReader {
   std::vector<std::string> names_;
 };
 
-/// The traced parameter of a scene with [matrix_family], still without a value.
+/// The traced parameter of a scene with a family of matrices, still without a value.
 std::optional<Parameter> family_variable(const Table& root) {
   const Value* trace = root.find("trace");
-  if (trace == nullptr || root.find("matrix_family") == nullptr) return std::nullopt;
+  const bool family = root.find("matrix_family") != nullptr || root.find("sampled_family") != nullptr;
+  if (trace == nullptr || !family) return std::nullopt;
   const auto* fields = std::get_if<Table>(&trace->data);
   if (fields == nullptr) return std::nullopt;
   const Value* value = fields->find("parameter");

@@ -23,9 +23,9 @@ struct ModelRequest {
   bool strengths = false;
 };
 
-/// Builds the model that a scene describes: a multibody system, or a matrix family if the scene has
-/// [matrix_family]. Throws InputError for every fault of the scene, including unknown keys and unused
-/// parameters.
+/// Builds the model that a scene describes: a multibody system, or a family of matrices if the scene has
+/// [matrix_family] or [sampled_family]. Throws InputError for every fault of the scene, including unknown
+/// keys and unused parameters.
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request);
 
 /// Name of the parameter that multiplies the forces of an effect; no parameter of a scene can have this name.
@@ -39,7 +39,7 @@ void check_top_level(const Scene& scene);
 /// position if only the command line names it.
 InputError without_error(const Scene& scene, const std::string& effect, const std::string& message);
 
-/// Whether the scene has [matrix_family], that is, matrices instead of elements.
+/// Whether the scene has [matrix_family] or [sampled_family], that is, matrices instead of elements.
 bool is_matrix_family(const Scene& scene);
 
 /// Describes one key of the tables of an effect, for help and documentation.

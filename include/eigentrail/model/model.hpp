@@ -111,6 +111,8 @@ struct EvaluationFault {
   explicit operator bool() const { return !source.empty(); }
 };
 
+class SampleErrors;
+
 /// Models are immutable. Const functions may be called from several threads, each with its own `counts`.
 class Model {
  public:
@@ -149,8 +151,15 @@ class Model {
   /// trace looks at them between its points.
   virtual std::vector<Expression> expressions() const { return {}; }
 
-  /// The same two at a point (order 0) with 113 bits, for reference solutions. A model that does not support
-  /// them returns a fault.
+  /// Values of the traced parameter (declared unit), ascending, at which the equations have a kink. A trace
+  /// lands just before and just behind them; at a kink the model is that before it.
+  virtual std::vector<double> kinks([[maybe_unused]] int traced_parameter) const { return {}; }
+
+  /// Errors of the eigenvalues that come from the data of the model; null if it has none of its own.
+  virtual const SampleErrors* sample_errors() const { return nullptr; }
+
+  /// residual and linearize at a point (order 0) with 113 bits, for reference solutions. A model that does
+  /// not support them returns a fault.
   virtual EvaluationFault extended_residual(const BasicPath<Extended>&,
                                             BasicSteadyResidual<Extended>&) const {
     return {"a model without extended precision"};

@@ -25,8 +25,11 @@ struct SampledData {
   std::vector<std::string> state_units;  ///< n, or empty
   std::vector<int> derivative_order;     ///< n, or empty: 1 for first-order states, 2 for second-order ones
   std::vector<StateFrame> state_frames;  ///< n, or empty: not known
-  std::optional<int> digits;             ///< significant digits of the entries; empty: all of a double
-  std::string source;                    ///< where the samples come from, in words
+  /// Bounds of the errors of the entries of A, absolute, n x n per value; empty: not known. They replace
+  /// `digits` for A.
+  std::vector<Matrix> A_error;
+  std::optional<int> digits;  ///< significant digits of the entries; empty: all of a double
+  std::string source;         ///< where the samples come from, in words
 
   std::size_t count() const { return values.size(); }
   bool first_order() const { return !A.empty(); }

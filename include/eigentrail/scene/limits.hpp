@@ -45,6 +45,6 @@ inline constexpr int matrix_power = 16;
 inline constexpr std::size_t matrix_numbers = 200'000'000;
 
 /// Samples of a sampled family.
-inline constexpr std::size_t samples = 10'000;
+inline constexpr std::size_t samples = 1000;
 
 }  // namespace eigentrail::limits

@@ -28,6 +28,8 @@ namespace {
 /// the square root of the distance it changes by only 3e-7 over such a step. With a larger value traces end
 /// that a shorter step would carry on; with a smaller one hopeless traces try longer before they end.
 constexpr double shortest_step = 1e-13;
+/// Share of the range by which a trace stays away from a kink; the step across it is twice as long.
+constexpr double beside_kink = 1e-11;
 /// The shortest step moves p by at least this many units in its last place. With fewer, the step length
 /// itself would be dominated by rounding.
 constexpr double units_in_last_place = 8.0;
@@ -97,6 +99,21 @@ double distance_to_next(const std::vector<double>& places, const PathFrame& fram
   return INFINITY;
 }
 
+/// Where the trace ends its steps because the model changes on a small part of the range, or at a kink, on
+/// both sides of it.
+std::vector<double> places_to_land(const Model& model, const PathProblem& problem,
+                                   const TraceOptions& options) {
+  std::vector<double> places = narrow_places(model.description().parameters, problem.parameters,
+                                             problem.traced, options.from, options.to, model.expressions());
+  const double beside = beside_kink * std::abs(options.to - options.from);
+  for (const double kink : model.kinks(problem.traced)) {
+    places.push_back(kink - beside);
+    places.push_back(kink + beside);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -106,8 +123,7 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       criteria_(criteria_of(options.events)),
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
-      narrow_places_(narrow_places(model.description().parameters, problem_.parameters, problem_.traced,
-                                   options.from, options.to, model.expressions())),
+      narrow_places_(places_to_land(model, problem_, options)),
       log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();

@@ -1,0 +1,84 @@
+// Errors of eigenvalues that come from samples: what the interpolant misses between them, and the digits to
+// which their entries are known.
+//
+// To first order an eigenvalue s with eigenvectors y, z of P(s) = s^2 M + s C + K moves by
+//
+//   ds = - y^H dP(s) z / (y^H P'(s) z)                        (Tisseur, Lin. Alg. Appl. 309, 2000, Sect. 2)
+//
+// so the error of the interpolant needs no bound for matrices: each sample counts with the number
+// g_j = y^H P_j(s) z / (y^H P'(s) z), and the error of the interpolant of these numbers is that of s.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+struct SamplePiece;
+
+/// Samples of a coefficient of s^2 M + s C + K.
+struct PencilSamples {
+  int power = 0;                ///< of s
+  std::vector<Matrix> samples;  ///< one per value of the parameter, or a single one if all are the same
+  /// Bounds of the errors of the entries; like `samples`, or empty: the entries are exact.
+  std::vector<Matrix> entry_errors = {};
+
+  bool is_constant() const { return samples.size() == 1; }
+  const Matrix& at(std::size_t i) const { return samples[is_constant() ? 0 : i]; }
+  const Matrix& errors_at(std::size_t i) const { return entry_errors[is_constant() ? 0 : i]; }
+};
+
+/// An eigenvalue with its right and left eigenvector (P(s) z = 0, y^H P(s) = 0), of any length.
+struct EigenTriple {
+  Complex s;
+  ComplexVector right, left;
+};
+
+/// Bounds of the error of eigenvalues, absolute, 1/s; an entry per eigenvalue.
+struct SampleBounds {
+  Vector interpolation;
+  Vector digits;
+};
+
+/// How the error between two samples is estimated. The numbers were calibrated on families in closed form
+/// (docs/developers/sampled-families.md).
+struct SampleErrorOptions {
+  /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
+  double safety = 4.0;
+  /// Largest ratio of the errors of successive degrees with which that difference is extrapolated.
+  double slowest = 0.85;
+  /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
+  double leave_one_out = 7.0;
+  /// Factor of the standard deviation of errors that do not depend smoothly on the parameter.
+  double deviations = 12.0;
+};
+
+/// Refers to samples and pieces, which must outlive it.
+class SampleErrors {
+ public:
+  SampleErrors(const std::vector<double>& values, const std::array<PencilSamples, 3>& samples,
+               const std::vector<SamplePiece>& pieces, SampleErrorOptions options = {});
+
+  /// Values of the samples, ascending, in the SI unit of the parameter.
+  const std::vector<double>& values() const { return values_; }
+
+  /// Bounds that hold between the samples `gap` and `gap` + 1, for eigenvalues with the given eigenvectors.
+  /// Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
+  SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const;
+
+ private:
+  struct Noise;
+
+  const std::vector<double>& values_;
+  const std::array<PencilSamples, 3>& samples_;
+  const std::vector<SamplePiece>& pieces_;
+  SampleErrorOptions options_;
+  /// Per piece and coefficient: variances of the entries' errors that are not smooth; empty if there are
+  /// none.
+  std::vector<std::array<Matrix, 3>> variances_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,15 @@
+// Files that a scene names.
+#pragma once
+
+#include <string>
+
+#include "eigentrail/scene/scene.hpp"
+
+namespace eigentrail {
+
+/// Path of the file that the key `file` of a table names, relative to the folder of the scene. Throws
+/// InputError unless the file is in that folder or below it, also after symbolic links are resolved. A file
+/// that does not exist is not reported here.
+std::string beside_scene(const Scene& scene, TableReader& table);
+
+}  // namespace eigentrail

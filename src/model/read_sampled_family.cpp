@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/units.hpp"
+#include "model/beside_scene.hpp"
+#include "model/sampled_family.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Index of the parameter of the samples: the one that [trace] of the scene names.
+int variable_index(const Scene& scene) {
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* name = trace->find("parameter");
+    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
+    if (text == nullptr) break;
+    if (const auto index = scene.parameters.index(*text)) return *index;
+  }
+  throw InputError(
+      scene.path +
+      ": [trace] parameter: a scene with [sampled_family] names here the parameter of the samples");
+}
+
+/// Factor from the file's unit of the parameter to its SI unit in the scene. A parameter that the scene
+/// declares without a unit has that of the file.
+double unit_of_values(TableReader& table, const Parameter& variable, const std::string& unit) {
+  const bool none = unit.empty() || unit == "1";
+  if (none || variable.unit.empty() || unit == variable.unit) return variable.factor;
+  const auto factor = unit_factor(unit);
+  if (!factor) {
+    table.fail("file", "its values of the parameter are in '" + unit + "', those of " + variable.name +
+                           " of the scene in '" + variable.unit +
+                           "'; declare the same unit, or one that is understood");
+  }
+  return *factor;
+}
+
+int whole_number(TableReader& table, const std::string& key, int least, int most) {
+  const Expression expression = table.expression(key);
+  const double value = expression.is_constant() ? expression.evaluate(std::span<const double>()) : NAN;
+  if (!(value >= least && value <= most) || value != std::floor(value))
+    table.fail(key, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(value);
+}
+
+/// Indices of the samples at which the scene declares a kink.
+std::vector<std::size_t> read_kinks(TableReader& table, const SampledData& data, double factor) {
+  std::vector<std::size_t> places;
+  if (!table.has("kinks")) return places;
+  for (const Expression& expression : table.list("kinks")) {
+    if (!expression.is_constant()) table.fail("kinks", "expected numbers, found an expression");
+    const double kink = expression.evaluate(std::span<const double>()) * factor;
+    const auto nearest = std::min_element(data.values.begin(), data.values.end(), [kink](double a, double b) {
+      return std::abs(a - kink) < std::abs(b - kink);
+    });
+    const double size = std::max(std::abs(data.values.front()), std::abs(data.values.back()));
+    if (!(std::abs(*nearest - kink) <= same_value * size)) {
+      table.fail("kinks", exact_text(kink / factor) + " is not among the samples; the nearest one is at " +
+                              exact_text(*nearest / factor));
+    }
+    const auto at = static_cast<std::size_t>(nearest - data.values.begin());
+    if (at > 0 && at + 1 < data.count()) places.push_back(at);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+SampledData read_data(TableReader& table, const Scene& scene) {
+  const std::string path = beside_scene(scene, table);
+  try {
+    return read_samples(path);
+  } catch (const Hdf5Error& error) {
+    table.fail("file", error.what());
+  } catch (const std::invalid_argument& error) {
+    table.fail("file", path + ": " + error.what());
+  }
+}
+
+void check_within(const Scene& scene, const Parameter& variable, int index, const SampledData& data,
+                  const std::vector<Vector>& check_at) {
+  const double least = data.values.front();
+  const double most = data.values.back();
+  const double slack = same_value * std::max(std::abs(least), std::abs(most));
+  for (Vector values : check_at) {
+    scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
+    const double value = values[index];
+    if (value >= least - slack && value <= most + slack) continue;
+    throw InputError(scene.path + ": [trace]: " + variable.name + " = " +
+                     exact_text(value / variable.factor) + " lies outside the samples, which reach from " +
+                     exact_text(least / variable.factor) + " to " + exact_text(most / variable.factor) +
+                     "; choose from and to between them");
+  }
+}
+
+ModelDescription describe(const SampledData& data, const Parameters& parameters) {
+  ModelDescription description;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(data.size()); ++i) {
+    description.coordinate_names.push_back(data.state_names.empty() ? "x" + std::to_string(i + 1)
+                                                                    : data.state_names[i]);
+    const bool unit = !data.state_units.empty() && !data.state_units[i].empty();
+    description.coordinate_units.push_back(unit ? data.state_units[i] : "1");
+  }
+  description.parameters = parameters;
+  return description;
+}
+
+}  // namespace
+
+std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<int>& used_elsewhere,
+                                           const std::vector<Vector>& check_at) {
+  const auto found = tables(scene, "sampled_family");
+  if (found.empty()) throw InputError(scene.path + ": [sampled_family]: is an empty list");
+  if (found.size() > 1)
+    throw scene_error(scene, found[1]->where, "[sampled_family]: a scene has one of these");
+  const int index = variable_index(scene);
+  const Parameter& variable = scene.parameters[static_cast<std::size_t>(index)];
+  std::set<int> used = used_elsewhere;
+  used.insert(index);
+  TableReader table(scene, *found[0], "[sampled_family]", used);
+  SampledData data = read_data(table, scene);
+  const double factor = unit_of_values(table, variable, data.parameter_unit);
+  for (double& value : data.values) value *= factor;
+  const std::vector<std::size_t> kinks = read_kinks(table, data, variable.factor);
+  std::optional<int> degree;
+  if (table.has("degree")) degree = whole_number(table, "degree", 1, 15);
+  if (table.has("digits")) data.digits = whole_number(table, "digits", 1, 17);
+  table.finish();
+  reject_unused_parameters(scene, used);
+  check_within(scene, variable, index, data, check_at);
+  std::vector<SamplePiece> pieces = interpolate_samples(data, data.values, kinks, degree);
+  return std::make_unique<SampledFamily>(describe(data, scene.parameters), index, data, std::move(pieces));
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,288 @@
+#include "eigentrail/model/sample_errors.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/sample_interpolation.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A few roundings of double precision, relative to each entry.
+constexpr double rounding = 4e-16;
+/// Samples next to a gap that are looked at; the others change the estimate little.
+constexpr std::size_t most_samples = 48;
+/// Fewest samples of a piece whose errors are split in a smooth part and the rest.
+constexpr std::size_t fewest_for_noise = 6;
+
+/// Polynomials of degree 0 ... n - 1 that are orthonormal on the nodes; column k has degree k.
+Matrix orthonormal_polynomials(const std::vector<double>& nodes) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Matrix legendre = Matrix::Ones(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double from = nodes.front();
+    const double x = 2.0 * (nodes[static_cast<std::size_t>(i)] - from) / (nodes.back() - from) - 1.0;
+    if (n > 1) legendre(i, 1) = x;
+    for (Eigen::Index k = 2; k < n; ++k) {
+      const auto degree = static_cast<double>(k);
+      legendre(i, k) =
+          ((2.0 * degree - 1.0) * x * legendre(i, k - 1) - (degree - 1.0) * legendre(i, k - 2)) / degree;
+    }
+  }
+  return Eigen::HouseholderQR<Matrix>(legendre).householderQ();
+}
+
+/// Combinations of the samples, one per column, in which smooth functions of the parameter vanish: the
+/// coefficients of the highest orthonormal polynomials, less their part in the span of the lower ones. What
+/// depends smoothly on the parameter varies in few directions, and those are the same in all coefficients.
+struct RoughPart {
+  Matrix combinations;   ///< samples x k
+  double freedom = 1.0;  ///< share of the variance that is left
+};
+
+RoughPart rough_part(const SamplePiece& piece, double n_entries) {
+  const auto n = static_cast<Eigen::Index>(piece.size());
+  const Eigen::Index high = std::max<Eigen::Index>(2, n / 4);
+  const Matrix polynomials = orthonormal_polynomials(piece.interpolant.nodes());
+  constexpr double same_direction = 1e-13;
+  Eigen::CompleteOrthogonalDecomposition<Matrix> lower;
+  lower.setThreshold(same_direction);
+  lower.compute(piece.reduced * polynomials.leftCols(n - high));
+  const Matrix part = lower.solve(piece.reduced * polynomials.rightCols(high));
+  constexpr double least_freedom = 0.05;
+  return {polynomials.rightCols(high) - polynomials.leftCols(n - high) * part,
+          std::max(least_freedom, 1.0 - static_cast<double>(lower.rank()) / n_entries)};
+}
+
+bool varies(const PencilSamples& samples, const SamplePiece& piece, Eigen::Index row, Eigen::Index column) {
+  const double first = samples.at(piece.first)(row, column);
+  for (std::size_t i = 1; i < piece.size(); ++i) {
+    if (samples.at(piece.first + i)(row, column) != first) return true;
+  }
+  return false;
+}
+
+double median(std::vector<double> list) {
+  if (list.empty()) return 0.0;
+  const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+  std::nth_element(list.begin(), middle, list.end());
+  return *middle;
+}
+
+/// Variances of the entries of one coefficient. An entry has few coefficients of its own, so its variance is
+/// averaged with one that is the same share of each entry.
+Matrix entry_variances(const PencilSamples& samples, const SamplePiece& piece, const RoughPart& rough) {
+  if (samples.is_constant()) return {};
+  const Matrix& first = samples.at(piece.first);
+  const auto own = static_cast<double>(rough.combinations.cols());
+  Matrix variances = Matrix::Zero(first.rows(), first.cols());
+  Matrix squares = variances;
+  for (Eigen::Index k = 0; k < rough.combinations.cols(); ++k) {
+    Matrix rest = Matrix::Zero(first.rows(), first.cols());
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      rest += rough.combinations(static_cast<Eigen::Index>(i), k) * samples.at(piece.first + i);
+    variances += rest.cwiseAbs2() / (own * rough.freedom);
+  }
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    squares += samples.at(piece.first + i).cwiseAbs2() / static_cast<double>(piece.size());
+  std::vector<double> shares;
+  for (Eigen::Index j = 0; j < first.cols(); ++j) {
+    for (Eigen::Index i = 0; i < first.rows(); ++i) {
+      if (!varies(samples, piece, i, j)) {
+        variances(i, j) = squares(i, j) = 0.0;
+      } else if (squares(i, j) > 0.0) {
+        shares.push_back(variances(i, j) / squares(i, j));
+      }
+    }
+  }
+  // The median of the square of a normal number, averaged over a few, is this share of its mean.
+  constexpr double median_share = 0.8;
+  constexpr double common = 4.0;  // weight of the common share, in coefficients
+  const double share = median(std::move(shares)) / median_share;
+  return (own * variances + common * share * squares) / (own + common);
+}
+
+/// The samples of a piece that an estimate for a gap looks at.
+struct Window {
+  std::size_t first = 0;      ///< index of the first sample
+  std::vector<double> nodes;  ///< their values
+  std::size_t gap = 0;        ///< the gap, counted in the window
+  Eigen::Index offset = 0;    ///< of the window in the piece
+};
+
+Window window_at(const SamplePiece& piece, std::size_t gap) {
+  const std::vector<double>& all = piece.interpolant.nodes();
+  const std::size_t in_piece = gap - piece.first;
+  const std::size_t half = most_samples / 2;
+  const std::size_t begin = in_piece + 1 > half ? in_piece + 1 - half : 0;
+  const std::size_t end = std::min(all.size(), begin + most_samples);
+  return {piece.first + begin,
+          {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)},
+          in_piece - begin,
+          static_cast<Eigen::Index>(begin)};
+}
+
+/// What the interpolants of neighbouring degrees differ by at places of a gap, and what the leave-one-out
+/// interpolants miss at its ends: combinations of the samples of the window, one per column.
+struct Estimators {
+  std::array<Matrix, 3> differences;  ///< of the highest pair of degrees, the next, the next
+  Matrix leave_one_out;
+  std::array<double, 3> share = {1, 0, 0};  ///< factor of each difference
+  double amplification = 1.0;               ///< of errors of the samples that are not smooth
+  Vector weights;                           ///< largest magnitude of each basis function
+};
+
+Estimators estimators(const SamplePiece& piece, const Window& window, const SampleErrorOptions& options) {
+  constexpr std::array<double, 5> places{0.1, 0.3, 0.5, 0.7, 0.9};
+  const auto n = static_cast<Eigen::Index>(window.nodes.size());
+  const int degree = std::min(piece.interpolant.degree(), static_cast<int>(n) - 1);
+  const int top = std::min(degree + 1, static_cast<int>(n) - 1);
+  std::array<Matrix, 4> values;  // of the interpolants of degree top, top - 1, top - 2, top - 3
+  Estimators result;
+  const double from = window.nodes[window.gap];
+  const double length = window.nodes[window.gap + 1] - from;
+  const auto values_of = [&](int d) {
+    const RationalInterpolant interpolant(window.nodes, std::max(0, d));
+    Matrix columns(n, places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places[i] * length);
+    return columns;
+  };
+  for (int i = 0; i < 4; ++i) values[static_cast<std::size_t>(i)] = values_of(top - i);
+  const Matrix used = values_of(degree);
+  result.weights = used.cwiseAbs().rowwise().maxCoeff();
+  result.amplification = std::max(1.0, used.colwise().norm().maxCoeff());
+  const auto reduced = piece.reduced.middleCols(window.offset, n);
+  std::array<double, 3> norms{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.differences[i] = values[i] - values[i + 1];
+    norms[i] = (reduced * result.differences[i]).colwise().norm().maxCoeff();
+  }
+  const auto ratio = [](double a, double b, double most) { return b > 0.0 ? std::min(most, a / b) : 0.0; };
+  const double slowest = options.slowest;
+  const double rate = ratio(norms[0], norms[1], slowest);
+  const double extrapolated = options.safety / (1.0 - rate);
+  result.share = {extrapolated, extrapolated * rate,
+                  extrapolated * ratio(norms[0], norms[2], slowest * slowest)};
+  result.leave_one_out.resize(n, 0);
+  // With equidistant nodes a missing one lets the error grow by about pi (d + 1) / 2 + 0.8: the square of
+  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2.
+  const double factor = options.leave_one_out / (0.5 * std::numbers::pi * (degree + 1) + 0.8);
+  for (const std::size_t node : {window.gap, window.gap + 1}) {
+    if (node == 0 || node + 1 >= window.nodes.size()) continue;
+    result.leave_one_out.conservativeResize(Eigen::NoChange, result.leave_one_out.cols() + 1);
+    result.leave_one_out.rightCols(1) = factor * leave_one_out(window.nodes, degree, node);
+  }
+  return result;
+}
+
+/// The eigenvectors as matrices, with y^H P'(s) z = 1.
+struct Triples {
+  ComplexMatrix right, left;  ///< n x k
+  ComplexVector s;
+};
+
+Triples normalized(std::span<const EigenTriple> list, const std::array<ComplexMatrix, 3>& coefficients) {
+  const Eigen::Index n = coefficients[2].rows();
+  const auto count = static_cast<Eigen::Index>(list.size());
+  Triples all{ComplexMatrix(n, count), ComplexMatrix(n, count), ComplexVector(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const EigenTriple& one = list[static_cast<std::size_t>(i)];
+    const ComplexVector slope = 2.0 * one.s * (coefficients[0] * one.right) + coefficients[1] * one.right;
+    all.right.col(i) = one.right / one.left.dot(slope);
+    all.left.col(i) = one.left;
+    all.s[i] = one.s;
+  }
+  return all;
+}
+
+/// |s|^power or s^power.
+template <class Scalar>
+Scalar power_of(const Scalar& s, int power) {
+  return power == 2 ? s * s : power == 1 ? s : Scalar(1.0);
+}
+
+/// y^T B z with the magnitudes of y and z, per eigenvalue.
+Vector magnitudes_through(const Matrix& B, const Triples& triples, int power) {
+  const Matrix products = B * triples.right.cwiseAbs();
+  Vector sums = triples.left.cwiseAbs().cwiseProduct(products).colwise().sum().transpose();
+  for (Eigen::Index i = 0; i < sums.size(); ++i) sums[i] *= power_of(std::abs(triples.s[i]), power);
+  return sums;
+}
+
+}  // namespace
+
+SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<PencilSamples, 3>& samples,
+                           const std::vector<SamplePiece>& pieces, SampleErrorOptions options)
+    : values_(values), samples_(samples), pieces_(pieces), options_(options) {
+  for (const SamplePiece& piece : pieces_) {
+    std::array<Matrix, 3>& all = variances_.emplace_back();
+    if (piece.size() < fewest_for_noise || piece.reduced.rows() == 0) continue;
+    double n_entries = 0.0;
+    for (const PencilSamples& one : samples_) {
+      if (!one.is_constant()) n_entries += static_cast<double>(one.at(0).size());
+    }
+    const RoughPart rough = rough_part(piece, n_entries);
+    for (std::size_t i = 0; i < 3; ++i) all[i] = entry_variances(samples_[i], piece, rough);
+  }
+}
+
+SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
+  const double middle = 0.5 * (values_[gap] + values_[gap + 1]);
+  const SamplePiece& piece = piece_at(pieces_, middle);
+  const auto& variances = variances_[static_cast<std::size_t>(&piece - pieces_.data())];
+  const Window window = window_at(piece, gap);
+  const Estimators estimators_here = estimators(piece, window, options_);
+  const auto n_samples = static_cast<Eigen::Index>(window.nodes.size());
+  const auto n_triples = static_cast<Eigen::Index>(triples.size());
+  std::array<ComplexMatrix, 3> coefficients;
+  const Vector weights = RationalInterpolant(window.nodes, std::min<int>(piece.interpolant.degree(),
+                                                                         static_cast<int>(n_samples) - 1))
+                             .values(middle);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const PencilSamples& one = samples_[c];
+    coefficients[c] = ComplexMatrix::Zero(one.at(0).rows(), one.at(0).cols());
+    for (Eigen::Index j = 0; j < n_samples; ++j)
+      coefficients[c] += weights[j] * one.at(window.first + static_cast<std::size_t>(j));
+  }
+  const Triples all = normalized(triples, coefficients);
+
+  ComplexMatrix shares = ComplexMatrix::Zero(n_triples, n_samples);
+  Vector variance = Vector::Zero(n_triples), floor = variance, digits = variance;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const PencilSamples& one = samples_[c];
+    const Matrix magnitude = coefficients[c].cwiseAbs();
+    floor += rounding * magnitudes_through(magnitude, all, one.power);
+    if (!one.entry_errors.empty()) {
+      Matrix errors = Matrix::Zero(magnitude.rows(), magnitude.cols());
+      for (Eigen::Index j = 0; j < n_samples; ++j)
+        errors += estimators_here.weights[j] * one.errors_at(window.first + static_cast<std::size_t>(j));
+      if (one.is_constant()) errors = one.errors_at(0);
+      digits += magnitudes_through(errors, all, one.power);
+    }
+    if (one.is_constant()) continue;
+    for (Eigen::Index j = 0; j < n_samples; ++j) {
+      const ComplexMatrix products = one.at(window.first + static_cast<std::size_t>(j)) * all.right;
+      for (Eigen::Index i = 0; i < n_triples; ++i)
+        shares(i, j) += power_of(all.s[i], one.power) * all.left.col(i).dot(products.col(i));
+    }
+    if (variances[c].size() == 0) continue;
+    const Matrix squares = variances[c] * all.right.cwiseAbs2();
+    for (Eigen::Index i = 0; i < n_triples; ++i)
+      variance[i] +=
+          std::norm(power_of(all.s[i], one.power)) * all.left.col(i).cwiseAbs2().dot(squares.col(i));
+  }
+  Vector smooth = Vector::Zero(n_triples);
+  const auto raise = [&](const Matrix& combinations, double factor) {
+    if (combinations.cols() == 0) return;
+    smooth = smooth.cwiseMax(factor * (shares * combinations).cwiseAbs().rowwise().maxCoeff());
+  };
+  for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
+  raise(estimators_here.leave_one_out, 1.0);
+  return {smooth + options_.deviations * estimators_here.amplification * variance.cwiseSqrt() + floor,
+          digits};
+}
+
+}  // namespace eigentrail

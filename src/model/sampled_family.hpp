@@ -1,0 +1,58 @@
+// A model given by samples of its matrices at values of one parameter, interpolated between them.
+#pragma once
+
+#include <memory>
+
+#include "eigentrail/model/model.hpp"
+#include "eigentrail/model/sample_errors.hpp"
+#include "eigentrail/model/sampled_data.hpp"
+#include "eigentrail/scene/scene.hpp"
+#include "model/sample_interpolation.hpp"
+
+namespace eigentrail {
+
+/// Values of the parameter that differ by this share of the largest are the same.
+inline constexpr double same_value = 1e-12;
+
+class SampledFamily final : public Model {
+ public:
+  /// `variable`: index of the parameter of the samples. `data`: samples in ascending order, checked; their
+  /// values are in the SI unit of the variable.
+  SampledFamily(ModelDescription description, int variable, const SampledData& data,
+                std::vector<SamplePiece> pieces);
+
+  Vector initial_guess(const Vector& parameters) const override;
+  Structure structure(int traced_parameter) const override;
+  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
+                           EvaluationCounts& counts) const override;
+  EvaluationFault linearize(const Path& path, int order, Linearization& result,
+                            EvaluationCounts& counts) const override;
+  CoefficientMatrices coefficient_matrices() const override;
+  std::vector<double> kinks(int traced_parameter) const override;
+  const SampleErrors* sample_errors() const override { return &errors_; }
+  EvaluationFault extended_residual(const BasicPath<Extended>& path,
+                                    BasicSteadyResidual<Extended>& result) const override;
+  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
+                                         BasicLinearization<Extended>& result) const override;
+
+ private:
+  SampledFamily(ModelDescription description, int variable, const SampledData& data,
+                std::vector<SamplePiece> pieces, std::array<PencilSamples, 3> samples);
+
+  template <class Real, int Q>
+  EvaluationFault evaluate_all(const BasicPath<Real>& path, int order, BasicLinearization<Real>& result,
+                               EvaluationCounts& counts) const;
+
+  int variable_;
+  std::vector<double> values_;
+  std::vector<SamplePiece> pieces_;
+  std::array<PencilSamples, 3> samples_;  ///< of s^2 M + s C + K
+  SampleErrors errors_;
+};
+
+/// Reads [sampled_family] of a scene; `check_at`: values of the parameters (declared units) that must lie
+/// among the samples. Throws InputError for every fault in it.
+std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<int>& used_elsewhere,
+                                           const std::vector<Vector>& check_at);
+
+}  // namespace eigentrail
