@@ -20,21 +20,38 @@ struct EventsArguments {
 };
 
 void print_events_csv(const LociFile& loci) {
-  std::printf("kind,parameter,real,imag,modes\n");
-  for (const LociEvent& event : loci.events) {
-    std::printf("%s,%s,%s,%s,%s\n", event.kind.c_str(), exact_text(event.parameter).c_str(),
+  const bool intervals = loci.data_errors.has_value();
+  std::printf("kind,parameter,real,imag,modes%s\n", intervals ? ",interval_from,interval_to" : "");
+  for (std::size_t i = 0; i < loci.events.size(); ++i) {
+    const LociEvent& event = loci.events[i];
+    std::printf("%s,%s,%s,%s,%s", event.kind.c_str(), exact_text(event.parameter).c_str(),
                 exact_text(event.s.real()).c_str(), exact_text(event.s.imag()).c_str(), event.modes.c_str());
+    if (intervals) {
+      const EventInterval& interval = loci.data_errors->intervals[i];
+      std::printf(",%s,%s", exact_text(interval.from).c_str(), exact_text(interval.to).c_str());
+    }
+    std::printf("\n");
   }
+}
+
+/// The interval of an event; null if it has none.
+const EventInterval* interval_of(const LociFile& loci, std::size_t event) {
+  if (!loci.data_errors) return nullptr;
+  const EventInterval& interval = loci.data_errors->intervals[event];
+  return std::isfinite(interval.from) ? &interval : nullptr;
 }
 
 void print_events_json(const LociFile& loci) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const LociEvent& event : loci.events) {
+  for (std::size_t number = 0; number < loci.events.size(); ++number) {
+    const LociEvent& event = loci.events[number];
     nlohmann::ordered_json row{{"kind", event.kind},
                                {"parameter", event.parameter},
                                {"real", event.s.real()},
                                {"imag", event.s.imag()},
                                {"modes", event.modes}};
+    if (const EventInterval* interval = interval_of(loci, number))
+      row["interval"] = {interval->from, interval->to};
     if (std::isfinite(event.half_width)) row["half_width"] = event.half_width;
     if (std::isfinite(event.puiseux.real())) row["puiseux"] = {event.puiseux.real(), event.puiseux.imag()};
     if (event.direction != 0) row["direction"] = event.direction;
@@ -65,9 +82,13 @@ void print_events_table(const LociFile& loci) {
     return;
   }
   std::vector<std::vector<std::string>> rows{{"kind", loci.parameter, "s", "modes", "remark"}};
-  for (const LociEvent& event : loci.events) {
+  for (std::size_t i = 0; i < loci.events.size(); ++i) {
+    const LociEvent& event = loci.events[i];
+    std::string remark = remark_on(event);
+    if (const EventInterval* interval = interval_of(loci, i))
+      remark += (remark.empty() ? "" : ", ") + interval_text(*interval);
     rows.push_back({event.kind, rounded(event.parameter, 14),
-                    complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark_on(event)});
+                    complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark});
   }
   print_table(rows);
 }

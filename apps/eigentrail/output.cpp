@@ -33,6 +33,10 @@ std::vector<std::string> event_row(const Event& event, const std::string& parame
           remark};
 }
 
+std::string interval_text(const EventInterval& interval) {
+  return "between " + rounded(interval.from, 6) + " and " + rounded(interval.to, 6);
+}
+
 void print_table(const std::vector<std::vector<std::string>>& rows) {
   // Width in characters: continuation bytes of UTF-8 do not count.
   const auto width = [](const std::string& text) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/data_errors.hpp"
 #include "eigentrail/continuation/event.hpp"
 
 namespace eigentrail::app {
@@ -19,6 +20,9 @@ std::string complex_text(double real, double imag, int digits = 6);
 
 /// The cells of a table row that describe an event.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
+
+/// "between 16.6 and 16.7".
+std::string interval_text(const EventInterval& interval);
 
 /// Prints rows with aligned columns, two spaces apart, indented by two.
 void print_table(const std::vector<std::vector<std::string>>& rows);

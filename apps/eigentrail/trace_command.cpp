@@ -9,8 +9,10 @@
 
 #include "check_output.hpp"
 #include "commands.hpp"
+#include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/stability/undecided_ranges.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
@@ -87,8 +89,37 @@ void print_work(const TraceResult& result) {
       percent(counts.output_seconds, result.seconds).c_str());
 }
 
+/// Prints the largest errors that the data of the model cause, relative to max(|s|, reference).
+void print_data_errors(const DataErrors& errors, const RecordedPath& path, double reference) {
+  const auto largest = [&](const Matrix& bounds, Eigen::Index& at) {
+    double most = 0.0;
+    for (Eigen::Index step = 0; step < bounds.rows(); ++step) {
+      for (Eigen::Index mode = 0; mode < bounds.cols(); ++mode) {
+        const double size = std::max(std::abs(path.eigenvalues(step, mode)), reference);
+        const double relative = bounds(step, mode) / size;
+        if (!(relative > most)) continue;
+        most = relative;
+        at = mode;
+      }
+    }
+    return most;
+  };
+  const auto text = [&](const char* what, const Matrix& bounds) {
+    Eigen::Index mode = 0;
+    const double most = largest(bounds, mode);
+    return std::string(what) + " up to " + rounded(most, 2) + " (mode " + std::to_string(mode + 1) + ")";
+  };
+  std::printf("  data  relative error of eigenvalues %s",
+              text("between samples", errors.interpolation).c_str());
+  if (errors.digits.array().isNaN().all() || !((errors.digits.array() > 0.0).any())) {
+    std::printf("\n");
+  } else {
+    std::printf(", %s\n", text("from their digits", errors.digits).c_str());
+  }
+}
+
 /// Prints how much of the loci is certified, the events, and the notes of the trace.
-void print_findings(const TraceOptions& options, const TraceResult& result) {
+void print_findings(const TraceOptions& options, const TraceResult& result, const DataErrors* errors) {
   if (!options.certify) {
     std::printf("  identity  not certified (--no-certify)\n");
   } else if (result.certified_steps == result.mode_steps) {
@@ -98,7 +129,12 @@ void print_findings(const TraceOptions& options, const TraceResult& result) {
                 result.mode_steps - result.certified_steps, result.mode_steps);
   }
   std::vector<std::vector<std::string>> rows;
-  for (const Event& event : result.events) rows.push_back(event_row(event, options.parameter));
+  for (std::size_t i = 0; i < result.events.size(); ++i) {
+    rows.push_back(event_row(result.events[i], options.parameter));
+    if (errors == nullptr || !std::isfinite(errors->intervals[i].from)) continue;
+    std::string& remark = rows.back().back();
+    remark += (remark.empty() ? "" : ", ") + interval_text(errors->intervals[i]);
+  }
   if (!rows.empty()) std::printf("  special points\n");
   print_table(rows);
   for (const std::string& note : result.notes) std::printf("  note  %s\n", note.c_str());
@@ -123,7 +159,7 @@ std::string followed_modes(const TraceResult& result) {
 
 void print_summary(const Scene& scene, const Model& model, const TraceOptions& options,
                    const TraceResult& result, const RecordedPath& path, const std::vector<std::string>& names,
-                   const std::vector<StableRange>& ranges) {
+                   const std::vector<StableRange>& ranges, const DataErrors* errors) {
   const std::string& unit = model.description().parameters.at(options.parameter).unit;
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   std::printf("  %s  %s -> %s%s, tolerance %s, %s, %d of %d modes, %lld freedoms\n",
@@ -150,7 +186,8 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
                     text(path.eigenvalues(last, mode)), printable(names[static_cast<std::size_t>(mode)])});
   }
   print_table(rows);
-  print_findings(options, result);
+  if (errors != nullptr) print_data_errors(*errors, path, result.s_ref);
+  print_findings(options, result, errors);
   print_permanent(path, {options.tolerance, result.s_ref}, names);
   print_ranges(ranges, options.parameter, followed_modes(result));
   print_work(result);
@@ -237,12 +274,14 @@ class TraceRun {
       return interruption_.exit_code();
     }
     const RecordedPath path = recorder_.path();
-    const std::vector<StableRange> ranges =
-        stable_ranges(path, result_.events, {setup_.options.tolerance, result_.s_ref});
-    writer_->finish(result_, ranges);
+    const EigenvalueAccuracy accuracy{setup_.options.tolerance, result_.s_ref};
+    std::vector<StableRange> ranges = stable_ranges(path, result_.events, accuracy);
+    const std::optional<DataErrors> errors = data_errors(*setup_.model, setup_.options, path, result_.events);
+    if (errors) ranges = with_undecided(ranges, path, result_.events, *errors, accuracy);
+    writer_->finish(result_, ranges, errors ? &*errors : nullptr);
     if (!arguments_.quiet) {
-      print_summary(setup_.scene, *setup_.model, setup_.options, result_, path, writer_->mode_names(),
-                    ranges);
+      print_summary(setup_.scene, *setup_.model, setup_.options, result_, path, writer_->mode_names(), ranges,
+                    errors ? &*errors : nullptr);
       std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
                   std::filesystem::path(output).replace_extension(".html").c_str());
     }

@@ -14,6 +14,8 @@ namespace {
 constexpr double rounding = 4e-16;
 /// Samples next to a gap that are looked at; the others change the estimate little.
 constexpr std::size_t most_samples = 48;
+/// Samples near a gap whose leave-one-out errors are averaged.
+constexpr std::size_t nearby_samples = 10;
 /// Fewest samples of a piece whose errors are split in a smooth part and the rest.
 constexpr std::size_t fewest_for_noise = 6;
 
@@ -127,8 +129,9 @@ Window window_at(const SamplePiece& piece, std::size_t gap) {
 /// What the interpolants of neighbouring degrees differ by at places of a gap, and what the leave-one-out
 /// interpolants miss at its ends: combinations of the samples of the window, one per column.
 struct Estimators {
-  std::array<Matrix, 3> differences;  ///< of the highest pair of degrees, the next, the next
-  Matrix leave_one_out;
+  std::array<Matrix, 3> differences;        ///< of the highest pair of degrees, the next, the next
+  Matrix leave_one_out;                     ///< what is missed at the ends of the gap
+  Matrix nearby;                            ///< and at the samples near it
   std::array<double, 3> share = {1, 0, 0};  ///< factor of each difference
   double amplification = 1.0;               ///< of errors of the samples that are not smooth
   Vector weights;                           ///< largest magnitude of each basis function
@@ -141,6 +144,13 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   const int top = std::min(degree + 1, static_cast<int>(n) - 1);
   std::array<Matrix, 4> values;  // of the interpolants of degree top, top - 1, top - 2, top - 3
   Estimators result;
+  if (n == 1) {
+    for (Matrix& difference : result.differences) difference.resize(1, 0);
+    result.leave_one_out.resize(1, 0);
+    result.nearby.resize(1, 0);
+    result.weights = Vector::Ones(1);
+    return result;
+  }
   const double from = window.nodes[window.gap];
   const double length = window.nodes[window.gap + 1] - from;
   const auto values_of = [&](int d) {
@@ -166,15 +176,21 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   const double extrapolated = options.safety / (1.0 - rate);
   result.share = {extrapolated, extrapolated * rate,
                   extrapolated * ratio(norms[0], norms[2], slowest * slowest)};
-  result.leave_one_out.resize(n, 0);
   // With equidistant nodes a missing one lets the error grow by about pi (d + 1) / 2 + 0.8: the square of
   // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2.
   const double factor = options.leave_one_out / (0.5 * std::numbers::pi * (degree + 1) + 0.8);
-  for (const std::size_t node : {window.gap, window.gap + 1}) {
-    if (node == 0 || node + 1 >= window.nodes.size()) continue;
-    result.leave_one_out.conservativeResize(Eigen::NoChange, result.leave_one_out.cols() + 1);
-    result.leave_one_out.rightCols(1) = factor * leave_one_out(window.nodes, degree, node);
-  }
+  const auto missed_at = [&](std::size_t begin, std::size_t end) {
+    begin = std::max<std::size_t>(begin, 1);
+    end = std::min(end, window.nodes.size() - 1);
+    Matrix columns(n, static_cast<Eigen::Index>(end > begin ? end - begin : 0));
+    for (std::size_t node = begin; node < end; ++node)
+      columns.col(static_cast<Eigen::Index>(node - begin)) = leave_one_out(window.nodes, degree, node);
+    return columns;
+  };
+  result.leave_one_out = factor * missed_at(window.gap, window.gap + 2);
+  const std::size_t half = nearby_samples / 2;
+  const std::size_t begin = window.gap + 1 > half ? window.gap + 1 - half : 0;
+  result.nearby = missed_at(begin, window.gap + 1 + half);
   return result;
 }
 
@@ -230,7 +246,7 @@ SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<P
 }
 
 SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
-  const double middle = 0.5 * (values_[gap] + values_[gap + 1]);
+  const double middle = 0.5 * (values_[gap] + values_[std::min(gap + 1, values_.size() - 1)]);
   const SamplePiece& piece = piece_at(pieces_, middle);
   const auto& variances = variances_[static_cast<std::size_t>(&piece - pieces_.data())];
   const Window window = window_at(piece, gap);
@@ -281,8 +297,12 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
   };
   for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
   raise(estimators_here.leave_one_out, 1.0);
-  return {smooth + options_.deviations * estimators_here.amplification * variance.cwiseSqrt() + floor,
-          digits};
+  Vector rough = options_.deviations * variance.cwiseSqrt();
+  if (const Matrix& nearby = estimators_here.nearby; nearby.cols() > 0) {
+    const Vector squares = (shares * nearby).cwiseAbs2().rowwise().mean();
+    rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
+  }
+  return {smooth + estimators_here.amplification * rough + floor, digits};
 }
 
 }  // namespace eigentrail

@@ -298,6 +298,8 @@ std::string stability_name(Stability stability) {
       return "marginal";
     case Stability::unstable:
       return "unstable";
+    case Stability::undecided:
+      return "undecided";
   }
   return "unknown";
 }

@@ -11,6 +11,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "store/data_error_datasets.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
@@ -298,6 +299,7 @@ LociFile read_loci(const std::string& path) {
     read_steps(file, loci);
     read_events(file, loci);
     loci.ranges = read_stable_ranges(file, loci.modes.size());
+    loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
     loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
     loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
     loci.residual = file.read_real("residual");

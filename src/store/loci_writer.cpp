@@ -9,6 +9,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "store/data_error_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/loci_summary.hpp"
 #include "store/loci_tables.hpp"
@@ -34,7 +35,8 @@ double seconds_since(Clock::time_point begin) {
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
-  if (!is_loci_dataset(parameter) && !is_range_dataset(parameter)) return;
+  if (!is_loci_dataset(parameter) && !is_range_dataset(parameter) && !is_data_error_dataset(parameter))
+    return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {
     if (const Value* key = trace->find("parameter")) where = key->where;
@@ -257,10 +259,12 @@ std::vector<std::string> LociWriter::mode_names() const {
   return implementation_->motions.names(implementation_->tables.modes());
 }
 
-void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges) {
+void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges,
+                        const DataErrors* errors) {
   Implementation& self = *implementation_;
   self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early");
   write_stable_ranges(self.tables.file(), self.parameter, ranges);
+  if (errors != nullptr) write_data_errors(self.tables.file(), self.parameter, *errors);
   self.save("");
 }
 

@@ -20,7 +20,8 @@ constexpr std::array<RangeDataset, 9> datasets{{
     {"stable_from", ElementType::real, false, parameter_unit, "where the range begins, as the trace goes"},
     {"stable_to", ElementType::real, false, parameter_unit, "where the range ends, as the trace goes"},
     {"stable_kind", ElementType::text, false, "1",
-     "stable: all followed modes decay; marginal: none grows, some stay on the imaginary axis"},
+     "stable: all followed modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
+     "errors of the data leave it open"},
     {"stable_cause", ElementType::text, true, "1",
      "what ends the range: an event, start or end of the trace, infinity, or sign change"},
     {"stable_margin", ElementType::real, true, "1/s", "-max Re s of the followed modes"},
@@ -46,6 +47,13 @@ void create(Hdf5File& file, const std::string& unit) {
     file.attach_scale(dataset.name, "range", 0);
     if (dataset.per_end) file.attach_scale(dataset.name, "end", 1);
   }
+}
+
+Stability kind_of(const std::string& name) {
+  for (const Stability kind : {Stability::stable, Stability::undecided}) {
+    if (name == stability_name(kind)) return kind;
+  }
+  return Stability::marginal;
 }
 
 std::int64_t number_of(int mode) {
@@ -121,8 +129,8 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
       const int mode = modes[at] < 0 ? -1 : static_cast<int>(modes[at]) - 1;
       return RangeEnd{p, causes[at], margins[at], mode};
     };
-    ranges.push_back({kinds[i] == "stable" ? Stability::stable : Stability::marginal, end(from[i], 2 * i),
-                      end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i]});
+    ranges.push_back(
+        {kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i]});
   }
   return ranges;
 }

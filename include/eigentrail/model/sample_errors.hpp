@@ -52,8 +52,11 @@ struct SampleErrorOptions {
   double slowest = 0.85;
   /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
   double leave_one_out = 7.0;
-  /// Factor of the standard deviation of errors that do not depend smoothly on the parameter.
-  double deviations = 12.0;
+  /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
+  /// standard deviation on the whole range,
+  double deviations = 8.0;
+  /// or, if that is less, with this factor times the root mean square of leave-one-out errors nearby.
+  double deviations_nearby = 4.0;
 };
 
 /// Refers to samples and pieces, which must outlive it.
@@ -65,8 +68,8 @@ class SampleErrors {
   /// Values of the samples, ascending, in the SI unit of the parameter.
   const std::vector<double>& values() const { return values_; }
 
-  /// Bounds that hold between the samples `gap` and `gap` + 1, for eigenvalues with the given eigenvectors.
-  /// Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
+  /// Bounds that hold between the samples `gap` and `gap` + 1, or at the only sample, for eigenvalues with
+  /// the given eigenvectors. Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
   SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const;
 
  private:

@@ -18,7 +18,8 @@ namespace eigentrail {
 enum class Stability {
   stable,    ///< every mode decays
   marginal,  ///< no mode grows; some are on the imaginary axis within rounding, as without damping
-  unstable   ///< some mode grows
+  unstable,  ///< some mode grows
+  undecided  ///< errors of the model's data leave it open (undecided_ranges.hpp)
 };
 
 std::string stability_name(Stability stability);

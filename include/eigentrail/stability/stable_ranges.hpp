@@ -9,8 +9,9 @@
 namespace eigentrail {
 
 struct RangeEnd {
-  double p = 0.0;       ///< value of the traced parameter
-  std::string cause;    ///< what ends the range: an event's name, "start", "end", "infinity" or "sign change"
+  double p = 0.0;     ///< value of the traced parameter
+  std::string cause;  ///< what ends the range: an event's name, "start", "end", "infinity", "sign change" or
+                      ///< "data error"
   double margin = 0.0;  ///< -max Re s there, 1/s; zero where an eigenvalue meets the imaginary axis
   int mode = -1;        ///< the mode that meets the axis or has the largest Re s, from 0; -1: none is known
 };
@@ -18,7 +19,7 @@ struct RangeEnd {
 /// A range without growing modes, in the order of the trace. If the path turns back at a fold, the ranges
 /// before and behind the fold may contain the same parameter values.
 struct StableRange {
-  Stability kind = Stability::stable;  ///< stable or marginal
+  Stability kind = Stability::stable;  ///< stable, marginal or undecided
   RangeEnd from, to;
   double least_margin = 0.0;    ///< of the margins at the ends and the samples (AxisStretch), 1/s
   double largest_margin = 0.0;  ///< of the same margins, 1/s

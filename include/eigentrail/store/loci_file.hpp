@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/data_errors.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
 
@@ -40,6 +41,8 @@ struct LociFile : RecordedPath {
   /// Stable and marginal ranges; absent if the trace has not ended or the file was written by a version
   /// without them.
   std::optional<std::vector<StableRange>> ranges;
+  /// Errors of the model's data; absent if it has none of its own, or the trace has not ended.
+  std::optional<DataErrors> data_errors;
   std::vector<double> residual, condition;        ///< node x mode, row-major
   Matrix equilibrium;                             ///< node x coordinate
   Matrix multiplier;                              ///< node x constraint

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/data_errors.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
 #include "eigentrail/store/saved_trace.hpp"
@@ -66,9 +67,11 @@ class LociWriter {
   /// A description of each mode by the masses that move in it; empty where unknown.
   std::vector<std::string> mode_names() const;
 
-  /// Writes the remaining points, the events, the stable ranges, and the outcome and counts of the run, and
+  /// Writes the remaining points, the events, the stable ranges, the errors of the model's data (null if
+  /// there are none), and the outcome and counts of the run, and
   /// saves the file without a state of the trace.
-  void finish(const TraceResult& result, const std::vector<StableRange>& ranges);
+  void finish(const TraceResult& result, const std::vector<StableRange>& ranges,
+              const DataErrors* errors = nullptr);
 
  private:
   struct Implementation;

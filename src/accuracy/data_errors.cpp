@@ -1,0 +1,290 @@
+#include "eigentrail/accuracy/data_errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "accuracy/eigen_triples.hpp"
+#include "eigentrail/continuation/path_point.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// Places of a gap between samples at which eigenvectors are computed; only the middle where there are more
+/// than `most_places` in all.
+constexpr std::array<double, 3> places_of_gap{0.1, 0.5, 0.9};
+constexpr std::size_t most_places = 300;
+/// Places of a step at which distances of eigenvalues are looked at.
+constexpr int places_of_step = 8;
+
+/// Distance of s[i] from the nearest other eigenvalue, its own conjugate included if it is complex.
+double distance_to_others(const ComplexVector& s, Eigen::Index i) {
+  double least = s[i].imag() != 0.0 ? 2.0 * std::abs(s[i].imag()) : INFINITY;
+  for (Eigen::Index k = 0; k < s.size(); ++k) {
+    if (k == i || !std::isfinite(s[k].real())) continue;
+    least = std::min({least, std::abs(s[k] - s[i]), std::abs(std::conj(s[k]) - s[i])});
+  }
+  return least;
+}
+
+/// The errors of all modes at one place.
+struct ErrorsAt {
+  double p = 0.0;
+  Vector interpolation, digits;
+  Vector distance;  ///< of each eigenvalue from the next one
+};
+
+class ErrorSampler {
+ public:
+  ErrorSampler(const Model& model, const TraceOptions& options)
+      : model_(model),
+        errors_(*model.sample_errors()),
+        problem_(problem_along(model, options.parameter)),
+        factor_(model.description().parameters.at(options.parameter).factor) {}
+
+  /// Values of the samples in the unit of the parameter.
+  std::vector<double> values() const {
+    std::vector<double> result = errors_.values();
+    for (double& value : result) value /= factor_;
+    return result;
+  }
+
+  /// The gap between samples that holds p.
+  std::size_t gap_of(double p) const {
+    const std::vector<double>& all = errors_.values();
+    if (all.size() < 2) return 0;
+    const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, p * factor_);
+    return static_cast<std::size_t>(above - all.begin()) - 1;
+  }
+
+  /// Bounds for the eigenvalues nearest to those of `s` that are finite; NaN for the others.
+  ErrorsAt at(double p, const ComplexVector& s) const {
+    ErrorsAt result{p, Vector::Constant(s.size(), nan), Vector::Constant(s.size(), nan),
+                    Vector::Constant(s.size(), nan)};
+    const std::vector<EigenTriple> all = triples_at(p);
+    if (all.empty()) return result;
+    std::vector<EigenTriple> chosen;
+    std::vector<Eigen::Index> modes;
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      if (!std::isfinite(s[i].real()) || !std::isfinite(s[i].imag())) continue;
+      const auto nearest =
+          std::min_element(all.begin(), all.end(), [&](const EigenTriple& a, const EigenTriple& b) {
+            return std::abs(a.s - s[i]) < std::abs(b.s - s[i]);
+          });
+      chosen.push_back(*nearest);
+      modes.push_back(i);
+    }
+    const SampleBounds bounds = errors_.between(gap_of(p), chosen);
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      const auto from = static_cast<Eigen::Index>(k);
+      result.interpolation[modes[k]] = bounds.interpolation[from];
+      result.digits[modes[k]] = bounds.digits[from];
+      result.distance[modes[k]] = distance_to_others(s, modes[k]);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<EigenTriple> triples_at(double p) const {
+    Path path;
+    path.parameters = parameters_at(problem_, p);
+    path.x = Vector::Zero(model_.n_coordinates());
+    path.lambda = Vector::Zero(0);
+    Linearization linearization;
+    EvaluationCounts counts = model_.new_counts();
+    if (model_.linearize(path, 0, linearization, counts)) return {};
+    return eigen_triples(linearization.M[0].dense(), linearization.C[0].dense(), linearization.K[0].dense());
+  }
+
+  const Model& model_;
+  const SampleErrors& errors_;
+  PathProblem problem_;
+  double factor_;
+};
+
+/// The errors at places between each two samples within the range of the path.
+std::vector<std::vector<ErrorsAt>> errors_between(const ErrorSampler& sampler, const RecordedPath& path) {
+  const std::vector<double> values = sampler.values();
+  const double low = path.lowest(), high = path.highest();
+  std::vector<std::vector<ErrorsAt>> result(values.size() - 1);
+  const bool few = result.size() * places_of_gap.size() <= most_places;
+  for (std::size_t gap = 0; gap < result.size(); ++gap) {
+    const double from = std::max(values[gap], low);
+    const double to = std::min(values[gap + 1], high);
+    if (!(to > from)) continue;
+    for (std::size_t i = few ? 0 : 1; i < (few ? places_of_gap.size() : 2); ++i) {
+      const double p = from + places_of_gap[i] * (to - from);
+      const auto positions = path.positions(p);
+      if (positions.empty()) continue;
+      result[gap].push_back(sampler.at(p, path.eigenvalues_at(positions.front())));
+    }
+  }
+  return result;
+}
+
+/// Whether eigenvalues of a mode meet others in a gap, so that the error grows there.
+bool meets(const std::vector<Event>& events, int mode, double from, double to) {
+  return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    const bool kind = event.kind == EventKind::collision || event.kind == EventKind::veering;
+    return kind && event.p >= from && event.p <= to &&
+           std::find(event.modes.begin(), event.modes.end(), mode) != event.modes.end();
+  });
+}
+
+/// The largest error of a mode on a step, from the errors at places of the gap. Near an exceptional point the
+/// discriminant D = (distance / 2)^2 has an error that does not vary much, error times distance; the error of
+/// the eigenvalue is that over the distance, and the root of it where the distance is less.
+double error_on_step(const RecordedPath& path, std::size_t step, Eigen::Index mode, double error,
+                     double distance) {
+  const double product = error * distance;
+  double largest = error;
+  for (int k = 0; k <= places_of_step; ++k) {
+    const ComplexVector s = path.eigenvalues_at({step, static_cast<double>(k) / places_of_step});
+    if (!std::isfinite(s[mode].real())) continue;
+    const double here = distance_to_others(s, mode);
+    largest =
+        std::max(largest, here > 0.0 ? std::min(product / here, std::sqrt(product)) : std::sqrt(product));
+  }
+  return largest;
+}
+
+/// A function of p and s that vanishes at an event, and how much it changes at most per change of s.
+struct Criterion {
+  double value = nan;
+  double per_s = 1.0;
+};
+
+Criterion criterion(const Event& event, Complex s, double excitation) {
+  const double size = std::abs(s);
+  const double ratio = -s.real() / size;
+  switch (event.kind) {
+    case EventKind::flutter:
+    case EventKind::divergence:
+      return {s.real(), 1.0};
+    case EventKind::damping_ratio:
+      return {ratio - event.value, 1.0 / size};
+    case EventKind::log_decrement: {
+      constexpr double turn = 6.283185307179586;
+      return {ratio - event.value / std::hypot(event.value, turn), 1.0 / size};
+    }
+    case EventKind::resonance:
+      return {s.imag() - event.value * excitation, 1.0};
+    case EventKind::band_edge:
+      return {s.imag() - event.value, 1.0};
+    default:
+      return {};
+  }
+}
+
+/// Walks from an event along the path as long as the criterion may vanish.
+class IntervalWalk {
+ public:
+  IntervalWalk(const Model& model, const TraceOptions& options, const RecordedPath& path,
+               const DataErrors& errors)
+      : options_(options), path_(path), errors_(errors), problem_(problem_along(model, options.parameter)) {}
+
+  EventInterval around(const Event& event) const {
+    if (event.modes.empty() || !std::isfinite(criterion(event, Complex(1.0, 1.0), 0.0).value)) return {};
+    const auto positions = path_.positions(event.p);
+    if (positions.empty()) return {};
+    const double place = static_cast<double>(positions.front().step) + positions.front().t;
+    double low = end_of(event, place, -1.0), high = end_of(event, place, 1.0);
+    if (low > high) std::swap(low, high);
+    return {std::min(low, event.p), std::max(high, event.p)};
+  }
+
+ private:
+  /// Places are counted in steps from the first point.
+  PathPosition position(double place) const {
+    const auto step = std::min(static_cast<std::size_t>(place), path_.steps.size() - 1);
+    return {step, place - static_cast<double>(step)};
+  }
+
+  bool may_vanish(const Event& event, double place) const {
+    const PathPosition at = position(place);
+    const Eigen::Index mode = event.modes.front();
+    const Complex s = path_.eigenvalues_at(at)[mode];
+    if (!std::isfinite(s.real())) return false;
+    double excitation = 0.0;
+    if (options_.events.excitation) {
+      const Parameters& parameters = problem_.model.description().parameters;
+      Vector si = parameters_at(problem_, path_.parameter_at(at));
+      parameters.to_si(std::span<double>(si.data(), parameters.size()));
+      excitation =
+          options_.events.excitation->evaluate(std::span<const double>(si.data(), parameters.size()));
+    }
+    const Criterion here = criterion(event, s, excitation);
+    return std::abs(here.value) <= here.per_s * errors_.at(at.step, mode);
+  }
+
+  double end_of(const Event& event, double place, double direction) const {
+    const auto last = static_cast<double>(path_.steps.size());
+    double inside = place, outside = place;
+    do {
+      inside = outside;
+      outside = std::clamp(inside + direction / places_of_step, 0.0, last);
+    } while (outside != inside && may_vanish(event, outside));
+    constexpr int halvings = 40;
+    for (int i = 0; i < halvings && outside != inside; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (may_vanish(event, middle) ? inside : outside) = middle;
+    }
+    return path_.parameter_at(position(outside));
+  }
+
+  const TraceOptions& options_;
+  const RecordedPath& path_;
+  const DataErrors& errors_;
+  PathProblem problem_;
+};
+
+}  // namespace
+
+std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& options,
+                                      const RecordedPath& path, const std::vector<Event>& events) {
+  if (model.sample_errors() == nullptr || model.sample_errors()->values().size() < 2 || path.steps.empty())
+    return std::nullopt;
+  const ErrorSampler sampler(model, options);
+  const std::vector<double> values = sampler.values();
+  const auto samples = errors_between(sampler, path);
+  const auto n_steps = static_cast<Eigen::Index>(path.steps.size());
+  const Eigen::Index n_modes = path.eigenvalues.cols();
+  DataErrors errors{Matrix::Constant(n_steps, n_modes, nan), Matrix::Constant(n_steps, n_modes, nan)};
+  for (Eigen::Index step = 0; step < n_steps; ++step) {
+    const auto at = static_cast<std::size_t>(step);
+    const auto [low, high] = std::minmax(path.p[at], path.p[at + 1]);
+    const std::size_t first = sampler.gap_of(low), last = sampler.gap_of(high);
+    const ComplexVector middle = path.eigenvalues_at({at, 0.5});
+    for (Eigen::Index mode = 0; mode < n_modes; ++mode) {
+      if (!std::isfinite(middle[mode].real())) continue;
+      for (std::size_t gap = first; gap <= last; ++gap) {
+        if (gap > first && values[gap] >= high) break;
+        const bool grows = meets(events, static_cast<int>(mode), values[gap], values[gap + 1]);
+        for (const ErrorsAt& place : samples[gap]) {
+          const auto raise = [&](double& entry, double error) {
+            if (!std::isfinite(error)) return;
+            const double here = grows ? error_on_step(path, at, mode, error, place.distance[mode]) : error;
+            entry = std::isnan(entry) ? here : std::max(entry, here);
+          };
+          raise(errors.interpolation(step, mode), place.interpolation[mode]);
+          raise(errors.digits(step, mode), place.digits[mode]);
+        }
+      }
+    }
+  }
+  const IntervalWalk walk(model, options, path, errors);
+  for (const Event& event : events) errors.intervals.push_back(walk.around(event));
+  return errors;
+}
+
+std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options, double p,
+                                     const ComplexVector& s) {
+  if (model.sample_errors() == nullptr) return std::nullopt;
+  const ErrorsAt errors = ErrorSampler(model, options).at(p, s);
+  Matrix result(s.size(), 2);
+  result << errors.interpolation, errors.digits;
+  return result;
+}
+
+}  // namespace eigentrail

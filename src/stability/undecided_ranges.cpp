@@ -1,0 +1,193 @@
+#include "eigentrail/stability/undecided_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/stability/permanent_modes.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int samples_per_step = 8;
+/// The cause of an end of a range beyond which the errors leave the stability open.
+constexpr const char* cause = "data error";
+
+/// What the intervals of all real parts say at a place.
+struct Sample {
+  double place = 0.0;  ///< in steps from the first point
+  Stability verdict = Stability::undecided;
+  double margin = 0.0;  ///< -max Re s
+  int critical = -1;    ///< the mode with the largest Re s
+};
+
+/// Places, in steps from the first point.
+struct Stretch {
+  Sample from, to;
+};
+
+class Sampler {
+ public:
+  Sampler(const RecordedPath& path, const DataErrors& errors, const EigenvalueAccuracy& accuracy)
+      : path_(path), errors_(errors), accuracy_(accuracy), permanence_(permanence_of_modes(path, accuracy)) {}
+
+  PathPosition position(double place) const {
+    const auto step = std::min(static_cast<std::size_t>(place), path_.steps.size() - 1);
+    return {step, place - static_cast<double>(step)};
+  }
+
+  double parameter(double place) const { return path_.parameter_at(position(place)); }
+
+  Sample at(double place) const {
+    const PathPosition here = position(place);
+    const ComplexVector s = path_.eigenvalues_at(here);
+    double lowest = -INFINITY, highest = -INFINITY, fastest = -INFINITY;
+    Sample sample{place};
+    for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
+      if (permanence_[static_cast<std::size_t>(mode)] == Permanence::zero || !std::isfinite(s[mode].real()))
+        continue;
+      const double error = errors_.at(here.step, mode) +
+                           accuracy_.tolerance * std::max(std::abs(s[mode]), accuracy_.reference);
+      lowest = std::max(lowest, s[mode].real() - error);
+      highest = std::max(highest, s[mode].real() + error);
+      if (s[mode].real() <= fastest) continue;
+      fastest = s[mode].real();
+      sample.critical = static_cast<int>(mode);
+    }
+    sample.margin = -fastest;
+    if (highest < 0.0) sample.verdict = Stability::stable;
+    if (lowest > 0.0) sample.verdict = Stability::unstable;
+    return sample;
+  }
+
+  /// The place between two samples at which the verdict `undecided` begins or ends.
+  Sample edge(Sample inside, Sample outside) const {
+    constexpr int halvings = 45;
+    for (int i = 0; i < halvings; ++i) {
+      const Sample middle = at(0.5 * (inside.place + outside.place));
+      (middle.verdict == Stability::undecided ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+ private:
+  const RecordedPath& path_;
+  const DataErrors& errors_;
+  EigenvalueAccuracy accuracy_;
+  std::vector<Permanence> permanence_;
+};
+
+/// Samples all along the path, and at the events on the imaginary axis.
+std::vector<Sample> all_samples(const Sampler& sampler, const RecordedPath& path,
+                                const std::vector<Event>& events) {
+  std::vector<double> places;
+  for (std::size_t step = 0; step < path.steps.size(); ++step) {
+    for (int k = 0; k < samples_per_step; ++k)
+      places.push_back(static_cast<double>(step) + static_cast<double>(k) / samples_per_step);
+  }
+  places.push_back(static_cast<double>(path.steps.size()));
+  for (const Event& event : events) {
+    if (event.kind != EventKind::flutter && event.kind != EventKind::divergence) continue;
+    for (const PathPosition& at : path.positions(event.p))
+      places.push_back(static_cast<double>(at.step) + at.t);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<Sample> samples;
+  for (const double place : places) samples.push_back(sampler.at(place));
+  return samples;
+}
+
+std::vector<Stretch> undecided_stretches(const Sampler& sampler, const std::vector<Sample>& samples) {
+  std::vector<Stretch> found;
+  const auto open = [&](std::size_t i) { return samples[i].verdict == Stability::undecided; };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!open(i)) continue;
+    const std::size_t first = i;
+    while (i + 1 < samples.size() && open(i + 1)) ++i;
+    found.push_back({first == 0 ? samples[0] : sampler.edge(samples[first], samples[first - 1]),
+                     i + 1 == samples.size() ? samples[i] : sampler.edge(samples[i], samples[i + 1])});
+  }
+  return found;
+}
+
+/// Parameter values grow in the direction of the trace if multiplied by this.
+double direction_of(const RecordedPath& path) {
+  return path.p.back() >= path.p.front() ? 1.0 : -1.0;
+}
+
+}  // namespace
+
+std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, const RecordedPath& path,
+                                        const std::vector<Event>& events, const DataErrors& errors,
+                                        const EigenvalueAccuracy& accuracy) {
+  if (path.steps.empty()) return ranges;
+  const Sampler sampler(path, errors, accuracy);
+  const std::vector<Sample> samples = all_samples(sampler, path, events);
+  const double direction = direction_of(path);
+  const auto before = [direction](double a, double b) { return direction * a < direction * b; };
+  const auto edge = [&](const Sample& at) {
+    return RangeEnd{sampler.parameter(at.place), cause, at.margin, at.critical};
+  };
+
+  std::vector<StableRange> open;
+  for (const Stretch& stretch : undecided_stretches(sampler, samples)) {
+    StableRange range{Stability::undecided, edge(stretch.from), edge(stretch.to), 0.0, 0.0, 0.0};
+    if (stretch.from.place == 0.0) range.from.cause = "start";
+    if (stretch.to.place == static_cast<double>(path.steps.size())) range.to.cause = "end";
+    const bool marginal = std::any_of(ranges.begin(), ranges.end(), [&](const StableRange& other) {
+      return other.kind == Stability::marginal && before(other.from.p, range.to.p) &&
+             before(range.from.p, other.to.p);
+    });
+    if (marginal) continue;
+    range.least_margin = std::min(range.from.margin, range.to.margin);
+    range.largest_margin = std::max(range.from.margin, range.to.margin);
+    range.largest_at = range.from.margin >= range.to.margin ? range.from.p : range.to.p;
+    open.push_back(range);
+  }
+
+  std::vector<StableRange> result = open;
+  for (const StableRange& range : ranges) {
+    std::vector<StableRange> parts{range};
+    for (const StableRange& hole : open) {
+      std::vector<StableRange> rest;
+      for (const StableRange& part : parts) {
+        if (!before(hole.from.p, part.to.p) || !before(part.from.p, hole.to.p)) {
+          rest.push_back(part);
+          continue;
+        }
+        StableRange left = part, right = part;
+        left.to = hole.from;
+        right.from = hole.to;
+        left.to.cause = right.from.cause = cause;
+        if (before(part.from.p, hole.from.p)) rest.push_back(left);
+        if (before(hole.to.p, part.to.p)) rest.push_back(right);
+      }
+      parts = std::move(rest);
+    }
+    for (StableRange& part : parts) {
+      const bool whole = part.from.p == range.from.p && part.to.p == range.to.p;
+      if (!whole) {
+        part.least_margin = std::min(part.from.margin, part.to.margin);
+        part.largest_margin = -INFINITY;
+        const auto include = [&part](double margin, double p) {
+          part.least_margin = std::min(part.least_margin, margin);
+          if (margin <= part.largest_margin) return;
+          part.largest_margin = margin;
+          part.largest_at = p;
+        };
+        include(part.from.margin, part.from.p);
+        for (const Sample& sample : samples) {
+          const double p = sampler.parameter(sample.place);
+          if (before(part.from.p, p) && before(p, part.to.p)) include(sample.margin, p);
+        }
+        include(part.to.margin, part.to.p);
+      }
+      result.push_back(part);
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const StableRange& a, const StableRange& b) { return before(a.from.p, b.from.p); });
+  return result;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,22 @@
+// Errors of the model's data in a loci file (docs/sampled-families.md).
+#pragma once
+
+#include <optional>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/continuation/data_errors.hpp"
+
+namespace eigentrail {
+
+/// Creates and writes the datasets. The other datasets of the file must be complete.
+void write_data_errors(Hdf5File& file, const std::string& parameter, const DataErrors& errors);
+
+/// Empty if the file has no such datasets. Throws Hdf5Error if they do not fit the numbers of steps, modes
+/// and events.
+std::optional<DataErrors> read_data_errors(const Hdf5File& file, std::size_t steps, std::size_t modes,
+                                           std::size_t events);
+
+/// Whether one of these datasets has this name.
+bool is_data_error_dataset(const std::string& name);
+
+}  // namespace eigentrail
