@@ -11,6 +11,7 @@ namespace eigentrail::app {
 enum ExitCode { done = 0, numbers_failed = 1, bad_input = 2 };
 
 void add_new(CLI::App& program, int& exit_code);
+void add_suggest(CLI::App& program, int& exit_code);
 void add_import(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
 void add_spectrum(CLI::App& program, int& exit_code);

@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   int exit_code = done;
   add_new(program, exit_code);
   add_import(program, exit_code);
+  add_suggest(program, exit_code);
   add_explain(program, exit_code);
   add_trace(program, exit_code);
   add_spectrum(program, exit_code);

@@ -1,6 +1,7 @@
 #include "eigentrail/model/sample_errors.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,6 +15,8 @@ namespace {
 constexpr double rounding = 4e-16;
 /// Samples next to a gap that are looked at; the others change the estimate little.
 constexpr std::size_t most_samples = 48;
+/// With fewer samples more than the degree, the leave-one-out errors of all samples are alike.
+constexpr Eigen::Index fewest_for_noise_nearby = 7;
 /// Samples near a gap whose leave-one-out errors are averaged.
 constexpr std::size_t nearby_samples = 10;
 /// Fewest samples of a piece whose errors are split in a smooth part and the rest.
@@ -37,8 +40,9 @@ Matrix orthonormal_polynomials(const std::vector<double>& nodes) {
 }
 
 /// Combinations of the samples, one per column, in which smooth functions of the parameter vanish: the
-/// coefficients of the highest orthonormal polynomials, less their part in the span of the lower ones. What
-/// depends smoothly on the parameter varies in few directions, and those are the same in all coefficients.
+/// coefficients of the highest orthonormal polynomials, less their part in the main directions of the lower
+/// ones. What depends smoothly on the parameter varies in few directions, and those are the same in all
+/// coefficients.
 struct RoughPart {
   Matrix combinations;   ///< samples x k
   double freedom = 1.0;  ///< share of the variance that is left
@@ -48,14 +52,18 @@ RoughPart rough_part(const SamplePiece& piece, double n_entries) {
   const auto n = static_cast<Eigen::Index>(piece.size());
   const Eigen::Index high = std::max<Eigen::Index>(2, n / 4);
   const Matrix polynomials = orthonormal_polynomials(piece.interpolant.nodes());
+  const Matrix coefficients = piece.reduced * polynomials;
+  Eigen::JacobiSVD<Matrix> lower(coefficients.leftCols(n - high), Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double same_direction = 1e-13;
-  Eigen::CompleteOrthogonalDecomposition<Matrix> lower;
   lower.setThreshold(same_direction);
-  lower.compute(piece.reduced * polynomials.leftCols(n - high));
-  const Matrix part = lower.solve(piece.reduced * polynomials.rightCols(high));
+  // With more directions than half of the coefficients, those of errors that are not smooth are among them.
+  const Eigen::Index main = std::min((n - high) / 2, lower.rank());
+  const Matrix part = lower.matrixV().leftCols(main) *
+                      lower.singularValues().head(main).cwiseInverse().asDiagonal() *
+                      lower.matrixU().leftCols(main).transpose() * coefficients.rightCols(high);
   constexpr double least_freedom = 0.05;
   return {polynomials.rightCols(high) - polynomials.leftCols(n - high) * part,
-          std::max(least_freedom, 1.0 - static_cast<double>(lower.rank()) / n_entries)};
+          std::max(least_freedom, 1.0 - static_cast<double>(main) / n_entries)};
 }
 
 bool varies(const PencilSamples& samples, const SamplePiece& piece, Eigen::Index row, Eigen::Index column) {
@@ -298,7 +306,8 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
   for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
   raise(estimators_here.leave_one_out, 1.0);
   Vector rough = options_.deviations * variance.cwiseSqrt();
-  if (const Matrix& nearby = estimators_here.nearby; nearby.cols() > 0) {
+  const Matrix& nearby = estimators_here.nearby;
+  if (nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby) {
     const Vector squares = (shares * nearby).cwiseAbs2().rowwise().mean();
     rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
   }

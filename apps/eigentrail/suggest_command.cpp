@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "eigentrail/accuracy/suggest.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/model/sampled_data.hpp"
+#include "output.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct SuggestArguments {
+  std::string file;
+  int count = 3;
+  bool json = false;
+  std::map<std::string, std::string> options;
+};
+
+/// A scene, or the samples themselves: then a scene that names them and follows all modes on their range.
+Scene scene_of(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".h5") return read_scene(path);
+  const SampledData data = [&] {
+    try {
+      return read_samples(path);
+    } catch (const std::exception& error) {
+      throw InputError(path + ": " + error.what());
+    }
+  }();
+  const std::string name = std::filesystem::path(path).filename().string();
+  return parse_scene(
+      "[sampled_family]\nfile = \"" + name +
+          "\"\n[trace]\nparameter = \"p\"\nfrom = " + exact_text(data.values.front()) +
+          "\nto = " + exact_text(data.count() > 1 ? data.values.back() : data.values.front() + 1.0) + "\n",
+      (std::filesystem::path(path).parent_path() / "samples").string());
+}
+
+void print_json(const std::vector<Suggestion>& suggestions) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Suggestion& one : suggestions)
+    rows.push_back(
+        {{"parameter", one.p}, {"error", one.error}, {"real", one.s.real()}, {"imag", one.s.imag()}});
+  std::printf("%s\n", rows.dump(2).c_str());
+}
+
+int run_suggest(const SuggestArguments& arguments) {
+  const TraceSetup setup =
+      prepare_trace(scene_of(arguments.file), {arguments.options.begin(), arguments.options.end()},
+                    Purpose::operating_point);
+  const std::vector<Suggestion> all = suggest_samples(setup);
+  const double tolerance = setup.options.tolerance;
+  const auto above = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.error > tolerance; }));
+  const std::vector<Suggestion> first(
+      all.begin(),
+      all.begin() + static_cast<std::ptrdiff_t>(std::min(above, static_cast<std::size_t>(arguments.count))));
+  if (arguments.json) {
+    print_json(first);
+    return done;
+  }
+  std::printf("%zu samples, relative error of eigenvalues between them up to %s\n", all.size() + 1,
+              rounded(all.empty() ? 0.0 : all.front().error, 2).c_str());
+  if (above == 0) {
+    std::printf("no more samples are needed for the tolerance %s\n", exact_text(tolerance).c_str());
+    return done;
+  }
+  std::printf("%zu of %zu gaps miss the tolerance %s; compute next:\n", above, all.size(),
+              exact_text(tolerance).c_str());
+  std::vector<std::vector<std::string>> rows{{setup.options.parameter, "error there", "of the eigenvalue"}};
+  for (const Suggestion& one : first)
+    rows.push_back({exact_text(one.p), rounded(one.error, 2), complex_text(one.s.real(), one.s.imag(), 6)});
+  print_table(rows);
+  return done;
+}
+
+}  // namespace
+
+void add_suggest(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<SuggestArguments>();
+  CLI::App* command =
+      program.add_subcommand("suggest", "at which values of the parameter to compute more samples");
+  command->add_option("FILE", arguments->file, "scene with a [sampled_family], or its samples (.h5)")
+      ->required();
+  command->add_option("--count", arguments->count, "largest number of values")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  for (const std::string name : {"from", "to", "tolerance", "modes"}) {
+    command->add_option_function<std::string>(
+        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
+        "as for trace (overrides the scene)");
+  }
+  command->add_flag("--json", arguments->json, "print a list of objects");
+  command->footer(
+      "Examples:\n"
+      "  eigentrail suggest turbine.toml --modes \"band = ['0.1 Hz', '3 Hz']\"\n"
+      "  eigentrail suggest samples.h5 --tolerance 1e-4 --count 1");
+  command->callback([arguments, &exit_code] { exit_code = run_suggest(*arguments); });
+}
+
+}  // namespace eigentrail::app

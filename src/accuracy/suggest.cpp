@@ -1,0 +1,66 @@
+#include "eigentrail/accuracy/suggest.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/accuracy/data_errors.hpp"
+#include "eigentrail/continuation/operating_point.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/model/sample_errors.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues below this share of the median |s| count as zero, as in a trace.
+constexpr double share_of_median = 1e-3;
+
+double reference_of(const TraceOptions& options, const ComplexVector& s) {
+  if (options.reference) return *options.reference;
+  std::vector<double> sizes;
+  for (const Complex one : s) sizes.push_back(std::abs(one));
+  if (sizes.empty()) return 0.0;
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  return share_of_median * sizes[sizes.size() / 2];
+}
+
+/// The largest error of the chosen modes at p.
+Suggestion suggestion_at(const TraceSetup& setup, double p) {
+  const OperatingPoint point = operating_points(setup, {p}).front();
+  if (!point.fault.empty()) throw InputError(setup.scene.path + ": " + point.fault);
+  ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
+  for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
+  const Matrix errors = *data_errors_at(*setup.model, setup.options, p, s);
+  const double reference = reference_of(setup.options, s);
+  Suggestion result{p, 0.0, {}};
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const double relative = errors(i, 0) / std::max(std::abs(s[i]), reference);
+    if (!(relative > result.error)) continue;
+    result.error = relative;
+    result.s = s[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Suggestion> suggest_samples(const TraceSetup& setup) {
+  const SampleErrors* errors = setup.model->sample_errors();
+  if (errors == nullptr)
+    throw InputError(setup.scene.path + ": suggestions are made for samples; expected a [sampled_family]");
+  if (errors->values().size() < 2)
+    throw InputError(setup.scene.path +
+                     ": has one sample; at least two are needed, at the ends of the range");
+  const double factor = setup.model->description().parameters.at(setup.options.parameter).factor;
+  const auto [low, high] = std::minmax(setup.options.from, setup.options.to);
+  std::vector<Suggestion> all;
+  for (std::size_t i = 0; i + 1 < errors->values().size(); ++i) {
+    const double from = std::max(errors->values()[i] / factor, low);
+    const double to = std::min(errors->values()[i + 1] / factor, high);
+    if (to > from) all.push_back(suggestion_at(setup, 0.5 * (from + to)));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Suggestion& a, const Suggestion& b) { return a.error > b.error; });
+  return all;
+}
+
+}  // namespace eigentrail

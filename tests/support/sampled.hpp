@@ -1,0 +1,69 @@
+// Sampled families for tests: functions p -> A(p) sampled at values of p.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <random>
+
+#include "eigentrail/import/write_samples.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+
+using MatrixFunction = std::function<Matrix(double)>;
+
+inline SampledData sampled(const MatrixFunction& A, const std::vector<double>& values) {
+  SampledData data;
+  data.values = values;
+  for (const double p : values) data.A.push_back(A(p));
+  return data;
+}
+
+/// The samples as a scene with the parameter p, in a folder that is removed with the object.
+class SampledScene {
+ public:
+  explicit SampledScene(const SampledData& data, const std::string& keys = "",
+                        const std::string& trace = "") {
+    std::random_device random;
+    folder_ = std::filesystem::temp_directory_path() / ("eigentrail_" + std::to_string(random()));
+    std::filesystem::create_directories(folder_);
+    write_samples((folder_ / "samples.h5").string(), data);
+    const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
+    text_ = "[sampled_family]\nfile = \"samples.h5\"\n" + keys + "[trace]\nparameter = \"p\"\n" +
+            (trace.empty() ? "from = " + std::to_string(*least) + "\nto = " + std::to_string(*most) +
+                                 "\ntolerance = 1e-10\n"
+                           : trace);
+  }
+  ~SampledScene() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  SampledScene(const SampledScene&) = delete;
+  SampledScene& operator=(const SampledScene&) = delete;
+
+  Setting setting() const {
+    Setting setting;
+    static_cast<TraceSetup&>(setting) =
+        prepare_trace(parse_scene(text_, (folder_ / "scene.toml").string()), {});
+    return setting;
+  }
+  std::string file() const { return (folder_ / "samples.h5").string(); }
+
+ private:
+  std::filesystem::path folder_;
+  std::string text_;
+};
+
+/// n values from 0 to 1; unless `seed` is zero, those inside are moved by up to 0.3 of their distance.
+inline std::vector<double> sample_values(int n, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> shift(-0.3, 0.3);
+  std::vector<double> values;
+  for (int i = 0; i < n; ++i) {
+    const bool inside = i > 0 && i + 1 < n && seed != 0;
+    values.push_back((i + (inside ? shift(engine) : 0.0)) / (n - 1));
+  }
+  return values;
+}
+
+}  // namespace eigentrail::test
