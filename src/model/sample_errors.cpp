@@ -311,7 +311,7 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
     const Vector squares = (shares * nearby).cwiseAbs2().rowwise().mean();
     rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
   }
-  return {smooth + estimators_here.amplification * rough + floor, digits};
+  return {smooth.cwiseMax(estimators_here.amplification * rough) + floor, digits};
 }
 
 }  // namespace eigentrail

@@ -47,16 +47,16 @@ struct SampleBounds {
 /// (docs/developers/sampled-families.md).
 struct SampleErrorOptions {
   /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
-  double safety = 3;
+  double safety = 3.0;
   /// Largest ratio of the errors of successive degrees with which that difference is extrapolated.
-  double slowest = 0.8;
+  double slowest = .8;
   /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
-  double leave_one_out = 9;
+  double leave_one_out = 7.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
   /// standard deviation on the whole range,
-  double deviations = 8;
+  double deviations = 8.0;
   /// or, if that is less, with this factor times the root mean square of leave-one-out errors nearby.
-  double deviations_nearby = 4;
+  double deviations_nearby = 3.5;
 };
 
 /// Refers to samples and pieces, which must outlive it.
