@@ -3,4 +3,12 @@
 
 #include "eigentrail/import/importer.hpp"
 
-namespace eigentrail {}  // namespace eigentrail
+namespace eigentrail {
+
+Importer openfast_importer();
+Importer matrix_market_importer();
+Importer matlab_importer();
+Importer nastran_importer();
+Importer numpy_importer();
+
+}  // namespace eigentrail

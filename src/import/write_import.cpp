@@ -24,6 +24,18 @@ void write_list(Hdf5File& file, const std::string& name, ElementType type, const
   file.write_rows(name, 0, list);
 }
 
+void write_matrices(Hdf5File& file, const std::string& name, const std::vector<Matrix>& samples) {
+  if (samples.empty()) return;
+  std::vector<double> rows;
+  for (const Matrix& sample : samples) {
+    const RowMajor ordered = sample;
+    rows.insert(rows.end(), ordered.data(), ordered.data() + ordered.size());
+  }
+  const auto n = static_cast<std::uint64_t>(samples.front().rows());
+  file.create_dataset({name, ElementType::real, {samples.size(), n, n}, false, {}});
+  file.write_rows(name, 0, rows);
+}
+
 }  // namespace
 
 void write_samples(const std::string& path, const SampledData& data) {
@@ -35,18 +47,8 @@ void write_samples(const std::string& path, const SampledData& data) {
                        false,
                        {{"units", data.parameter_unit.empty() ? "1" : data.parameter_unit}}});
   file.write_rows("parameter", 0, data.values);
-  const auto n = static_cast<std::uint64_t>(data.size());
-  for (const SampledMatrix& named : sampled_matrices()) {
-    const std::vector<Matrix>& samples = data.*named.samples;
-    if (samples.empty()) continue;
-    std::vector<double> rows;
-    for (const Matrix& sample : samples) {
-      const RowMajor ordered = sample;
-      rows.insert(rows.end(), ordered.data(), ordered.data() + ordered.size());
-    }
-    file.create_dataset({named.name, ElementType::real, {data.count(), n, n}, false, {}});
-    file.write_rows(named.name, 0, rows);
-  }
+  for (const SampledMatrix& named : sampled_matrices()) write_matrices(file, named.name, data.*named.samples);
+  write_matrices(file, "A_error", data.A_error);
   write_list(file, "state_names", ElementType::text, data.state_names);
   write_list(file, "state_units", ElementType::text, data.state_units);
   write_list(file, "derivative_order", ElementType::integer,
@@ -83,7 +85,8 @@ std::string scene_text(const Imported& imported, const std::string& file) {
   text += (unit.empty() || known_unit ? "" : "  # " + printable(unit)) + "\n\n";
   text += "[sampled_family]\nfile = " + quoted(file) + "\n\n[trace]\n";
   text += "parameter = " + quoted(imported.parameter) + "\n";
-  text += "from = " + exact_text(*least) + "\nto = " + exact_text(*largest) + "\ntolerance = 1e-6\n";
+  text += "from = " + exact_text(*least) + "\n";
+  if (samples.count() > 1) text += "to = " + exact_text(*largest) + "\ntolerance = 1e-6\n";
   return text;
 }
 

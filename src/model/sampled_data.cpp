@@ -27,12 +27,11 @@ std::string plural(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void check_samples(const SampledData& data, const SampledMatrix& named, Eigen::Index n) {
-  const std::vector<Matrix>& list = data.*named.samples;
+void check_samples(const std::string& name, const std::vector<Matrix>& list, std::size_t count,
+                   Eigen::Index n) {
   if (list.empty()) return;
-  const std::string name = named.name;
-  if (list.size() != data.count())
-    fail(name + " has " + plural(list.size(), "sample") + " for " + plural(data.count(), "value") +
+  if (list.size() != count)
+    fail(name + " has " + plural(list.size(), "sample") + " for " + plural(count, "value") +
          " of the parameter");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string which = name + ", sample " + std::to_string(i + 1);
@@ -40,6 +39,15 @@ void check_samples(const SampledData& data, const SampledMatrix& named, Eigen::I
       fail(which + " is " + std::to_string(list[i].rows()) + " x " + std::to_string(list[i].cols()) +
            "; expected " + std::to_string(n) + " x " + std::to_string(n));
     if (!list[i].allFinite()) fail(which + " has an entry that is not finite");
+  }
+}
+
+void check_A_error(const SampledData& data, Eigen::Index n) {
+  if (data.A_error.empty()) return;
+  if (!data.first_order()) fail("A_error without A");
+  check_samples("A_error", data.A_error, data.count(), n);
+  for (const Matrix& error : data.A_error) {
+    if ((error.array() < 0).any()) fail("A_error has a negative entry; its entries are bounds of errors");
   }
 }
 
@@ -102,6 +110,7 @@ class SampleReader {
       if (state_space && named.name == std::string("C")) continue;
       if (file_.has("/" + std::string(named.name))) data_.*named.samples = read_matrices(named.name);
     }
+    if (file_.has("/A_error")) data_.A_error = read_matrices("A_error");
     read_states();
     if (file_.has_attribute("digits")) data_.digits = static_cast<int>(file_.integer_attribute("digits"));
     if (file_.has_attribute("source")) data_.source = file_.text_attribute("source");
@@ -114,7 +123,8 @@ class SampleReader {
  private:
   void reject_unknown() const {
     std::vector<std::string> known = {
-        "parameter", "M", "C", "K", "E", "A", "state_names", "state_units", "derivative_order", "frame"};
+        "parameter",        "M",    "C", "K", "E", "A", "A_error", "state_names", "state_units",
+        "derivative_order", "frame"};
     known.insert(known.end(), kept.begin(), kept.end());
     for (const std::string& name : file_.members("/")) {
       if (std::find(known.begin(), known.end(), name) == known.end())
@@ -189,6 +199,7 @@ class SampleReader {
       for (const SampledMatrix& named : sampled_matrices()) {
         if (!(data_.*named.samples).empty()) reorder((data_.*named.samples)[i], from);
       }
+      if (!data_.A_error.empty()) reorder(data_.A_error[i], from);
     }
   }
 
@@ -205,6 +216,7 @@ class SampleReader {
     data_.values = sorted(data_.values);
     for (const SampledMatrix& named : sampled_matrices())
       data_.*named.samples = sorted(std::move(data_.*named.samples));
+    data_.A_error = sorted(std::move(data_.A_error));
   }
 
   Hdf5File file_;
@@ -237,7 +249,9 @@ void check(const SampledData& data) {
   check_form(data);
   const Eigen::Index n = data.size();
   if (n == 0) fail("the matrices have no rows");
-  for (const SampledMatrix& named : sampled_matrices()) check_samples(data, named, n);
+  for (const SampledMatrix& named : sampled_matrices())
+    check_samples(named.name, data.*named.samples, data.count(), n);
+  check_A_error(data, n);
   check_length(data.state_names, "state_names", n);
   check_length(data.state_units, "state_units", n);
   check_length(data.derivative_order, "derivative_order", n);

@@ -1,11 +1,11 @@
 // Sampled families for tests: functions p -> A(p) sampled at values of p.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <random>
 
 #include "eigentrail/import/write_samples.hpp"
+#include "support/folder.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -24,33 +24,23 @@ class SampledScene {
  public:
   explicit SampledScene(const SampledData& data, const std::string& keys = "",
                         const std::string& trace = "") {
-    std::random_device random;
-    folder_ = std::filesystem::temp_directory_path() / ("eigentrail_" + std::to_string(random()));
-    std::filesystem::create_directories(folder_);
-    write_samples((folder_ / "samples.h5").string(), data);
+    write_samples(file(), data);
     const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
     text_ = "[sampled_family]\nfile = \"samples.h5\"\n" + keys + "[trace]\nparameter = \"p\"\n" +
             (trace.empty() ? "from = " + std::to_string(*least) + "\nto = " + std::to_string(*most) +
                                  "\ntolerance = 1e-10\n"
                            : trace);
   }
-  ~SampledScene() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  SampledScene(const SampledScene&) = delete;
-  SampledScene& operator=(const SampledScene&) = delete;
 
   Setting setting() const {
     Setting setting;
-    static_cast<TraceSetup&>(setting) =
-        prepare_trace(parse_scene(text_, (folder_ / "scene.toml").string()), {});
+    static_cast<TraceSetup&>(setting) = prepare_trace(parse_scene(text_, folder_.path() + "/scene.toml"), {});
     return setting;
   }
-  std::string file() const { return (folder_ / "samples.h5").string(); }
+  std::string file() const { return folder_.path() + "/samples.h5"; }
 
  private:
-  std::filesystem::path folder_;
+  Folder folder_;
   std::string text_;
 };
 

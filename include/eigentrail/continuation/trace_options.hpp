@@ -100,10 +100,18 @@ struct OptionFault {
 /// the options can be used.
 std::vector<OptionFault> find_faults(const TraceOptions& options, const Parameters& parameters);
 
+/// What a scene is prepared for.
+enum class Purpose {
+  trace,           ///< the model must depend on the traced parameter
+  strengths,       ///< the same, with the strengths of the effects as further parameters
+  operating_point  ///< single values of the parameter; the model may be the same for all, `to` may be absent
+};
+
 /// Options from the scene's [trace] and [events] tables, overridden by `overrides`. Numbers may be
 /// expressions: plain numbers are in the parameter's unit, expressions of parameters are SI values. The
 /// parameters that the options name are added to `used`. Throws InputError that names the faults.
-TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used);
+TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used,
+                                Purpose purpose = Purpose::trace);
 
 /// A scene with its options and its model, ready to be traced.
 struct TraceSetup {
@@ -113,13 +121,6 @@ struct TraceSetup {
 
   /// Index of the traced parameter.
   int traced() const { return scene.parameters.index(options.parameter).value(); }
-};
-
-/// What a scene is prepared for.
-enum class Purpose {
-  trace,           ///< the model must depend on the traced parameter
-  strengths,       ///< the same, with the strengths of the effects as further parameters
-  operating_point  ///< single values of the parameter; the model may be the same for all
 };
 
 /// Reads the options and builds the model of a scene. Throws InputError for faults of the options or the

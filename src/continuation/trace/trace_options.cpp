@@ -249,7 +249,8 @@ void check_excitation(const Scene& scene, const TraceOptions& options) {
 
 }  // namespace
 
-TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used) {
+TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides, std::set<int>& used,
+                                Purpose purpose) {
   const Table merged = merged_table(scene, overrides);
   TableReader table(scene, merged, "[trace]", used);
   TraceOptions options;
@@ -261,11 +262,16 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
       if (edge > 0.0) options.events.wanted.push_back({EventKind::band_edge, edge});
     }
   }
+  // One value of the parameter is enough to look at single values.
+  const bool range = purpose != Purpose::operating_point;
+  if (!range && !table.has("to")) options.to = options.from;
   for (const char* key : {"from", "to"}) {
-    if (!table.has(key)) table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
+    if (!table.has(key) && (range || key == std::string("from")))
+      table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
   }
   table.finish();
-  const std::vector<OptionFault> faults = find_faults(options, scene.parameters);
+  std::vector<OptionFault> faults = find_faults(options, scene.parameters);
+  if (!range) std::erase_if(faults, [](const OptionFault& fault) { return fault.key == std::string("to"); });
   if (faults.empty()) {
     check_excitation(scene, options);
     return options;
@@ -279,7 +285,7 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purp
   check_top_level(scene);
   TraceSetup setup{std::move(scene), {}, nullptr};
   std::set<int> used;
-  setup.options = read_trace_options(setup.scene, overrides, used);
+  setup.options = read_trace_options(setup.scene, overrides, used, purpose);
   // The model itself must depend on the traced parameter, unless only single values are looked at.
   if (purpose == Purpose::operating_point) {
     used.insert(setup.traced());
