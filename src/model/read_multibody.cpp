@@ -296,7 +296,8 @@ ModelDescription describe(const Draft& draft) {
       evaluations +=
           3 * motions * static_cast<int>(placed.arguments.size()) + 2 * number_of_states<Element>();
     description.effects.push_back({std::string(Element::name), std::string(Element::description),
-                                   static_cast<int>(list.size()), Element::contribution, evaluations});
+                                   static_cast<int>(list.size()), Element::contribution, evaluations,
+                                   number_of_states<Element>() * static_cast<int>(list.size())});
   });
   for (const ConstraintKind& kind : constraint_kinds()) {
     description.effects.push_back(
