@@ -21,8 +21,9 @@ std::string freedoms(const Model& model, const Sizes& sizes) {
   if (sizes.redundant > 0) text += " (" + std::to_string(sizes.redundant) + " more say what others do)";
   text += ".";
   if (states > 0)
-    text += " " + counted(states, "coordinate is a state", "coordinates are states") +
-            " of elements, of first order: one eigenvalue each.";
+    text += " " +
+            counted(states, "coordinate is a state of an element", "coordinates are states of elements") +
+            ", of first order: one eigenvalue each.";
   return text;
 }
 
