@@ -272,10 +272,10 @@ struct Row {
 
   Row() {
     for (int i = 0; i < count; ++i) {
-      const double mass = 1.0 + 0.05 * i, k = 1 + i % 3;
-      add_tables(i, mass, k);
+      const double m = 1.0 + 0.05 * i, k = 1 + i % 3;
+      add_tables(i, m, k);
       const int u = count + i;
-      M(i, i) = mass;
+      M(i, i) = m;
       C(u, u) = 1.0;
       K(i, i) += 100.0 + k;
       K(u, u) = k;
@@ -286,9 +286,9 @@ struct Row {
     }
   }
 
-  void add_tables(int i, double mass, double k) {
+  void add_tables(int i, double m, double k) {
     const auto name = [](int j) { return "\"p" + std::to_string(j) + "\""; };
-    scene += "[[point]]\nname = " + name(i) + "\nmass = " + std::to_string(mass) + "\nposition = [" +
+    scene += "[[point]]\nname = " + name(i) + "\nmass = " + std::to_string(m) + "\nposition = [" +
              std::to_string(i + 1) + ", 0, 0]\n";
     for (const char* axis : {"\"y\"", "\"z\""})
       scene += "[[fixed]]\npoint = " + name(i) + "\ncoordinate = " + axis + "\n";
