@@ -14,8 +14,16 @@ constexpr int last_degree = 32;
 constexpr int least_degree = 8;
 /// A shorter piece, relative to the range, has a jump or a kink in it.
 constexpr double shortest = 1e-10;
-/// Factor between the estimate of the error and the tolerance.
-constexpr double safety = 10.0;
+/// Factor between the last coefficients and the tolerance: the sum of all those after them, even at a kink.
+constexpr double safety = 30.0;
+/// Errors that decrease by less than this from one degree to its double are those at a kink.
+constexpr double slow = 0.35;
+/// Factor between the largest error and that at the new points.
+constexpr double between_points = 3.0;
+/// Number of last coefficients that must be small. At a kink some of them may be so by chance.
+constexpr Eigen::Index looked_at = 4;
+/// Factor by which the square of the error of half the degree may exceed the tolerance.
+constexpr double far_too_large = 1e3;
 
 double chebyshev_point(int j, int degree) {
   return std::cos(M_PI * j / degree);
@@ -53,7 +61,8 @@ class Interpolation {
 
   PiecewiseResult run() {
     for (std::size_t i = 0; i + 1 < options_.ends.size(); ++i) {
-      if (!resolve(options_.ends[i], options_.ends[i + 1])) break;
+      const double from = options_.ends[i], to = options_.ends[i + 1];
+      if (!resolve(from, to, {from, to, 0, 1.0})) break;
     }
     result_.calls = calls_;
     return std::move(result_);
@@ -62,31 +71,30 @@ class Interpolation {
  private:
   enum class Outcome { accepted, halve, no_calls };
 
-  /// Adds the pieces of an interval; false if it was given up.
-  bool resolve(double from, double to) {
+  /// Adds the pieces of an interval, a half of `around`, which is not resolved; false if it was given up.
+  bool resolve(double from, double to, const Unresolved& around) {
     ChebyshevPiece piece{from, to, {}};
-    switch (interpolate(piece)) {
-      case Outcome::accepted:
-        result_.pieces.push_back(std::move(piece));
-        return true;
-      case Outcome::no_calls:
-        return give_up(from, to);
-      case Outcome::halve:
-        break;
+    const Outcome outcome = interpolate(piece);
+    if (outcome == Outcome::accepted) {
+      result_.pieces.push_back(std::move(piece));
+      return true;
     }
+    if (outcome == Outcome::no_calls) return give_up(around);
+    const Unresolved whole{from, to, worst_, error_};
     const double middle = 0.5 * (from + to);
     const double range = options_.ends.back() - options_.ends.front();
-    if (!(to - from > shortest * range) || middle <= from || middle >= to) return give_up(from, to);
-    return resolve(from, middle) && resolve(middle, to);
+    if (!(to - from > shortest * range) || middle <= from || middle >= to) return give_up(whole);
+    return resolve(from, middle, whole) && resolve(middle, to, whole);
   }
 
-  bool give_up(double from, double to) {
-    result_.unresolved.push_back({from, to, worst_, error_});
+  bool give_up(const Unresolved& at) {
+    result_.unresolved.push_back(at);
     return false;
   }
 
   Outcome interpolate(ChebyshevPiece& piece) {
     Matrix values;
+    double before = 1.0;
     for (int degree = first_degree; degree <= last_degree; degree *= 2) {
       if (!sample(piece, degree, values)) return Outcome::no_calls;
       const Matrix coefficients = values * transform(degree);
@@ -96,11 +104,20 @@ class Interpolation {
         drop_rounding(piece.coefficients);
         return Outcome::accepted;
       }
-      // Each doubling squares the error, at best: do not go on where that is not enough.
-      const double at_last = std::pow(missed, 2.0 * last_degree / degree);
-      if (degree >= least_degree && at_last > options_.tolerance) return Outcome::halve;
+      if (degree >= least_degree && is_hopeless(degree, missed, before)) return Outcome::halve;
+      before = missed;
     }
     return Outcome::halve;
+  }
+
+  /// Whether the last degree will not do. `missed` and `before` are the errors of half and of a quarter of
+  /// this degree. If errors go on decreasing by the same factor per coefficient, `predicted` is that of the
+  /// last degree. Functions that oscillate do better, so it need only reach the cube root of the tolerance.
+  bool is_hopeless(int degree, double missed, double before) const {
+    const double factor = missed / before;
+    if (degree > least_degree && factor > slow) return true;
+    const double predicted = missed * std::pow(factor, 4.0 * last_degree / degree - 2.0);
+    return predicted > std::cbrt(options_.tolerance);
   }
 
   /// Values at all points of a degree; those of half the degree are known. False if it takes too many calls.
@@ -159,14 +176,15 @@ class Interpolation {
     return largest;
   }
 
-  /// The error of a polynomial is about the square of that of half its degree, and of the size of its last
-  /// coefficients. For functions with a kink the first is not true, for symmetric ones one coefficient alone
-  /// says nothing.
+  /// The error of a polynomial is about that of its last coefficients, and the square of that of half its
+  /// degree. The first alone says nothing where coefficients vanish by symmetry; the second alone is too
+  /// large by far for functions that oscillate.
   bool is_resolved(const Matrix& coefficients, double missed) {
-    if (missed <= options_.tolerance) return true;
-    if (safety * missed * missed > options_.tolerance) return false;
-    const Eigen::Index last = coefficients.cols() - 1;
-    const double tail = std::max(relative(coefficients.col(last)), relative(coefficients.col(last - 1)));
+    if (between_points * missed <= options_.tolerance) return true;
+    if (missed * missed > far_too_large * options_.tolerance) return false;
+    double tail = 0.0;
+    for (Eigen::Index j = coefficients.cols() - looked_at; j < coefficients.cols(); ++j)
+      tail = std::max(tail, relative(coefficients.col(j)));
     return safety * tail <= options_.tolerance;
   }
 
