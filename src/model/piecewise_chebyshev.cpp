@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace eigentrail {
 namespace {
@@ -14,15 +15,14 @@ constexpr int last_degree = 32;
 constexpr int least_degree = 8;
 /// A shorter piece, relative to the range, has a jump or a kink in it.
 constexpr double shortest = 1e-10;
-/// Factor between the last coefficients and the tolerance: the sum of all those after them, even at a kink.
-constexpr double safety = 30.0;
-/// Errors that decrease by less than this from one degree to its double are those at a kink.
-constexpr double slow = 0.35;
-/// Factor between the largest error and that at the new points.
-constexpr double between_points = 3.0;
-/// Number of last coefficients that must be small. At a kink some of them may be so by chance.
-constexpr Eigen::Index looked_at = 4;
-/// Factor by which the square of the error of half the degree may exceed the tolerance.
+/// Factors between the tolerance and an error that is estimated from coefficients, or measured at the new
+/// points.
+constexpr double beyond_safety = 3.0;
+constexpr double measured_safety = 10.0;
+/// The error of a degree is less than this power of that of half the degree, except at kinks.
+constexpr double faster = 1.25;
+/// Factor by which the square of the error of half the degree, or the error that is predicted for the last
+/// degree, may exceed the tolerance: both are too large where functions oscillate.
 constexpr double far_too_large = 1e3;
 
 double chebyshev_point(int j, int degree) {
@@ -94,30 +94,19 @@ class Interpolation {
 
   Outcome interpolate(ChebyshevPiece& piece) {
     Matrix values;
-    double before = 1.0;
     for (int degree = first_degree; degree <= last_degree; degree *= 2) {
       if (!sample(piece, degree, values)) return Outcome::no_calls;
-      const Matrix coefficients = values * transform(degree);
-      const double missed = error_at_new_points(piece.coefficients, values, degree);
-      piece.coefficients = coefficients;
-      if (degree >= least_degree && is_resolved(coefficients, missed)) {
+      const Matrix half = std::exchange(piece.coefficients, values * transform(degree));
+      if (degree < least_degree) continue;
+      const double missed = error_at_new_points(half, values, degree);
+      if (is_resolved(piece.coefficients, missed)) {
         drop_rounding(piece.coefficients);
         return Outcome::accepted;
       }
-      if (degree >= least_degree && is_hopeless(degree, missed, before)) return Outcome::halve;
-      before = missed;
+      // With fewer coefficients, those of functions that oscillate do not decrease yet.
+      if (degree > least_degree && is_hopeless(piece.coefficients)) return Outcome::halve;
     }
     return Outcome::halve;
-  }
-
-  /// Whether the last degree will not do. `missed` and `before` are the errors of half and of a quarter of
-  /// this degree. If errors go on decreasing by the same factor per coefficient, `predicted` is that of the
-  /// last degree. Functions that oscillate do better, so it need only reach the cube root of the tolerance.
-  bool is_hopeless(int degree, double missed, double before) const {
-    const double factor = missed / before;
-    if (degree > least_degree && factor > slow) return true;
-    const double predicted = missed * std::pow(factor, 4.0 * last_degree / degree - 2.0);
-    return predicted > std::cbrt(options_.tolerance);
   }
 
   /// Values at all points of a degree; those of half the degree are known. False if it takes too many calls.
@@ -150,42 +139,69 @@ class Interpolation {
     return &known_.emplace(p, std::move(value)).first->second;
   }
 
-  /// Error of the polynomial of half the degree at the points that are new in this one.
+  /// Error of the polynomial of half the degree at the points that are new in this one. Notes the function
+  /// with the largest one.
   double error_at_new_points(const Matrix& half, const Matrix& values, int degree) {
-    if (half.size() == 0) return 1.0;
-    double largest = 0.0;
-    for (int j = 1; j < degree; j += 2)
-      largest = std::max(largest, relative(values.col(j) - value_at(half, chebyshev_point(j, degree))));
-    return largest;
+    error_ = 0.0;
+    for (int j = 1; j < degree; j += 2) {
+      Eigen::Index worst = 0;
+      const double error = relative(values.col(j) - value_at(half, chebyshev_point(j, degree)), &worst);
+      if (error > error_) {
+        error_ = error;
+        worst_ = worst;
+      }
+    }
+    return error_;
   }
 
   /// The largest of the errors, relative to the largest magnitudes of the functions. Errors that are rounding
   /// do not count.
-  double relative(const Vector& errors) {
+  double relative(const Vector& errors, Eigen::Index* worst = nullptr) const {
     const Vector allowed = rounding_(largest_);
     double largest = 0.0;
     for (Eigen::Index i = 0; i < errors.size(); ++i) {
-      if (std::abs(errors[i]) <= allowed[i]) continue;
-      const double error = std::abs(errors[i]) / largest_[i];
-      if (error > largest) {
-        largest = error;
-        worst_ = i;
-      }
+      const double error = std::abs(errors[i]) <= allowed[i] ? 0.0 : std::abs(errors[i]) / largest_[i];
+      if (!(error > largest)) continue;
+      largest = error;
+      if (worst != nullptr) *worst = i;
     }
-    error_ = largest;
     return largest;
   }
 
-  /// The error of a polynomial is about that of its last coefficients, and the square of that of half its
-  /// degree. The first alone says nothing where coefficients vanish by symmetry; the second alone is too
-  /// large by far for functions that oscillate.
-  bool is_resolved(const Matrix& coefficients, double missed) {
-    if (between_points * missed <= options_.tolerance) return true;
+  /// The largest of `count` columns of the coefficients.
+  double largest_of(const Matrix& coefficients, Eigen::Index first, Eigen::Index count) const {
+    double largest = 0.0;
+    for (Eigen::Index j = first; j < first + count; ++j)
+      largest = std::max(largest, relative(coefficients.col(j)));
+    return largest;
+  }
+
+  /// The error of a polynomial is the sum of the coefficients beyond it, which decrease about as its last
+  /// ones do, and about the square of that of half its degree. The first alone says nothing where
+  /// coefficients vanish by symmetry; the second alone is too large by far for functions that oscillate. At a
+  /// kink neither is true, and only what is measured counts.
+  bool is_resolved(const Matrix& coefficients, double missed) const {
+    if (measured_safety * missed <= options_.tolerance) return true;
     if (missed * missed > far_too_large * options_.tolerance) return false;
-    double tail = 0.0;
-    for (Eigen::Index j = coefficients.cols() - looked_at; j < coefficients.cols(); ++j)
-      tail = std::max(tail, relative(coefficients.col(j)));
-    return safety * tail <= options_.tolerance;
+    const Eigen::Index count = std::max<Eigen::Index>(4, coefficients.cols() / 4);
+    const double last = largest_of(coefficients, coefficients.cols() - count, count);
+    if (last == 0.0) return true;
+    const double factor = last / largest_of(coefficients, coefficients.cols() - 2 * count, count);
+    const double beyond = static_cast<double>(count) * last * factor / (1.0 - factor);
+    if (!(factor < 1.0) || beyond > std::pow(missed, faster)) return false;
+    return beyond_safety * beyond <= options_.tolerance;
+  }
+
+  /// Whether the last degree will not do if the coefficients go on decreasing as the last quarter of them
+  /// does.
+  bool is_hopeless(const Matrix& coefficients) const {
+    const Eigen::Index degree = coefficients.cols() - 1;
+    const Eigen::Index quarter = degree / 4;
+    const double last = largest_of(coefficients, degree + 1 - quarter, quarter);
+    const double before = largest_of(coefficients, degree + 1 - 2 * quarter, quarter);
+    if (last == 0.0) return false;
+    const double predicted = last * std::pow(last / before, 4.0 * (last_degree - degree) / degree);
+    return predicted > far_too_large * options_.tolerance;
   }
 
   /// Removes the last coefficients as far as they are rounding in all functions, so that constants are

@@ -132,8 +132,8 @@ TEST(FunctionFamily, EigenvaluesOfTheTraceAreThoseOfTheFunction) {
   const TraceResult result = trace(family, options, observer);
   ASSERT_EQ(result.status, TraceStatus::completed) << result.message;
   EXPECT_TRUE(result.notes.empty());
-  // sin(3 p) takes two pieces of 33 points: its coefficients J_k(7.5) are below 1e-14 from k = 29 on. The first
-  // 17 calls show that one piece is not enough; the ends and the middle belong to these, too.
+  // sin(3 p) takes two pieces of 33 points: its coefficients J_k(7.5) are below 1e-14 from k = 29 on. The
+  // first 17 calls show that one piece is not enough; the ends and the middle belong to these, too.
   EXPECT_EQ(family.pieces().size(), 2U);
   EXPECT_LE(family.calls(), 17 + 2 * (33 - 2));
   const RecordedPath path = recorder.path();
@@ -259,14 +259,14 @@ TEST(FunctionFamily, AJumpIsReportedWithItsPlace) {
   EXPECT_NE(text.find("K(0, 0)"), std::string::npos) << text;
 }
 
-/// With calls enough, pieces become so short that the kink is within the tolerance.
+/// With calls enough, pieces become so short that the kink is within the tolerance, 1e-8 of 5.7.
 TEST(FunctionFamily, AKinkIsResolvedByShortPiecesIfCallsAllow) {
   const FunctionFamily family([](double p) { return with_K(square(5.0 + std::abs(p - 0.3), 1, 1, 2.0)); },
                               range(0.0, 1.0, 1e-8));
   EXPECT_GT(family.pieces().size(), 10U);
   for (int i = 0; i <= 2000; ++i) {
     const double p = 0.3 + std::copysign(0.3 * std::pow(0.98, i), i % 2 - 0.5);
-    ASSERT_NEAR(at(family, p).K[0](0, 0), 5.0 + std::abs(p - 0.3), 6e-8) << p;
+    ASSERT_NEAR(at(family, p).K[0](0, 0), 5.0 + std::abs(p - 0.3), 5.7e-8) << p;
   }
 }
 

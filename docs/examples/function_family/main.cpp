@@ -30,7 +30,7 @@ int main() {
   family_options.tolerance = 1e-10;  // of every entry
   family_options.state_names = {"x", "y"};
   const FunctionFamily model(rotor, family_options);
-  std::printf("%d calls, %zu pieces\n", model.calls(), model.pieces().size());
+  std::printf("calls: %d, pieces: %zu\n", model.calls(), model.pieces().size());
 
   TraceOptions options;
   options.parameter = "speed";

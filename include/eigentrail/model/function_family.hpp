@@ -4,7 +4,7 @@
 // The function may be expensive. It is called only when the model is made: the matrices are interpolated by
 // polynomials in pieces, through Chebyshev points (Trefethen, Approximation Theory and Approximation
 // Practice, SIAM 2013, Sects. 2, 8), and the trace works with these. Where the matrices are smooth, each
-// further call gains digits: about 10 to 30 calls are enough for most ranges.
+// further call gains digits: about 20 to 80 calls are enough for most ranges.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ struct FunctionFamilyOptions {
   double tolerance = 1e-11;
   int max_calls = 1000;  ///< at least 2
   /// Places inside the range where the matrices or their derivatives jump, if they are known: pieces begin
-  /// there. A kink at any other place costs some 10 calls per halving of the pieces until `max_calls`.
+  /// there. A kink at any other place costs some 40 calls per halving of the pieces until `max_calls`.
   std::vector<double> breaks = {};
   std::vector<std::string> state_names = {};  ///< n, or empty for x1, x2, ...
   std::vector<std::string> state_units = {};  ///< n, or empty for 1
