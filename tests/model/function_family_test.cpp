@@ -8,6 +8,7 @@
 #include <random>
 
 #include "eigentrail/continuation/recorded_path.hpp"
+#include "support/resumed.hpp"
 #include "support/spectra.hpp"
 
 namespace eigentrail::test {
@@ -166,6 +167,15 @@ TEST(FunctionFamily, JoiningPiecesDoNotDisturbTheTrace) {
   EXPECT_EQ(in_few.status, TraceStatus::completed) << in_few.message;
   EXPECT_NEAR(in_many.nodes, in_few.nodes, 2);
   EXPECT_EQ(in_many.events.size(), in_few.events.size());
+}
+
+TEST(FunctionFamily, ResumedTracesAreTheSameBitForBit) {
+  const FunctionFamily family(smooth, range(0.0, 10.0));
+  TraceOptions options;
+  options.parameter = "p";
+  options.from = 10.0;
+  options.to = 0.0;
+  EXPECT_EQ(first_resumed_difference(family, options, 4), "");
 }
 
 TEST(FunctionFamily, FirstOrderFormIsThatOfAMatrixFamily) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eigentrail/core/errors.hpp"
+#include "support/resumed.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
@@ -13,9 +14,10 @@ namespace {
 
 constexpr double mass = 2.0, beside = 50.0, spring = 30.0, dashpot = 1.5;
 
-/// A mass on a spring with a Maxwell damper beside it; the third text replaces the range of the trace.
-std::string oscillator(const std::string& range) {
-  return "[parameters]\nm = 2\nbeside = 50\nk = 30\nc = 1.5\n[trace]\ntolerance = 1e-11\n" + range +
+/// A mass on a spring with a Maxwell damper beside it; `range` has parameter, from and to of the trace.
+std::string oscillator(const std::string& range, double c = dashpot) {
+  return "[parameters]\nm = 2\nbeside = 50\nk = 30\nc = " + std::to_string(c) +
+         "\n[trace]\ntolerance = 1e-11\n" + range +
          "[[point]]\nname = \"bob\"\nmass = \"m\"\nposition = [1.3, 0, 0]\n"
          "[[fixed]]\npoint = \"bob\"\ncoordinate = \"y\"\n[[fixed]]\npoint = \"bob\"\ncoordinate = \"z\"\n"
          "[[spring]]\nfrom = [0, 0, 0]\nto = \"bob\"\nstiffness = \"beside\"\nfree_length = 1\n"
@@ -215,6 +217,30 @@ TEST(OwnStates, SensitivitiesFollowTheCubic) {
       EXPECT_LT(std::abs(slope - expected), 1e-7 * (1.0 + std::abs(expected))) << name;
     }
   }
+}
+
+/// Without a dashpot the spring hangs loose: no force, and an infinite eigenvalue, which is no mode.
+TEST(OwnStates, ADashpotOfZeroGivesNoForceAndNoMode) {
+  const RecordedTrace recorded = record_trace(make_setting(oscillator(range("m", 1, 4), 0.0)));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  EXPECT_EQ(recorded.result.n_available, 1);
+  EXPECT_EQ(recorded.result.n_infinite, 1);
+  for (const double m : {1.0, 2.3, 4.0})
+    EXPECT_LT(std::abs(recorded.eigenvalues_at(m)[0] - Complex(0.0, std::sqrt(beside / m))),
+              1e-10 * std::sqrt(beside / m));
+}
+
+/// The eigenvalue comes from infinity as the dashpot grows from zero, and is found on the way.
+TEST(OwnStates, TheEigenvalueOfADashpotThatGrowsFromZeroIsFound) {
+  const RecordedTrace recorded = record_trace(make_setting(oscillator(range("c", 0, 5))));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  EXPECT_LT(distance(recorded.eigenvalues_at(5.0), cubic(mass, beside, spring, 5.0)), 1e-10);
+  EXPECT_EQ(recorded.result.n_columns, 2);
+}
+
+TEST(OwnStates, ResumedTracesAreTheSameBitForBit) {
+  const Setting setting = make_setting(oscillator(range("k", 1, 200)));
+  EXPECT_EQ(first_resumed_difference(*setting.model, setting.options, 5), "");
 }
 
 struct Refused {
