@@ -5,8 +5,10 @@ import math
 import re
 import unittest
 
+import h5py
 import numpy as np
 
+from program import SCENES
 from rotor_test_case import RotorTest, upper
 from scene_test_case import CLOSE
 
@@ -74,6 +76,16 @@ class LagDamper(RotorTest):
         angle = np.arctan2(self.equilibrium(file, "blade.x_axis")[:, 1], self.equilibrium(file, "blade.x_axis")[:, 0])
         np.testing.assert_allclose(self.coordinate(file, "elastomer.dashpot"), angle, rtol=CLOSE)
         self.assertGreater(angle[0], 0.1)
+
+    def test_curve_of_a_damping_ratio_over_dashpot_and_speed(self):
+        self.run_well("boundary", SCENES / "lag_damper.toml", "--second", "omega", "--from", "5", "--to", "60",
+                      "--damping-ratio", "0.1", "--tolerance", "1e-10", "-o", "ratio.h5", "--quiet")
+        with h5py.File(self.folder / "ratio.h5") as curves:
+            places = list(zip(curves["c"][:], curves["omega"][:]))
+        self.assertGreater(len(places), 10)
+        for c, omega in places:
+            s = lag(cubic(self.parameters(c=c, omega=omega)))
+            self.assertAlmostEqual(-s.real / abs(s), 0.1, delta=1e-9)
 
     def test_left_out_it_leaves_the_undamped_blade(self):
         p = self.parameters()
