@@ -64,6 +64,26 @@ void print_effects(const Model& model) {
   if (!absent.empty()) std::printf("    absent, never evaluated: %s\n", absent.c_str());
 }
 
+/// Lists the states that elements have of their own.
+void print_states(const Model& model) {
+  int count = 0;
+  for (const Effect& effect : model.description().effects) count += effect.states;
+  if (count == 0) return;
+  const ModelDescription& description = model.description();
+  std::printf("states of elements, of first order\n");
+  std::vector<std::vector<std::string>> rows;
+  std::size_t next = description.coordinate_names.size() - static_cast<std::size_t>(count);
+  for (const EffectHelp& help : effect_reference()) {
+    const auto effect = std::find_if(description.effects.begin(), description.effects.end(),
+                                     [&](const Effect& e) { return e.name == help.name; });
+    for (int i = 0; effect != description.effects.end() && i < effect->states; ++i, ++next)
+      rows.push_back({"  " + printable(description.coordinate_names[next]),
+                      description.coordinate_units[next],
+                      help.states[static_cast<std::size_t>(i) % help.states.size()].help});
+  }
+  print_table(rows);
+}
+
 /// Prints the effects for each mode, ordered by their influence on its eigenvalue.
 void print_influences(const Influences& influences, const std::string& at) {
   std::printf(
@@ -213,6 +233,7 @@ int run_explain(const ExplainArguments& arguments) {
   }
   print_parameters(*model, traced);
   print_effects(*model);
+  print_states(*model);
   const auto parts = find_independent_parts(model->coefficient_matrices());
   print_structure(structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);

@@ -62,6 +62,15 @@ std::vector<EffectHelp> whole_reference() {
   return all;
 }
 
+/// A sentence on the unknowns that the elements of a table have of their own.
+std::string states_in_words(const EffectHelp& table, const std::string& quote) {
+  std::string text;
+  for (const FieldHelp& state : table.states)
+    text += (text.empty() ? "Each has a state of its own: " : "; ") + quote + state.key + quote + " (" +
+            state.unit + "), " + state.help;
+  return text + ".";
+}
+
 void print_text(const EffectHelp& table) {
   std::printf("%s  %s\n", heading(table.name).c_str(), table.description.c_str());
   std::vector<std::vector<std::string>> rows;
@@ -70,6 +79,7 @@ void print_text(const EffectHelp& table) {
     rows.push_back({"  " + field.key, field.unit, otherwise, field.help});
   }
   print_table(rows);
+  if (!table.states.empty()) std::printf("  %s\n", states_in_words(table, "").c_str());
 }
 
 std::string cell(std::string text) {
@@ -86,6 +96,7 @@ void print_markdown(const EffectHelp& table) {
                 cell(field.help).c_str(),
                 field.otherwise.empty() ? "required" : cell(field.otherwise).c_str());
   }
+  if (!table.states.empty()) std::printf("\n%s\n", states_in_words(table, "`").c_str());
 }
 
 int run_reference(const ReferenceArguments& arguments) {

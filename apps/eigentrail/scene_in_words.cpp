@@ -11,13 +11,20 @@ std::string counted(long long number, const std::string& one, const std::string&
   return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-std::string freedoms(const Sizes& sizes) {
+std::string freedoms(const Model& model, const Sizes& sizes) {
+  long long states = 0;
+  for (const Effect& effect : model.description().effects) states += effect.states;
   std::string text = counted(sizes.freedoms, "freedom", "freedoms") + ": ";
   text += counted(sizes.coordinates, "coordinate", "coordinates");
   const long long independent = sizes.constraints - sizes.redundant;
   text += independent == 0 ? ", no constraints" : ", " + counted(independent, "constraint", "constraints");
   if (sizes.redundant > 0) text += " (" + std::to_string(sizes.redundant) + " more say what others do)";
-  return text + ".";
+  text += ".";
+  if (states > 0)
+    text += " " +
+            counted(states, "coordinate is a state of an element", "coordinates are states of elements") +
+            ", of first order: one eigenvalue each.";
+  return text;
 }
 
 /// The instabilities that are possible with this structure of the pencil.
@@ -62,8 +69,8 @@ std::string followed(const TraceSetup& setup, const Sizes& sizes) {
 }  // namespace
 
 std::vector<std::string> in_words(const TraceSetup& setup, const Structure& structure, const Sizes& sizes) {
-  return {freedoms(sizes), prospects(structure), equilibrium(structure, setup.options.parameter),
-          followed(setup, sizes)};
+  return {freedoms(*setup.model, sizes), prospects(structure),
+          equilibrium(structure, setup.options.parameter), followed(setup, sizes)};
 }
 
 }  // namespace eigentrail::app

@@ -38,7 +38,7 @@ class Sketch:
         self.on_body = {name: [posture.place(name + "." + m) for m in body["markers"]]
                         for name, body in posture.bodies.items()}
         self.used, self.grounds = [], []
-        for kind in [*JOINTS, "rod", "spring", "damper", "point_on_line", "point_on_plane", "bearing"]:
+        for kind in [*JOINTS, "rod", "spring", "damper", "maxwell_damper", "point_on_line", "point_on_plane", "bearing"]:
             for table in self.scene.tables(kind):
                 for key in ("from", "to"):
                     if key in table:
@@ -157,7 +157,7 @@ class Sketch:
         self.axes.add_patch(Polygon(corners, facecolor=colour, edgecolor=INK, linewidth=1.1, zorder=4))
 
     def springs(self):
-        for kind, draw in (("spring", self.zigzag), ("damper", self.dashpot)):
+        for kind, draw in (("spring", self.zigzag), ("damper", self.dashpot), ("maxwell_damper", self.dashpot)):
             for table in self.scene.tables(kind):
                 draw(self.flat(self.posture.place(table["from"])), self.flat(self.posture.place(table["to"])))
         for table in self.scene.tables("guided_spring"):
@@ -165,7 +165,8 @@ class Sketch:
             end = self.flat(at - 0.3 * self.size * self.posture.direction(table["direction"]))
             self.zigzag(end, self.flat(at))
             self.ground(end)
-        for table in self.scene.tables("torsional_spring") + self.scene.tables("torsional_damper"):
+        torsional = ("torsional_spring", "torsional_damper", "torsional_maxwell_damper")
+        for table in (table for kind in torsional for table in self.scene.tables(kind)):
             joint = next((j for k in JOINTS for j in self.scene.tables(k) if j.get("name") == table["joint"]), None)
             if joint is not None:
                 t = np.linspace(0, 3.2 * np.pi, 120)

@@ -37,26 +37,24 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
-/// Adds entry (i, j) of a 3 x 3 block whose rows belong to `to` and whose columns belong to `from`: weight_to
-/// weight_from value for every pair of their terms.
-template <class Real, int Q>
-void add_weighted(Scatter<Real, Q>& sum, const PathValues<Series<Real, Q>>& values, const Place& to, int i,
-                  const Place& from, int j, const Series<Real, Q>& value, bool& finite) {
-  for (const Term& row : to.terms) {
-    const Series<Real, Q> weighted = values.times(row.weight, value);
-    for (const Term& column : from.terms) {
-      add_entry<Real, Q>(sum, 3 * row.triple + i, 3 * column.triple + j,
-                         values.times(column.weight, weighted), finite);
-    }
-  }
-}
-
-/// The moving vectors and strength of an element. The functions below do not depend on the type of the
-/// element, so the compiler instantiates them once per order and not once per order and type.
+/// The moving vectors, states and strength of an element. The functions below do not depend on the type of
+/// the element, so the compiler instantiates them once per order and not once per order and type.
 struct Joined {
   const std::vector<Place>& arguments;
   const Quantity& strength;
+  int first_state = 0;  ///< coordinate of the first state
+  int n_states = 0;
+
+  /// Number of components of all moving vectors, and of these and the states.
+  int of_vectors() const { return 3 * static_cast<int>(arguments.size()); }
+  int components() const { return of_vectors() + n_states; }
 };
+
+template <class Element>
+Joined join(const Placed<Element>& placed, std::size_t n_triples) {
+  const int first = 3 * static_cast<int>(n_triples) + placed.first_state;
+  return {placed.arguments, placed.strength, first, number_of_states<Element>()};
+}
 
 template <class Base>
 std::array<Vec3<Base>, max_arguments> positions(const Joined& joined, const PathValues<Base>& values) {
@@ -65,30 +63,52 @@ std::array<Vec3<Base>, max_arguments> positions(const Joined& joined, const Path
   return result;
 }
 
+template <class Base, class Element>
+std::span<const Base> states_of(const Placed<Element>& placed, const PathValues<Base>& values) {
+  if constexpr (number_of_states<Element>() == 0) {
+    return {};
+  } else {
+    return std::span<const Base>(values.states)
+        .subspan(static_cast<std::size_t>(placed.first_state), Element::states.size());
+  }
+}
+
+/// Calls visit(coordinate, value) for every coordinate of a component, with `value` times its weight.
+template <class Base, class Visit>
+void for_each_coordinate(const Joined& joined, int component, const PathValues<Base>& values,
+                         const Base& value, Visit visit) {
+  if (component >= joined.of_vectors()) {
+    visit(joined.first_state + component - joined.of_vectors(), value);
+    return;
+  }
+  for (const Term& term : joined.arguments[static_cast<std::size_t>(component / 3)].terms)
+    visit(3 * term.triple + component % 3, values.times(term.weight, value));
+}
+
 /// Adds the derivative of an element's force in one direction, a column of M, C or K.
 template <class Real, int Q>
 void add_column(const Joined& joined, int component, const ElementView<Series<Series<Real, Q>, 1>>& view,
                 const PathValues<Series<Real, Q>>& values, Scatter<Real, Q>& matrix, bool& finite) {
-  const Place& from = joined.arguments[static_cast<std::size_t>(component / 3)];
-  for (std::size_t i = 0; i < joined.arguments.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      add_weighted<Real, Q>(matrix, values, joined.arguments[i], axis, from, component % 3,
-                            values.times(joined.strength, -view.force(i)[axis][1]), finite);
-    }
+  using Base = Series<Real, Q>;
+  for (int i = 0; i < joined.components(); ++i) {
+    const Base value = values.times(joined.strength, -view.component(i)[1]);
+    for_each_coordinate(joined, i, values, value, [&](int row, const Base& weighted) {
+      for_each_coordinate(joined, component, values, weighted, [&](int column, const Base& entry) {
+        add_entry<Real, Q>(matrix, row, column, entry, finite);
+      });
+    });
   }
 }
 
 template <class Real, int Q>
 void add_force(const Joined& joined, const ElementView<Series<Real, Q>>& view,
                const PathValues<Series<Real, Q>>& values, BasicSteadyResidual<Real>& sum, bool& finite) {
-  for (std::size_t i = 0; i < joined.arguments.size(); ++i) {
-    for (const Term& row : joined.arguments[i].terms) {
-      for (int axis = 0; axis < 3; ++axis) {
-        add_entry<Real, Q>(sum.force, 3 * row.triple + axis,
-                           values.times(row.weight, values.times(joined.strength, -view.force(i)[axis])),
-                           finite);
-      }
-    }
+  using Base = Series<Real, Q>;
+  for (int i = 0; i < joined.components(); ++i) {
+    const Base value = values.times(joined.strength, -view.component(i));
+    for_each_coordinate(joined, i, values, value, [&](int row, const Base& entry) {
+      add_entry<Real, Q>(sum.force, row, entry, finite);
+    });
   }
 }
 
@@ -96,21 +116,24 @@ template <class Real, int Q, class Element>
 bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real, Q>>& values,
                      LinearizationScatter<Real, Q>& sum) {
   using Base = Series<Real, Q>;
+  constexpr int n_states = number_of_states<Element>();
   bool finite = true;
-  const Joined joined{placed.arguments, placed.strength};
+  const Joined joined = join(placed, values.triples.size());
   const auto all = positions(joined, values);
   const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
-  const auto differentiate = [&](bool depends, Motion motion, Scatter<Real, Q>& matrix) {
-    const int components = depends ? 3 * static_cast<int>(arguments.size()) : 0;
-    for (int component = 0; component < components; ++component) {
-      ElementView<Series<Base, 1>> view(values, arguments, Seed{motion, component});
+  const auto differentiate = [&](bool vectors, bool states, Motion motion, Scatter<Real, Q>& matrix) {
+    const int last = states ? joined.components() : joined.of_vectors();
+    for (int component = vectors ? 0 : joined.of_vectors(); component < last; ++component) {
+      std::array<Series<Base, 1>, n_states> state_force{};
+      ElementView<Series<Base, 1>> view(values, arguments, Seed{motion, component}, states_of(placed, values),
+                                        state_force);
       placed.element.force(view);
       add_column<Real, Q>(joined, component, view, values, matrix, finite);
     }
   };
-  differentiate(Element::depends.acceleration, Motion::acceleration, sum.M);
-  differentiate(Element::depends.velocity, Motion::velocity, sum.C);
-  differentiate(Element::depends.position, Motion::position, sum.K);
+  differentiate(Element::depends.acceleration, false, Motion::acceleration, sum.M);
+  differentiate(Element::depends.velocity, n_states > 0, Motion::velocity, sum.C);
+  differentiate(Element::depends.position, n_states > 0, Motion::position, sum.K);
   return finite;
 }
 
@@ -119,9 +142,11 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
                     BasicSteadyResidual<Real>& sum) {
   using Base = Series<Real, Q>;
   bool finite = true;
-  const Joined joined{placed.arguments, placed.strength};
+  const Joined joined = join(placed, values.triples.size());
   const auto all = positions(joined, values);
-  ElementView<Base> view(values, std::span<const Vec3<Base>>(all.data(), placed.arguments.size()));
+  std::array<Base, number_of_states<Element>()> state_force{};
+  ElementView<Base> view(values, std::span<const Vec3<Base>>(all.data(), placed.arguments.size()), {},
+                         states_of(placed, values), state_force);
   placed.element.force(view);
   add_force<Real, Q>(joined, view, values, sum, finite);
   return finite;
@@ -219,7 +244,9 @@ bool constraint_residual(const Constraint& constraint, const PathValues<Series<R
 template <class Real, int Q>
 Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& path) : data_(data) {
   const std::vector<Base> x = to_series<Real, Q>(path.x);
-  for (std::size_t i = 0; i + 2 < x.size(); i += 3) values_.triples.push_back({x[i], x[i + 1], x[i + 2]});
+  const std::size_t n_vectors = 3 * static_cast<std::size_t>(data.n_triples);
+  for (std::size_t i = 0; i < n_vectors; i += 3) values_.triples.push_back({x[i], x[i + 1], x[i + 2]});
+  values_.states.assign(x.begin() + static_cast<std::ptrdiff_t>(n_vectors), x.end());
   values_.lambda = to_series<Real, Q>(path.lambda);
   std::vector<Base> parameters = to_series<Real, Q>(path.parameters);
   data.parameters.to_si(std::span<Base>(parameters));

@@ -12,7 +12,8 @@ struct MultibodyData {
   std::vector<Constraint> constraints;
   std::vector<Expression> quantities;  ///< by Quantity::slot
   Parameters parameters;
-  int n_coordinates = 0;
+  int n_triples = 0;      ///< of points and bodies
+  int n_coordinates = 0;  ///< 3 n_triples, and one for each state of an element
   int n_constraints = 0;
 };
 

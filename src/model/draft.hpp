@@ -44,7 +44,9 @@ struct Draft {
   std::vector<BodyDraft> bodies;
   std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of mass_names
   std::vector<std::string> mass_names;
-  std::vector<Expression> guess;  ///< starting guess, one per coordinate
+  std::vector<Expression> guess;         ///< starting guess, one per coordinate of points and bodies
+  std::vector<std::string> state_names;  ///< coordinates of the states of elements, and their units
+  std::vector<std::string> state_units;
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
   std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by label of the joint

@@ -89,6 +89,10 @@ std::vector<EffectHelp> effect_reference() {
     } else {
       help.fields = table_fields<Element>();
     }
+    if constexpr (number_of_states<Element>() > 0) {
+      for (const OwnState& state : Element::states)
+        help.states.push_back({std::string(state.name), std::string(state.unit), std::string(state.help)});
+    }
   });
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read != nullptr)

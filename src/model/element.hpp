@@ -5,6 +5,7 @@
 //   depends                                which of position, velocity, acceleration the force depends on
 //   fields(self, visit)                    its data, listed once: scene keys, units, roles, help
 //   force(at)                              its force, written once for every scalar type
+//   states                                 optional: unknowns of its own, of first order (see OwnState)
 // The force acts on moving vectors: positions of points and places on bodies, and directions that rotate with
 // bodies. All are linear in the coordinates. Differentiation therefore takes three directions per vector,
 // independent of the number of coordinates that form it. A new effect needs one file in elements/ and one
@@ -72,6 +73,29 @@ inline constexpr Enters enters_force{.force = true};
 inline constexpr Enters enters_damping_and_force{.damping = true, .force = true};
 inline constexpr Enters enters_constraint{.constraint = true};
 
+/// An unknown u that belongs to an element, of first order: elongation of a dashpot, lag of the air. An
+/// element lists them in `static constexpr std::array states`. Its force() reads at.state(i) and
+/// at.state_rate(i), and adds with at.add_to_state(i, r) the right side of the equation 0 = r(x, u, u') of
+/// that state. The state has no mass, so u'' must not occur. In K, C and the pencil it is a coordinate
+/// without mass: it adds one eigenvalue. r must depend on u' (else the eigenvalue is infinite); if r is the
+/// force that does work on u, K and C stay symmetric. At the starting guess, u solves r = 0 by Newton's
+/// method, at once if r is linear in u.
+struct OwnState {
+  std::string_view name;  ///< of the coordinate: "dashpot" gives "maxwell_damper 1.dashpot"
+  std::string_view unit;
+  std::string_view help;  ///< what it is, in a few words
+};
+
+/// Number of states of its own that an element has.
+template <class Element>
+constexpr int number_of_states() {
+  if constexpr (requires { Element::states; }) {
+    return static_cast<int>(Element::states.size());
+  } else {
+    return 0;
+  }
+}
+
 /// Allowed values of a quantity. For a vector, positive means of nonzero length.
 enum class Range { any, non_negative, positive };
 
@@ -85,7 +109,8 @@ struct QuantityField {
   std::optional<double> otherwise = std::nullopt;  ///< default value; absent: the key is required
 };
 
-/// Kinematic quantities on which a force depends. It is differentiated only with respect to these.
+/// Kinematic quantities on which a force depends. It is differentiated only with respect to these, and to
+/// the states of the element and their rates.
 struct Dependence {
   bool position = false;
   bool velocity = false;
@@ -96,9 +121,10 @@ struct Dependence {
 enum class Motion { position, velocity, acceleration };
 
 /// A direction of differentiation: a component of the position, velocity or acceleration of a moving vector.
+/// After the components of all moving vectors come the states of the element.
 struct Seed {
   Motion motion = Motion::position;
-  int component = -1;  ///< 3 * argument + axis; -1: none
+  int component = -1;  ///< 3 * argument + axis, or 3 * (number of arguments) + state; -1: none
 };
 
 namespace detail {
@@ -118,7 +144,8 @@ struct BaseOf<Series<Series<Real, Q>, 1>> {
 /// Power series along the path of all data of an evaluation.
 template <class Base>
 struct PathValues {
-  std::vector<Vec3<Base>> triples;  ///< coordinates
+  std::vector<Vec3<Base>> triples;  ///< coordinates of points and bodies
+  std::vector<Base> states;         ///< states of elements; their coordinates follow the triples
   std::vector<Base> lambda;         ///< multipliers
   std::vector<Base> values;         ///< quantities, by slot
 
@@ -147,9 +174,11 @@ class ElementView {
  public:
   using Base = typename detail::BaseOf<Scalar>::type;
 
-  /// `arguments` are the positions of the moving vectors of the element.
-  ElementView(const PathValues<Base>& path, std::span<const Vec3<Base>> arguments, Seed seed = {})
-      : path_(path), arguments_(arguments), seed_(seed) {
+  /// `arguments` are the positions of the moving vectors of the element, `states` its states. Their equations
+  /// are added to `state_force`, of the same size and zero at first.
+  ElementView(const PathValues<Base>& path, std::span<const Vec3<Base>> arguments, Seed seed = {},
+              std::span<const Base> states = {}, std::span<Scalar> state_force = {})
+      : path_(path), arguments_(arguments), seed_(seed), states_(states), state_force_(state_force) {
     for (std::size_t i = 0; i < arguments.size(); ++i) force_[i].setZero();
   }
 
@@ -180,16 +209,38 @@ class ElementView {
     if (place.argument >= 0) force_[static_cast<std::size_t>(place.argument)] += force;
   }
 
+  /// Value and rate of a state of the element. The rate is zero at the steady state; it serves as a direction
+  /// of differentiation.
+  Scalar state(int i) const { return seeded(states_[static_cast<std::size_t>(i)], Motion::position, row(i)); }
+  Scalar state_rate(int i) const { return seeded(Base(), Motion::velocity, row(i)); }
+
+  /// Adds to the right side of the equation of a state.
+  void add_to_state(int i, const Scalar& value) { state_force_[static_cast<std::size_t>(i)] += value; }
+
   const Vec3<Scalar>& force(std::size_t argument) const { return force_[argument]; }
+
+  /// The force by component, numbered as in Seed.
+  const Scalar& component(int i) const {
+    const int of_vectors = 3 * static_cast<int>(arguments_.size());
+    if (i < of_vectors) return force_[static_cast<std::size_t>(i / 3)][i % 3];
+    return state_force_[static_cast<std::size_t>(i - of_vectors)];
+  }
 
  private:
   Scalar seeded(const Base& base, Motion motion, const Place& place, int axis) const {
+    return seeded(base, motion, 3 * place.argument + axis);
+  }
+
+  Scalar seeded(const Base& base, Motion motion, int component) const {
     Scalar result(base);
     if constexpr (!std::is_same_v<Scalar, Base>) {
-      if (seed_.motion == motion && seed_.component == 3 * place.argument + axis) result[1] = Base(1.0);
+      if (seed_.motion == motion && seed_.component == component) result[1] = Base(1.0);
     }
     return result;
   }
+
+  /// Component of a state.
+  int row(int state) const { return 3 * static_cast<int>(arguments_.size()) + state; }
 
   Vec3<Scalar> rate(const Place& place, Motion motion) const {
     if (place.argument < 0) return Vec3<Scalar>::Zero();
@@ -200,6 +251,8 @@ class ElementView {
   const PathValues<Base>& path_;
   std::span<const Vec3<Base>> arguments_;
   Seed seed_;
+  std::span<const Base> states_;
+  std::span<Scalar> state_force_;
   std::array<Vec3<Scalar>, max_arguments> force_;
 };
 

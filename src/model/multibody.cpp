@@ -1,10 +1,16 @@
 #include "model/multibody.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
 
 namespace eigentrail {
 namespace {
+
+/// Largest number of Newton steps for the starting guess of states, and the relative change at which they
+/// end. Where their equations are linear one is exact, and the second one sees that.
+constexpr int most_settlings = 10;
+constexpr double settled = 1e-12;
 
 /// Adds the roles of all quantities that depend on the traced parameter to `enters`.
 class TracedRoles {
@@ -100,10 +106,27 @@ Vector Multibody::initial_guess(const Vector& parameters) const {
   Vector si = parameters;
   data_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
   const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
-  Vector x(static_cast<Eigen::Index>(guess_.size()));
+  Vector x = Vector::Zero(n_coordinates());
   for (std::size_t i = 0; i < guess_.size(); ++i)
     x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
+  if (n_coordinates() > 3 * data_.n_triples) settle_states(parameters, x);
   return x;
+}
+
+void Multibody::settle_states(const Vector& parameters, Vector& x) const {
+  EvaluationCounts counts = new_counts();
+  const Eigen::Index n = n_coordinates() - 3 * data_.n_triples;
+  for (int i = 0; i < most_settlings; ++i) {
+    const Path path{parameters, x, Vector::Zero(n_constraints())};
+    SteadyResidual rest;
+    Linearization linearization;
+    if (residual(path, 0, rest, counts) || linearize(path, 0, linearization, counts)) return;
+    const Matrix K = linearization.K[0].dense().bottomRightCorner(n, n);
+    const Vector change = Eigen::PartialPivLU<Matrix>(K).solve(rest.force.col(0).tail(n));
+    if (!change.allFinite()) return;
+    x.tail(n) -= change;
+    if (change.norm() <= settled * x.tail(n).norm()) return;
+  }
 }
 
 Structure Multibody::structure(int traced_parameter) const {
@@ -115,11 +138,12 @@ Structure Multibody::structure(int traced_parameter) const {
   data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
     roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
+    constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
     for (const Placed<Element>& placed : list) {
       Element::fields(placed.element, roles);
-      roles.strength(placed.strength, {.mass = depends.acceleration,
-                                       .damping = depends.velocity,
-                                       .force = !Element::contribution.inertia});
+      roles.strength(
+          placed.strength,
+          {.mass = depends.acceleration, .damping = damping, .force = !Element::contribution.inertia});
     }
     if (list.empty()) return;
     result.damped = result.damped || Element::contribution.dissipative;

@@ -1,5 +1,5 @@
 // Model of points and rigid bodies with elements and constraints. Coordinates: x, y, z of every point in the
-// order of the scene, then origin and three directors of every body.
+// order of the scene, then origin and three directors of every body, then the states of elements.
 #pragma once
 
 #include "model/assembly.hpp"
@@ -23,8 +23,11 @@ class Multibody final : public Model {
                                          BasicLinearization<Extended>& result) const override;
 
  private:
+  /// Solves the equations of the states of elements, with points and bodies where x has them.
+  void settle_states(const Vector& parameters, Vector& x) const;
+
   MultibodyData data_;
-  std::vector<Expression> guess_;  ///< one per coordinate
+  std::vector<Expression> guess_;  ///< one per coordinate of points and bodies
 };
 
 }  // namespace eigentrail

@@ -117,6 +117,18 @@ class ArgumentCollector {
   std::vector<Place>& arguments_;
 };
 
+/// Adds the states of an element to the coordinates.
+template <class Element>
+void add_states(Draft& draft, Placed<Element>& placed) {
+  if constexpr (number_of_states<Element>() > 0) {
+    placed.first_state = static_cast<int>(draft.state_names.size());
+    for (const OwnState& state : Element::states) {
+      draft.state_names.push_back(placed.label + "." + std::string(state.name));
+      draft.state_units.emplace_back(state.unit);
+    }
+  }
+}
+
 /// Adds an element unless its effect is switched off.
 template <class Element>
 void add_element(Draft& draft, Element element, std::string label) {
@@ -126,7 +138,17 @@ void add_element(Draft& draft, Element element, std::string label) {
       std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
   ArgumentCollector collector(placed.arguments);
   Element::fields(placed.element, collector);
+  add_states(draft, placed);
   std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
+}
+
+/// The states of an element are coordinates, which the name of the element must tell apart.
+template <class Element>
+void check_own_name(const Draft& draft, const TableReader& table, const std::string& label) {
+  for (const Placed<Element>& other : std::get<std::vector<Placed<Element>>>(draft.data.elements.lists)) {
+    if (other.label == label)
+      table.fail("name", "another " + std::string(Element::name) + " is called '" + label + "' already");
+  }
 }
 
 /// Reads all [[name]] tables of one element type.
@@ -141,6 +163,7 @@ void read_elements(Draft& draft) {
     FieldReader fields(draft, table);
     Element::fields(element, fields);
     const std::string label = table.has("name") ? printable(table.text("name")) : number;
+    if (number_of_states<Element>() > 0) check_own_name<Element>(draft, table, label);
     table.finish();
     std::vector<Place> moving;
     ArgumentCollector collector(moving);
@@ -260,6 +283,9 @@ ModelDescription describe(const Draft& draft) {
     description.masses.push_back(
         {draft.mass_names[i], masses.carriers[0].terms[0].triple, static_cast<Eigen::Index>(masses.size)});
   }
+  for (auto [names, of_states] : {std::pair(&description.coordinate_names, &draft.state_names),
+                                  std::pair(&description.coordinate_units, &draft.state_units)})
+    names->insert(names->end(), of_states->begin(), of_states->end());
   description.constraint_names = draft.constraint_names;
   description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
@@ -267,9 +293,11 @@ ModelDescription describe(const Draft& draft) {
     constexpr int motions = int{depends.position} + int{depends.velocity} + int{depends.acceleration};
     int evaluations = 0;
     for (const Placed<Element>& placed : list)
-      evaluations += 3 * motions * static_cast<int>(placed.arguments.size());
+      evaluations +=
+          3 * motions * static_cast<int>(placed.arguments.size()) + 2 * number_of_states<Element>();
     description.effects.push_back({std::string(Element::name), std::string(Element::description),
-                                   static_cast<int>(list.size()), Element::contribution, evaluations});
+                                   static_cast<int>(list.size()), Element::contribution, evaluations,
+                                   number_of_states<Element>() * static_cast<int>(list.size())});
   });
   for (const ConstraintKind& kind : constraint_kinds()) {
     description.effects.push_back(
@@ -321,7 +349,8 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   }
   reject_unused_parameters(scene, draft.used);
   draft.data.parameters = draft.parameters();
-  draft.data.n_coordinates = static_cast<int>(draft.guess.size());
+  draft.data.n_triples = static_cast<int>(draft.guess.size()) / 3;
+  draft.data.n_coordinates = static_cast<int>(draft.guess.size() + draft.state_names.size());
   ModelDescription description = describe(draft);
   if (rotation) description.rotation_axis = axis_of(draft, *rotation);
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));

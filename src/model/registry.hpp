@@ -14,6 +14,7 @@
 #include "model/elements/force.hpp"
 #include "model/elements/gravity.hpp"
 #include "model/elements/internal_damping.hpp"
+#include "model/elements/maxwell_damper.hpp"
 #include "model/elements/moment.hpp"
 #include "model/elements/point_mass.hpp"
 #include "model/elements/rotating_frame.hpp"
@@ -31,6 +32,7 @@ struct Placed {
   std::string label;             ///< name in the scene, or "spring 2"
   std::vector<Place> arguments;  ///< its moving vectors, each once; Place::argument is the index
   Quantity strength = {};        ///< multiplies its forces; without slot: one
+  int first_state = -1;          ///< index of its first state among those of all elements; -1: it has none
 };
 
 template <class... Element>
@@ -66,6 +68,8 @@ using Elements = ElementTable<  //
     Damper,                     //
     Drag,                       //
     TorsionalDamper,            //
+    MaxwellDamper,              //
+    TorsionalMaxwellDamper,     //
     InternalDamping,            //
     Bearing,                    //
     SpinningDisc,               //

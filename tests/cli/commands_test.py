@@ -271,7 +271,8 @@ class Explain(CommandTest):
         self.assertEqual(re.findall(r"^ +(\w+) +1  ", active, re.MULTILINE), ["point", "frame", "drag", "rod"])
         self.assertEqual(set(absent.strip().split(", ")), {
             "body", "gravity", "force", "follower_force", "transverse_force", "moment", "spring", "guided_spring",
-            "torsional_spring", "damper", "torsional_damper", "internal_damping", "bearing", "spinning_disc",
+            "torsional_spring", "damper", "torsional_damper", "maxwell_damper",
+            "torsional_maxwell_damper", "internal_damping", "bearing", "spinning_disc",
             "blade_element", "directors", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic",
             "weld", "point_on_line", "point_on_plane"})
 

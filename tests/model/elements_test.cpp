@@ -45,6 +45,12 @@ const std::vector<ElementCase> cases = {
     {"drag_on_a_marker", "[[drag]]\npoint = { body = \"d\", at = [0.1, \"p\", 0.2] }\ncoefficient = \"p\"\n"},
     {"damper", "[[damper]]\nfrom = \"a\"\nto = \"c.tip\"\ncoefficient = \"p\"\n"},
     {"damper_between_bodies", "[[damper]]\nfrom = \"d\"\nto = \"c.tip\"\ncoefficient = \"p\"\n"},
+    {"maxwell_damper",
+     "[[maxwell_damper]]\nfrom = \"a\"\nto = \"c.tip\"\nstiffness = \"10*p\"\ncoefficient = \"2*p\"\n"
+     "[[maxwell_damper]]\nfrom = [0.1, 0, \"p\"]\nto = \"b\"\nstiffness = 3\ncoefficient = 4\n"},
+    {"torsional_maxwell_damper",
+     "[[revolute]]\nname = \"hinge\"\nfrom = \"c.tip\"\nto = \"d\"\naxis = [1, 2, 3]\n"
+     "[[torsional_maxwell_damper]]\njoint = \"hinge\"\nstiffness = \"4*p\"\ncoefficient = \"p^2\"\n"},
     {"moment", "[[moment]]\nbody = \"c\"\nalong = [1, \"p\", 2]\nmagnitude = \"3*p\"\n"},
     {"follower_moment", "[[moment]]\nbody = \"c\"\nalong = \"d.y\"\nmagnitude = \"3*p\"\n"},
     {"internal_damping",
@@ -318,9 +324,11 @@ TEST(Registry, DeclaredDependencesAreComplete) {
     const auto derivatives = [&](const PathValues<Base>& at, Motion motion) {
       std::vector<Vec3<Base>> positions;
       for (const Place& place : arguments) positions.push_back(at.vector(place));
+      const std::vector<Base> states(static_cast<std::size_t>(number_of_states<Element>()), Base(0.7));
       std::vector<double> all;
       for (int component = 0; component < 3 * static_cast<int>(arguments.size()); ++component) {
-        ElementView<Scalar> view(at, positions, Seed{motion, component});
+        std::vector<Scalar> state_force(states.size());
+        ElementView<Scalar> view(at, positions, Seed{motion, component}, states, state_force);
         element.force(view);
         for (std::size_t i = 0; i < arguments.size(); ++i) {
           for (int j = 0; j < 3; ++j) all.push_back(view.force(i)[j][1][0]);

@@ -39,7 +39,8 @@ WORDS = {"1": "one", "true": "true", "false": "false", "[]": "an empty list", "{
          "[0, 0, 1]": "a direction", "[1, 0, 0]": "a vector", "[[1, 2]]": "one row"}
 
 # Keys that cannot be given at will: they depend on others.
-DEPENDENT = {"torsional_spring about", "torsional_damper about", "body inertia", "body x_axis", "body y_axis", "body z_axis"}
+DEPENDENT = {"torsional_spring about", "torsional_damper about", "torsional_maxwell_damper about", "body inertia",
+             "body x_axis", "body y_axis", "body z_axis"}
 
 
 def kind_of(unit):

@@ -85,6 +85,29 @@ class GroundResonance(RotorTest):
         wrong = sorted(rpm for rpm, _ in self.special_points(self.trace_text(turned), "flutter"))
         self.assertFalse(len(right) == len(wrong) and np.allclose(right, wrong, rtol=1e-3))
 
+    def test_elastomeric_dampers(self):
+        """Spring k and dashpot c in series in place of every lag damper. In the ground's frame the dashpot's angles obey
+        c (d/dt - j omega) eta = k (xi - eta), and give one more root to every lag mode."""
+        k = 40000.0
+        text = self.scene_text().replace("[[torsional_damper]]", f"[[torsional_maxwell_damper]]\nstiffness = {k!r}")
+
+        def with_elastomer(rpm):
+            p = self.parameters(omega=rpm * RPM)
+            S, I, c, shift = p["first"], p["second"], p["lag_damper"], 1j * p["omega"]
+            hinge = p["offset"] * S * p["omega"]**2 + p["lag_spring"] + k
+            M = np.array([[p["hub_mass"] + BLADES * p["blade_mass"], BLADES / 2 * 1j * S], [-1j * S, I]])
+            C = np.diag([p["damper"] + 0j, -2 * shift * I])
+            K = np.diag([p["support"] + 0j, I * shift**2 + hinge])
+            left, below = np.linalg.solve(M, K), np.linalg.solve(M, C)
+            force = np.linalg.solve(M, [0.0, k])[:, None]
+            dashpot = np.array([[0, k / c, 0, 0, shift - k / c]])
+            whirl = np.linalg.eigvals(np.vstack([np.hstack([np.zeros((2, 2)), np.eye(2), np.zeros((2, 1))]),
+                                                 np.hstack([-left, -below, force]), dashpot])) - shift
+            alone = upper(np.roots([I * c, I * k, c * hinge, (hinge - k) * k]))
+            return np.concatenate([np.where(whirl.imag < 0, whirl.conj(), whirl), *(BLADES - 2) * [alone]])
+
+        self.assert_follows(self.trace_text(text), with_elastomer, "omega", np.linspace(50, 450, 40))
+
     def test_only_what_it_names_is_evaluated(self):
         self.check_effects("body", "frame", "torsional_spring", "torsional_damper", "internal_damping", "bearing",
                          "directors", "revolute", "prismatic")

@@ -53,6 +53,7 @@ struct EffectHelp {
   std::string name;
   std::string description;
   std::vector<FieldHelp> fields;
+  std::vector<FieldHelp> states = {};  ///< unknowns of its own, of first order: name, unit and meaning
 };
 
 /// All effects of multibody scenes, in the order of evaluation.

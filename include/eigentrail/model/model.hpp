@@ -36,6 +36,9 @@ struct Effect {
   Contribution contribution;  ///< contribution of each occurrence
   /// Evaluations of its formula (constraints: rows) for all occurrences in one linearization.
   int evaluations = 0;
+  /// First-order coordinates that belong to its occurrences, one per state; they are the last coordinates of
+  /// the model.
+  int states = 0;
 };
 
 /// Structure of the pencil that is known before its evaluation, for a given traced parameter.
@@ -63,10 +66,10 @@ struct MassCarrier {
 
 /// Constant properties of a model.
 struct ModelDescription {
-  std::vector<std::string> coordinate_names;  ///< size n
-  std::vector<std::string> coordinate_units;  ///< size n
-  std::vector<std::string> constraint_names;  ///< size m
-  std::vector<Effect> effects;
+  std::vector<std::string> coordinate_names;     ///< size n
+  std::vector<std::string> coordinate_units;     ///< size n
+  std::vector<std::string> constraint_names;     ///< size m
+  std::vector<Effect> effects;                   ///< the states of elements follow their order
   std::vector<MassCarrier> masses;               ///< only of a multibody model
   std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector; empty if the frame does not rotate
   Parameters parameters;

@@ -203,7 +203,8 @@ void Start::list_permanent_zeros(const Spectrum& spectrum) {
 }
 
 /// Number of infinite eigenvalues that the form with velocities has for every value of the parameter:
-/// coordinates without mass have one, those without mass and damping two.
+/// coordinates without mass have one, those without mass and damping two. The states of elements have no
+/// mass.
 int Start::structural_infinities() const {
   const CoefficientMatrices all = problem_.model.coefficient_matrices();
   const auto is_zero = [](const std::vector<Matrix>& matrices, Eigen::Index column) {
@@ -211,8 +212,11 @@ int Start::structural_infinities() const {
       return matrix.size() == 0 || matrix.col(column).isZero(0.0);
     });
   };
-  if (all.M.empty()) return 0;
   int count = 0;
+  if (all.M.empty()) {
+    for (const Effect& effect : problem_.model.description().effects) count += effect.states;
+    return count;
+  }
   for (Eigen::Index j = 0; j < all.M[0].cols(); ++j) {
     if (is_zero(all.M, j)) count += is_zero(all.C, j) ? 2 : 1;
   }

@@ -1,0 +1,377 @@
+#include "eigentrail/model/function_family.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "eigentrail/core/series.hpp"
+#include "eigentrail/core/text.hpp"
+#include "model/piecewise_chebyshev.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Errors of an entry up to this share of the entries beside it are rounding of the caller's function.
+constexpr double rounding_share = 1e-14;
+/// How far beside the range, relative to its length, values of the parameter may be by rounding.
+constexpr double at_the_ends = 1e-12;
+
+struct Given {
+  const char* name;
+  Matrix MatricesAt::*matrix;
+};
+constexpr std::array<Given, 5> all_matrices = {{{"M", &MatricesAt::M},
+                                                {"C", &MatricesAt::C},
+                                                {"K", &MatricesAt::K},
+                                                {"E", &MatricesAt::E},
+                                                {"A", &MatricesAt::A}}};
+
+[[noreturn]] void fail(const std::string& message) {
+  throw std::invalid_argument("FunctionFamily: " + message);
+}
+
+std::string at(const std::string& parameter, double p) {
+  return parameter + " = " + exact_text(p);
+}
+
+std::string short_text(double number) {
+  std::ostringstream text;
+  text.precision(3);
+  text << number;
+  return text.str();
+}
+
+void check(const FunctionFamilyOptions& options) {
+  if (options.parameter.empty()) fail("parameter: expected a name, got an empty text");
+  if (!std::isfinite(options.from) || !std::isfinite(options.to) || !(options.from < options.to))
+    fail("from, to: expected finite numbers with from < to, got " + exact_text(options.from) + " and " +
+         exact_text(options.to));
+  if (!(options.tolerance >= rounding_share && options.tolerance < 1.0))
+    fail("tolerance: expected 1e-14 <= tolerance < 1, got " + exact_text(options.tolerance));
+  if (options.max_calls < 2) fail("max_calls: expected at least 2, got " + std::to_string(options.max_calls));
+  for (const double place : options.breaks) {
+    if (!(place > options.from && place < options.to))
+      fail("breaks: expected places between from and to, got " + exact_text(place));
+  }
+}
+
+/// Which matrices the function returns, and their size.
+class Layout {
+ public:
+  /// From the first call.
+  Layout(const MatricesAt& first, const std::string& where) {
+    const bool first_order = first.A.size() > 0;
+    for (const Given& given : all_matrices) {
+      if ((first.*given.matrix).size() > 0) given_.push_back(given);
+    }
+    n_ = (first_order ? first.A : first.K).rows();
+    if (first_order && (first.M.size() > 0 || first.C.size() > 0 || first.K.size() > 0))
+      fail("at " + where + " the function returned A of E x' = A x beside M, C or K");
+    if (!first_order && first.E.size() > 0) fail("at " + where + " the function returned E without A");
+    if (!first_order && (n_ == 0 || (first.M.size() == 0 && first.C.size() == 0)))
+      fail("at " + where + " the function returned neither A nor K with M or C");
+  }
+
+  Eigen::Index n() const { return n_; }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(given_.size()) * n_ * n_; }
+
+  /// All entries, one matrix after the other, each by columns.
+  Vector entries(const MatricesAt& matrices, const std::string& where) const {
+    for (const Given& given : all_matrices) check_size(given, matrices.*given.matrix, where);
+    Vector entries(size());
+    Eigen::Index next = 0;
+    for (const Given& given : given_) {
+      const Matrix& matrix = matrices.*given.matrix;
+      for (Eigen::Index i = 0; i < matrix.size(); ++i) {
+        if (!std::isfinite(matrix(i)))
+          fail("at " + where + " entry " + name(next + i) + " is not a finite number; it is " +
+               exact_text(matrix(i)));
+      }
+      entries.segment(next, n_ * n_) = matrix.reshaped();
+      next += n_ * n_;
+    }
+    return entries;
+  }
+
+  /// "K(0, 2)", for an index into the entries.
+  std::string name(Eigen::Index entry) const {
+    const Eigen::Index own = entry % (n_ * n_);
+    return std::string(given_[static_cast<std::size_t>(entry / (n_ * n_))].name) + "(" +
+           std::to_string(own % n_) + ", " + std::to_string(own / n_) + ")";
+  }
+
+  /// What is rounding, from the largest magnitudes of all entries: a share of the geometric mean of the
+  /// largest ones in the row and in the column, in which units cancel.
+  Vector rounding(const Vector& largest) const {
+    Vector result(largest.size());
+    for (Eigen::Index next = 0; next < largest.size(); next += n_ * n_) {
+      const auto magnitudes = largest.segment(next, n_ * n_).reshaped(n_, n_);
+      const Vector rows = magnitudes.rowwise().maxCoeff();
+      const Vector columns = magnitudes.colwise().maxCoeff();
+      const Matrix scales = (rows * columns.transpose()).cwiseSqrt();
+      result.segment(next, n_ * n_) = rounding_share * scales.reshaped();
+    }
+    return result;
+  }
+
+  /// The matrices of a family from their entries: M, C, K, or zero, E and -A.
+  FamilyPiece piece(const ChebyshevPiece& of) const {
+    FamilyPiece piece{of.from, of.to, static_cast<int>(of.coefficients.cols()) - 1, {}, {}, {}};
+    Eigen::Index next = 0;
+    for (const Given& given : given_) {
+      const bool is_A = given.matrix == &MatricesAt::A;
+      std::vector<Matrix>& series = given.matrix == &MatricesAt::M                           ? piece.M
+                                    : given.matrix == &MatricesAt::C || given.name[0] == 'E' ? piece.C
+                                                                                             : piece.K;
+      for (Eigen::Index j = 0; j < of.coefficients.cols(); ++j) {
+        const Matrix matrix = of.coefficients.col(j).segment(next, n_ * n_).reshaped(n_, n_);
+        series.push_back(is_A ? Matrix(-matrix) : matrix);
+      }
+      while (series.size() > 1 && series.back().isZero(0.0)) series.pop_back();
+      next += n_ * n_;
+    }
+    const bool first_order = given_.back().matrix == &MatricesAt::A;
+    if (piece.M.empty()) piece.M.push_back(Matrix::Zero(n_, n_));
+    if (piece.C.empty())
+      piece.C.push_back(first_order ? Matrix(Matrix::Identity(n_, n_)) : Matrix(Matrix::Zero(n_, n_)));
+    return piece;
+  }
+
+ private:
+  void check_size(const Given& given, const Matrix& matrix, const std::string& where) const {
+    const bool expected = std::any_of(given_.begin(), given_.end(),
+                                      [&](const Given& known) { return known.matrix == given.matrix; });
+    if (matrix.rows() == (expected ? n_ : 0) && matrix.cols() == (expected ? n_ : 0)) return;
+    fail("at " + where + " the function returned " + given.name + " of " + std::to_string(matrix.rows()) +
+         " x " + std::to_string(matrix.cols()) + "; expected " +
+         (expected ? std::to_string(n_) + " x " + std::to_string(n_) : std::string("none")));
+  }
+
+  std::vector<Given> given_;
+  Eigen::Index n_ = 0;
+};
+
+std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& layout,
+                            const Unresolved& what, int calls) {
+  const bool out_of_calls = calls >= options.max_calls;
+  return "FunctionFamily: " +
+         (out_of_calls ? std::to_string(calls) + " calls are not enough for the tolerance "
+                       : std::string("no pieces are short enough for the tolerance ")) +
+         exact_text(options.tolerance) + ": between " + at(options.parameter, what.from) + " and " +
+         exact_text(what.to) + " the entry " + layout.name(what.worst) + " is off by " +
+         short_text(what.error) +
+         " of its largest magnitude. Does it jump, or is there a kink? Name the place in breaks, or allow a "
+         "larger tolerance" +
+         (out_of_calls ? " or more calls" : "");
+}
+
+enum class Symmetry { symmetric, skew, none };
+
+/// Symmetry of all coefficients of one of the matrices.
+Symmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
+  bool symmetric = true, skew = true;
+  for (const FamilyPiece& piece : pieces) {
+    for (const Matrix& c : piece.*matrix) {
+      symmetric = symmetric && c == c.transpose();
+      skew = skew && c == -c.transpose();
+    }
+  }
+  return symmetric ? Symmetry::symmetric : skew ? Symmetry::skew : Symmetry::none;
+}
+
+bool is_constant(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
+  return pieces.size() == 1 && (pieces.front().*matrix).size() == 1;
+}
+
+std::vector<std::string> texts_of(const std::vector<std::string>& given, const char* what, Eigen::Index n,
+                                  const std::function<std::string(Eigen::Index)>& otherwise) {
+  if (!given.empty() && static_cast<Eigen::Index>(given.size()) != n)
+    fail(std::string(what) + ": expected " + std::to_string(n) + " texts, one for each coordinate, got " +
+         std::to_string(given.size()));
+  std::vector<std::string> texts = given;
+  for (Eigen::Index i = static_cast<Eigen::Index>(texts.size()); i < n; ++i) texts.push_back(otherwise(i));
+  return texts;
+}
+
+ModelDescription describe(const FunctionFamilyOptions& options, const std::vector<FamilyPiece>& pieces,
+                          int calls) {
+  const Eigen::Index n = pieces.front().K.front().rows();
+  ModelDescription description;
+  description.coordinate_names = texts_of(options.state_names, "state_names", n,
+                                          [](Eigen::Index i) { return "x" + std::to_string(i + 1); });
+  description.coordinate_units =
+      texts_of(options.state_units, "state_units", n, [](Eigen::Index) { return std::string("1"); });
+  const Symmetry c = symmetry(pieces, &FamilyPiece::C);
+  const bool has_C = !is_constant(pieces, &FamilyPiece::C) || !pieces.front().C.front().isZero(0.0);
+  Contribution parts{.inertia = true, .conservative = true};
+  parts.circulatory = symmetry(pieces, &FamilyPiece::K) != Symmetry::symmetric;
+  parts.dissipative = has_C && c != Symmetry::skew;
+  parts.gyroscopic = has_C && c != Symmetry::symmetric;
+  description.effects = {{"function",
+                          "a function of the caller's: " + std::to_string(calls) + " calls, " +
+                              std::to_string(pieces.size()) + (pieces.size() == 1 ? " piece" : " pieces"),
+                          1, parts, 1}};
+  Parameter parameter;
+  parameter.name = options.parameter;
+  parameter.value = options.from;
+  parameter.unit = options.unit;
+  description.parameters = Parameters({parameter});
+  return description;
+}
+
+template <class Interpolated>
+Interpolated interpolate(const FunctionFamily::Function& function, const FunctionFamilyOptions& options) {
+  check(options);
+  std::optional<Layout> layout;
+  const auto entries = [&](double p) {
+    const MatricesAt matrices = function(p);
+    const std::string where = at(options.parameter, p);
+    if (!layout) layout.emplace(matrices, where);
+    return layout->entries(matrices, where);
+  };
+  PiecewiseOptions wanted{{options.from}, options.tolerance, options.max_calls};
+  wanted.ends.insert(wanted.ends.end(), options.breaks.begin(), options.breaks.end());
+  wanted.ends.push_back(options.to);
+  std::sort(wanted.ends.begin(), wanted.ends.end());
+  wanted.ends.erase(std::unique(wanted.ends.begin(), wanted.ends.end()), wanted.ends.end());
+  const PiecewiseResult result =
+      interpolate_in_pieces(entries, wanted, [&](const Vector& v) { return layout->rounding(v); });
+  for (const Unresolved& what : result.unresolved)
+    throw NotResolved(unresolved_text(options, *layout, what, result.calls), what.from, what.to);
+  std::vector<FamilyPiece> pieces;
+  for (const ChebyshevPiece& piece : result.pieces) pieces.push_back(layout->piece(piece));
+  ModelDescription description = describe(options, pieces, result.calls);
+  return {std::move(description), std::move(pieces), result.calls};
+}
+
+}  // namespace
+
+FunctionFamily::FunctionFamily(const Function& function, const FunctionFamilyOptions& options)
+    : FunctionFamily(interpolate<Interpolated>(function, options)) {}
+
+FunctionFamily::FunctionFamily(Interpolated interpolated)
+    : Model(std::move(interpolated.description)),
+      calls_(interpolated.calls),
+      pieces_(std::move(interpolated.pieces)) {}
+
+Vector FunctionFamily::initial_guess(const Vector&) const {
+  return Vector::Zero(n_coordinates());
+}
+
+Structure FunctionFamily::structure(int) const {
+  const Contribution& parts = description().effects.front().contribution;
+  Structure structure;
+  structure.symmetric_mass = symmetry(pieces_, &FamilyPiece::M) == Symmetry::symmetric;
+  structure.damped = parts.dissipative;
+  structure.gyroscopic = parts.gyroscopic;
+  structure.circulatory = parts.circulatory;
+  structure.constant_mass = is_constant(pieces_, &FamilyPiece::M);
+  structure.constant_damping = is_constant(pieces_, &FamilyPiece::C);
+  structure.constant_stiffness = is_constant(pieces_, &FamilyPiece::K);
+  structure.constant_constraints = true;
+  structure.fixed_equilibrium = true;
+  structure.known_equilibrium = true;
+  return structure;
+}
+
+EvaluationFault FunctionFamily::residual(const Path& path, int order, SteadyResidual& result,
+                                         EvaluationCounts&) const {
+  if (!path.x.isZero(0.0)) throw std::invalid_argument("FunctionFamily: expected the equilibrium x = 0");
+  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
+  result.constraint = VectorSeries::Zero(0, order + 1);
+  return {};
+}
+
+EvaluationFault FunctionFamily::extended_residual(const BasicPath<Extended>&,
+                                                  BasicSteadyResidual<Extended>& result) const {
+  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
+  result.constraint = ExtendedMatrix::Zero(0, 1);
+  return {};
+}
+
+CoefficientMatrices FunctionFamily::coefficient_matrices() const {
+  CoefficientMatrices all;
+  for (const FamilyPiece& piece : pieces_) {
+    all.M.insert(all.M.end(), piece.M.begin(), piece.M.end());
+    all.C.insert(all.C.end(), piece.C.begin(), piece.C.end());
+    all.K.insert(all.K.end(), piece.K.begin(), piece.K.end());
+  }
+  return all;
+}
+
+/// The piece of a value of the parameter; where two meet, the one ahead. Null beside the range.
+const FamilyPiece* FunctionFamily::piece_at(double p, double slope) const {
+  const double beside = at_the_ends * (pieces_.back().to - pieces_.front().from);
+  if (!(p >= pieces_.front().from - beside && p <= pieces_.back().to + beside)) return nullptr;
+  const auto found = std::find_if(pieces_.begin(), pieces_.end() - 1, [&](const FamilyPiece& piece) {
+    return p < piece.to || (p == piece.to && slope < 0.0);
+  });
+  return &*found;
+}
+
+namespace {
+
+/// sum_j coefficients[j] T_j(x(h)) up to h^order, without trailing zeros.
+template <class Real, int Q>
+auto chebyshev_sum(const std::vector<Matrix>& coefficients, const Series<Real, Q>& x, int order) {
+  using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  const std::size_t count = coefficients.size() == 1 ? 1 : static_cast<std::size_t>(order) + 1;
+  std::vector<Coefficient> result(
+      count, Coefficient::Zero(coefficients.front().rows(), coefficients.front().cols()));
+  Series<Real, Q> T(1.0), before = x;  // T_{-1} = T_1
+  for (const Matrix& matrix : coefficients) {
+    const Coefficient factor = matrix.template cast<Real>();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Real& weight = T[static_cast<int>(k)];
+      if (weight != Real(0.0)) result[k] += weight * factor;
+    }
+    Series<Real, Q> next = 2.0 * x * T - before;
+    before = std::move(T);
+    T = std::move(next);
+  }
+  while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
+  return typename BasicLinearization<Real>::Coefficients(result.begin(), result.end());
+}
+
+}  // namespace
+
+template <class Real, int Q>
+EvaluationFault FunctionFamily::evaluate_all(const BasicPath<Real>& path, int order,
+                                             BasicLinearization<Real>& result,
+                                             EvaluationCounts& counts) const {
+  Series<Real, Q> p;
+  for (int k = 0; k <= Q; ++k) p[k] = coefficient(path.parameters, 0, k);
+  double slope = 0.0;
+  if constexpr (Q > 0) slope = static_cast<double>(p[1]);
+  const FamilyPiece* piece = piece_at(static_cast<double>(p[0]), slope);
+  if (piece == nullptr)
+    return {"the function family, which ends at " +
+            at(description().parameters[0].name, pieces_.front().from) + " and " +
+            exact_text(pieces_.back().to)};
+  // p to x: -1 at the beginning of the piece, 1 at its end
+  const Real from(piece->from), to(piece->to);
+  Series<Real, Q> x = p + p - Series<Real, Q>(from + to);
+  for (int k = 0; k <= Q; ++k) x[k] = x[k] / (to - from);
+  result.M = chebyshev_sum<Real, Q>(piece->M, x, order);
+  result.C = chebyshev_sum<Real, Q>(piece->C, x, order);
+  result.K = chebyshev_sum<Real, Q>(piece->K, x, order);
+  result.A.assign(1, typename BasicLinearization<Real>::Coefficients::value_type(
+                         Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>(
+                             Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>::Zero(0, n_coordinates()))));
+  ++counts.linearization[0];
+  return {};
+}
+
+EvaluationFault FunctionFamily::linearize(const Path& path, int order, Linearization& result,
+                                          EvaluationCounts& counts) const {
+  return evaluate_all<double, max_order>(path, order, result, counts);
+}
+
+EvaluationFault FunctionFamily::extended_linearization(const BasicPath<Extended>& path,
+                                                       BasicLinearization<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return evaluate_all<Extended, 0>(path, 0, result, counts);
+}
+
+}  // namespace eigentrail
