@@ -5,8 +5,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "commands.hpp"
+#include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/core/text.hpp"
 #include "output.hpp"
@@ -39,67 +41,119 @@ double in_hertz(double angular) {
   return angular / (2.0 * std::numbers::pi);
 }
 
-void print_csv(const std::vector<OperatingPoint>& points) {
-  std::printf(
-      "parameter,mode,real,imag,natural_frequency_hz,damped_frequency_hz,damping_ratio,condition,what_"
-      "moves\n");
-  for (const OperatingPoint& point : points) {
+/// A spectrum with the errors of its eigenvalues that come from the data, if the model has such.
+struct ShownPoint : OperatingPoint {
+  std::optional<Matrix> errors;  ///< a row per mode: interpolation and digits, 1/s
+
+  double error(std::size_t mode) const {
+    return errors ? errors->row(static_cast<Eigen::Index>(mode)).sum() : 0.0;
+  }
+};
+
+std::vector<ShownPoint> with_errors(const TraceSetup& setup, std::vector<OperatingPoint> points) {
+  std::vector<ShownPoint> result;
+  for (OperatingPoint& point : points) {
+    ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
+    for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
+    ShownPoint shown{std::move(point), {}};
+    shown.errors = data_errors_at(*setup.model, setup.options, shown.p, s);
+    result.push_back(std::move(shown));
+  }
+  return result;
+}
+
+nlohmann::ordered_json json_row(const ShownPoint& point, std::size_t i) {
+  const OperatingMode& mode = point.modes[i];
+  nlohmann::ordered_json row{{"parameter", point.p},
+                             {"mode", i + 1},
+                             {"real", mode.s.real()},
+                             {"imag", mode.s.imag()},
+                             {"natural_frequency_hz", in_hertz(natural_frequency(mode))},
+                             {"damped_frequency_hz", in_hertz(mode.s.imag())},
+                             {"damping_ratio", damping_ratio(mode)},
+                             {"condition", mode.condition},
+                             {"what_moves", printable(mode.what_moves)}};
+  if (point.errors) {
+    row["interpolation_error"] = (*point.errors)(static_cast<Eigen::Index>(i), 0);
+    row["digits_error"] = (*point.errors)(static_cast<Eigen::Index>(i), 1);
+  }
+  return row;
+}
+
+/// One row per mode, with the columns of the JSON rows.
+void print_csv(const std::vector<ShownPoint>& points) {
+  bool first = true;
+  for (const ShownPoint& point : points) {
     for (std::size_t i = 0; i < point.modes.size(); ++i) {
-      const OperatingMode& mode = point.modes[i];
-      std::printf("%s,%zu,%s,%s,%s,%s,%s,%s,\"%s\"\n", exact_text(point.p).c_str(), i + 1,
-                  exact_text(mode.s.real()).c_str(), exact_text(mode.s.imag()).c_str(),
-                  exact_text(in_hertz(natural_frequency(mode))).c_str(),
-                  exact_text(in_hertz(mode.s.imag())).c_str(), exact_text(damping_ratio(mode)).c_str(),
-                  exact_text(mode.condition).c_str(), printable(mode.what_moves).c_str());
+      std::string names, values;
+      for (const auto& [name, value] : json_row(point, i).items()) {
+        names += (names.empty() ? "" : ",") + name;
+        values += values.empty() ? "" : ",";
+        values += value.is_string()         ? "\"" + value.get<std::string>() + "\""
+                  : value.is_number_float() ? exact_text(value.get<double>())
+                                            : value.dump();
+      }
+      if (std::exchange(first, false)) std::printf("%s\n", names.c_str());
+      std::printf("%s\n", values.c_str());
     }
   }
 }
 
-void print_json(const std::vector<OperatingPoint>& points) {
+void print_json(const std::vector<ShownPoint>& points) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const OperatingPoint& point : points) {
-    for (std::size_t i = 0; i < point.modes.size(); ++i) {
-      const OperatingMode& mode = point.modes[i];
-      rows.push_back({{"parameter", point.p},
-                      {"mode", i + 1},
-                      {"real", mode.s.real()},
-                      {"imag", mode.s.imag()},
-                      {"natural_frequency_hz", in_hertz(natural_frequency(mode))},
-                      {"damped_frequency_hz", in_hertz(mode.s.imag())},
-                      {"damping_ratio", damping_ratio(mode)},
-                      {"condition", mode.condition},
-                      {"what_moves", mode.what_moves}});
-    }
+  for (const ShownPoint& point : points) {
+    for (std::size_t i = 0; i < point.modes.size(); ++i) rows.push_back(json_row(point, i));
   }
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
-void print_for_people(const TraceSetup& setup, const std::vector<OperatingPoint>& points) {
+/// Prints "  LABEL: 1, 4", or nothing if there are none.
+void print_modes(const char* label, const std::vector<std::size_t>& modes) {
+  if (modes.empty()) return;
+  std::string list;
+  for (const std::size_t mode : modes) list += (list.empty() ? "" : ", ") + std::to_string(mode);
+  std::printf("  %s: %s\n", label, list.c_str());
+}
+
+std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
+  const OperatingMode& mode = point.modes[i];
+  const Complex s = shown(mode);
+  const double ratio = -s.real() / std::abs(s);
+  std::vector<std::string> row{std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8)};
+  if (point.errors) row.push_back(rounded(point.error(i), 2));
+  row.insert(row.end(), {rounded(in_hertz(natural_frequency(mode)), 6), rounded(in_hertz(mode.s.imag()), 6),
+                         std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
+                         rounded(mode.condition, 3), printable(mode.what_moves)});
+  return row;
+}
+
+void print_point(const ShownPoint& point) {
+  std::vector<std::string> titles{"mode", "s, 1/s"};
+  if (point.errors) titles.emplace_back("error of data, 1/s");
+  titles.insert(titles.end(), {"natural, Hz", "damped, Hz", "damping", "condition", "what moves"});
+  std::vector<std::vector<std::string>> rows{titles};
+  std::vector<std::size_t> growing, undecided;
+  for (std::size_t i = 0; i < point.modes.size(); ++i) {
+    rows.push_back(table_row(point, i));
+    const double real = shown(point.modes[i]).real();
+    if (std::abs(real) <= point.error(i) && point.error(i) > 0.0) {
+      undecided.push_back(i + 1);
+    } else if (real > 0.0) {
+      growing.push_back(i + 1);
+    }
+  }
+  print_table(rows);
+  print_modes("modes that grow", growing);
+  print_modes("modes of which the errors of the data leave undecided whether they grow", undecided);
+}
+
+void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& points) {
   const std::string& unit = setup.model->description().parameters.at(setup.options.parameter).unit;
   if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
-  for (const OperatingPoint& point : points) {
+  for (const ShownPoint& point : points) {
     std::printf("%s = %s%s\n", setup.options.parameter.c_str(), exact_text(point.p).c_str(),
                 (unit.empty() ? unit : " " + unit).c_str());
-    std::vector<std::vector<std::string>> rows{
-        {"mode", "s, 1/s", "natural, Hz", "damped, Hz", "damping", "condition", "what moves"}};
-    for (std::size_t i = 0; i < point.modes.size(); ++i) {
-      const OperatingMode& mode = point.modes[i];
-      const Complex s = shown(mode);
-      const double ratio = -s.real() / std::abs(s);
-      rows.push_back({std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8),
-                      rounded(in_hertz(natural_frequency(mode)), 6), rounded(in_hertz(mode.s.imag()), 6),
-                      std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
-                      rounded(mode.condition, 3), printable(mode.what_moves)});
-    }
-    print_table(rows);
-    std::vector<std::size_t> growing;
-    for (std::size_t i = 0; i < point.modes.size(); ++i) {
-      if (shown(point.modes[i]).real() > 0.0) growing.push_back(i + 1);
-    }
-    if (growing.empty()) continue;
-    std::string list;
-    for (const std::size_t mode : growing) list += (list.empty() ? "" : ", ") + std::to_string(mode);
-    std::printf("  modes that grow: %s\n", list.c_str());
+    print_point(point);
   }
 }
 
@@ -108,7 +162,7 @@ int run_spectrum(const SpectrumArguments& arguments) {
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()},
                     Purpose::operating_point);
   const std::vector<double> values = arguments.at.empty() ? std::vector{setup.options.from} : arguments.at;
-  const std::vector<OperatingPoint> points = operating_points(setup, values);
+  const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   if (arguments.csv) {
     print_csv(points);
   } else if (arguments.json) {
@@ -117,7 +171,7 @@ int run_spectrum(const SpectrumArguments& arguments) {
     print_for_people(setup, points);
   }
   int code = done;
-  for (const OperatingPoint& point : points) {
+  for (const ShownPoint& point : points) {
     if (point.fault.empty()) continue;
     std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
                  exact_text(point.p).c_str(), printable(point.fault).c_str());
