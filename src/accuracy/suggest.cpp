@@ -41,6 +41,14 @@ Suggestion suggestion_at(const TraceSetup& setup, double p) {
   return result;
 }
 
+/// A number near x with few decimals: nobody wants to run a program at 0.38214285. `length` of the gap.
+double short_number(double x, double length) {
+  constexpr double share = 0.02;
+  const double decimals = -std::floor(std::log10(share * length));
+  const double factor = std::pow(10.0, std::abs(decimals));
+  return decimals > 0.0 ? std::round(x * factor) / factor : std::round(x / factor) * factor;
+}
+
 }  // namespace
 
 std::vector<Suggestion> suggest_samples(const TraceSetup& setup) {
@@ -56,7 +64,9 @@ std::vector<Suggestion> suggest_samples(const TraceSetup& setup) {
   for (std::size_t i = 0; i + 1 < errors->values().size(); ++i) {
     const double from = std::max(errors->values()[i] / factor, low);
     const double to = std::min(errors->values()[i + 1] / factor, high);
-    if (to > from) all.push_back(suggestion_at(setup, 0.5 * (from + to)));
+    if (!(to > from)) continue;
+    const double place = errors->place_of_largest_error(i, from * factor, to * factor) / factor;
+    all.push_back(suggestion_at(setup, short_number(place, to - from)));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Suggestion& a, const Suggestion& b) { return a.error > b.error; });

@@ -26,18 +26,29 @@ double weight(const std::vector<double>& nodes, int degree, int k) {
 
 }  // namespace
 
-RationalInterpolant::RationalInterpolant(std::vector<double> nodes, int degree)
-    : nodes_(std::move(nodes)), degree_(degree) {
+RationalInterpolant::RationalInterpolant(std::vector<double> nodes, int degree, Denominator denominator)
+    : nodes_(std::move(nodes)), degree_(degree), denominator_(std::move(denominator)) {
   const int count = static_cast<int>(nodes_.size());
-  if (degree < 0 || degree >= count)
+  if (degree < denominator_.degree() || degree >= count)
     throw std::invalid_argument("RationalInterpolant: degree " + std::to_string(degree) + " with " +
-                                std::to_string(count) + " nodes");
-  for (int k = 0; k < count; ++k) weights_.push_back(weight(nodes_, degree, k));
+                                std::to_string(count) + " nodes and " +
+                                std::to_string(denominator_.degree()) + " poles");
+  double largest = 0.0;
+  for (const double node : nodes_) largest = std::max(largest, denominator_(node));
+  for (int k = 0; k < count; ++k)
+    weights_.push_back(weight(nodes_, degree, k) * denominator_(nodes_[static_cast<std::size_t>(k)]) /
+                       largest);
 }
 
 Vector RationalInterpolant::values(double x) const {
   const std::vector<double> all = basis(x);
   return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+double RationalInterpolant::error_factor(double x) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < nodes_.size(); ++j) sum += weights_[j] / (x - nodes_[j]);
+  return 1.0 / std::abs(sum);
 }
 
 std::size_t RationalInterpolant::nearest(double x) const {

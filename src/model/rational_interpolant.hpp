@@ -3,7 +3,8 @@
 //
 //   r(x) = sum_j b_j(x) f_j,   b_j(x) = w_j / (x - x_j) / sum_k w_k / (x - x_k).
 //
-// The error falls like h^(d+1) for any distribution of nodes, and constants are reproduced.
+// The error falls like h^(d+1) for any distribution of nodes, and constants are reproduced. With a
+// denominator q, w_j becomes w_j q(x_j): then q f is interpolated in that way and the result divided by q.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +13,18 @@
 
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/core/types.hpp"
+#include "model/sample_poles.hpp"
 
 namespace eigentrail {
 
 class RationalInterpolant {
  public:
-  /// `nodes`: ascending, at least one; 0 <= degree < number of nodes.
-  RationalInterpolant(std::vector<double> nodes, int degree);
+  /// `nodes`: ascending, at least one; degree of the denominator <= degree < number of nodes.
+  RationalInterpolant(std::vector<double> nodes, int degree, Denominator denominator = {});
 
   const std::vector<double>& nodes() const { return nodes_; }
   int degree() const { return degree_; }
+  const Denominator& denominator() const { return denominator_; }
 
   /// The basis functions b_j at x: a number, or a power series about a number. All terms are multiplied by
   /// x - x_m, x_m the nearest node, so that nothing is divided by zero at a node.
@@ -45,12 +48,17 @@ class RationalInterpolant {
   /// The same at a number, as a vector.
   Vector values(double x) const;
 
+  /// The factor of the divided differences of order degree + 1 in the error at x, up to a constant (Eq. 13 of
+  /// the source): large where another node helps most.
+  double error_factor(double x) const;
+
  private:
   std::size_t nearest(double x) const;
 
   std::vector<double> nodes_;
   std::vector<double> weights_;
   int degree_;
+  Denominator denominator_;
 };
 
 }  // namespace eigentrail

@@ -15,6 +15,7 @@ namespace {
 constexpr double rounding = 4e-16;
 /// Samples next to a gap that are looked at; the others change the estimate little.
 constexpr std::size_t most_samples = 48;
+static_assert(most_samples >= most_samples_with_poles, "poles are fitted to all samples of a piece");
 /// With fewer samples more than the degree, the leave-one-out errors of all samples are alike.
 constexpr Eigen::Index fewest_for_noise_nearby = 7;
 /// Samples near a gap whose leave-one-out errors are averaged.
@@ -39,6 +40,16 @@ Matrix orthonormal_polynomials(const std::vector<double>& nodes) {
   return Eigen::HouseholderQR<Matrix>(legendre).householderQ();
 }
 
+/// The same, multiplied by the denominator of the interpolant and of unit length: factors of the samples that
+/// give the coefficients of q f.
+Matrix products_with_polynomials(const RationalInterpolant& interpolant) {
+  Matrix result = orthonormal_polynomials(interpolant.nodes());
+  if (interpolant.denominator().degree() == 0) return result;
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    result.row(i) *= interpolant.denominator()(interpolant.nodes()[static_cast<std::size_t>(i)]);
+  return result.colwise().normalized();
+}
+
 /// Combinations of the samples, one per column, in which smooth functions of the parameter vanish: the
 /// coefficients of the highest orthonormal polynomials, less their part in the main directions of the lower
 /// ones. What depends smoothly on the parameter varies in few directions, and those are the same in all
@@ -51,7 +62,7 @@ struct RoughPart {
 RoughPart rough_part(const SamplePiece& piece, double n_entries) {
   const auto n = static_cast<Eigen::Index>(piece.size());
   const Eigen::Index high = std::max<Eigen::Index>(2, n / 4);
-  const Matrix polynomials = orthonormal_polynomials(piece.interpolant.nodes());
+  const Matrix polynomials = products_with_polynomials(piece.interpolant);
   const Matrix coefficients = piece.reduced * polynomials;
   Eigen::JacobiSVD<Matrix> lower(coefficients.leftCols(n - high), Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double same_direction = 1e-13;
@@ -88,11 +99,13 @@ Matrix entry_variances(const PencilSamples& samples, const SamplePiece& piece, c
   const Matrix& first = samples.at(piece.first);
   const auto own = static_cast<double>(rough.combinations.cols());
   Matrix variances = Matrix::Zero(first.rows(), first.cols());
-  Matrix squares = variances;
+  Matrix squares = variances, mean = variances;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    mean += samples.at(piece.first + i) / static_cast<double>(piece.size());
   for (Eigen::Index k = 0; k < rough.combinations.cols(); ++k) {
     Matrix rest = Matrix::Zero(first.rows(), first.cols());
     for (std::size_t i = 0; i < piece.size(); ++i)
-      rest += rough.combinations(static_cast<Eigen::Index>(i), k) * samples.at(piece.first + i);
+      rest += rough.combinations(static_cast<Eigen::Index>(i), k) * (samples.at(piece.first + i) - mean);
     variances += rest.cwiseAbs2() / (own * rough.freedom);
   }
   for (std::size_t i = 0; i < piece.size(); ++i)
@@ -161,8 +174,15 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   }
   const double from = window.nodes[window.gap];
   const double length = window.nodes[window.gap + 1] - from;
+  const int n_poles = piece.interpolant.denominator().degree();
+  const auto denominator_of = [&](int d) {
+    if (n_poles == 0 || d == degree) return piece.interpolant.denominator();
+    return fitted_denominator(window.nodes, piece.reduced, d, n_poles)
+        .value_or(piece.interpolant.denominator());
+  };
   const auto values_of = [&](int d) {
-    const RationalInterpolant interpolant(window.nodes, std::max(0, d));
+    d = std::max(n_poles, d);
+    const RationalInterpolant interpolant(window.nodes, d, denominator_of(d));
     Matrix columns(n, places.size());
     for (std::size_t i = 0; i < places.size(); ++i)
       columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places[i] * length);
@@ -192,7 +212,8 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
     end = std::min(end, window.nodes.size() - 1);
     Matrix columns(n, static_cast<Eigen::Index>(end > begin ? end - begin : 0));
     for (std::size_t node = begin; node < end; ++node)
-      columns.col(static_cast<Eigen::Index>(node - begin)) = leave_one_out(window.nodes, degree, node);
+      columns.col(static_cast<Eigen::Index>(node - begin)) = leave_one_out(
+          window.nodes, degree, node, piece.without_one.empty() ? Denominator{} : piece.without_one[node]);
     return columns;
   };
   result.leave_one_out = factor * missed_at(window.gap, window.gap + 2);
@@ -253,6 +274,21 @@ SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<P
   }
 }
 
+double SampleErrors::place_of_largest_error(std::size_t gap, double from, double to) const {
+  const double low = std::max(from, values_[gap]), high = std::min(to, values_[gap + 1]);
+  const RationalInterpolant& interpolant = piece_at(pieces_, 0.5 * (low + high)).interpolant;
+  constexpr int places = 50;
+  double best = 0.5 * (low + high), largest = 0.0;
+  for (int i = 1; i < places; ++i) {
+    const double x = low + (high - low) * i / places;
+    const double factor = interpolant.error_factor(x);
+    if (factor <= largest) continue;
+    largest = factor;
+    best = x;
+  }
+  return best;
+}
+
 SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
   const double middle = 0.5 * (values_[gap] + values_[std::min(gap + 1, values_.size() - 1)]);
   const SamplePiece& piece = piece_at(pieces_, middle);
@@ -262,9 +298,11 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
   const auto n_samples = static_cast<Eigen::Index>(window.nodes.size());
   const auto n_triples = static_cast<Eigen::Index>(triples.size());
   std::array<ComplexMatrix, 3> coefficients;
-  const Vector weights = RationalInterpolant(window.nodes, std::min<int>(piece.interpolant.degree(),
-                                                                         static_cast<int>(n_samples) - 1))
-                             .values(middle);
+  const Vector weights =
+      RationalInterpolant(window.nodes,
+                          std::min<int>(piece.interpolant.degree(), static_cast<int>(n_samples) - 1),
+                          piece.interpolant.denominator())
+          .values(middle);
   for (std::size_t c = 0; c < 3; ++c) {
     const PencilSamples& one = samples_[c];
     coefficients[c] = ComplexMatrix::Zero(one.at(0).rows(), one.at(0).cols());
@@ -308,7 +346,9 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
   Vector rough = options_.deviations * variance.cwiseSqrt();
   const Matrix& nearby = estimators_here.nearby;
   if (nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby) {
-    const Vector squares = (shares * nearby).cwiseAbs2().rowwise().mean();
+    // By chance all of a few may be small, so the variance counts like one more sample.
+    const auto own = static_cast<double>(nearby.cols());
+    const Vector squares = ((shares * nearby).cwiseAbs2().rowwise().sum() + variance) / (own + 1.0);
     rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
   }
   return {smooth.cwiseMax(estimators_here.amplification * rough) + floor, digits};

@@ -12,6 +12,8 @@ namespace {
 constexpr int highest_degree = 15;
 /// The smallest degree is taken whose leave-one-out error is within this factor of the least one.
 constexpr double as_good = 1.1;
+/// Poles are used if they bring the leave-one-out error down to this share: noise can lower it a little.
+constexpr double worth_poles = 0.1;
 
 /// Factors for rows and columns by which the mean magnitudes of the entries of all matrices come to about
 /// one: states have units of their own.
@@ -81,39 +83,97 @@ Matrix reduce(const SampledData& data, std::size_t first, std::size_t count) {
   return reduced;
 }
 
-int chosen_degree(const std::vector<double>& nodes, const Matrix& reduced) {
+/// An interpolant as it is chosen, and the error with which it misses samples that are left out.
+struct Choice {
+  int degree = 0;
+  Denominator denominator = {};
+  std::vector<Denominator> without_one = {};
+  double error = INFINITY;
+};
+
+std::vector<double> without(std::vector<double> nodes, std::size_t left_out) {
+  nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(left_out));
+  return nodes;
+}
+
+Matrix without(const Matrix& columns, std::size_t left_out) {
+  const auto at = static_cast<Eigen::Index>(left_out);
+  Matrix result(columns.rows(), columns.cols() - 1);
+  result << columns.leftCols(at), columns.rightCols(columns.cols() - at - 1);
+  return result;
+}
+
+/// Denominators for all samples and without each of them; the error stays infinite if one cannot be fitted.
+Choice with_poles(const std::vector<double>& nodes, const Matrix& reduced, int degree, int n_poles) {
+  Choice choice{degree};
+  if (n_poles == 0) {
+    choice.without_one.assign(nodes.size(), {});
+    return choice;
+  }
+  const auto all = fitted_denominator(nodes, reduced, degree, n_poles);
+  if (!all) return choice;
+  choice.denominator = *all;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto others = fitted_denominator(without(nodes, i), without(reduced, i), degree, n_poles);
+    if (!others) return choice;
+    choice.without_one.push_back(*others);
+  }
+  return choice;
+}
+
+/// For each degree from `n_poles` or 1, the error with which the interpolant of all samples but one misses
+/// that one, in the norm of the reduced samples, over all samples but the first and the last. Poles are
+/// fitted without that one, too. At least four nodes.
+std::vector<Choice> choices(const std::vector<double>& nodes, const Matrix& reduced, int n_poles) {
+  const int highest = std::max(1, std::min(static_cast<int>(nodes.size()) - 3, highest_degree));
+  std::vector<Choice> result;
+  for (int degree = std::max(1, n_poles); degree <= highest; ++degree) {
+    Choice choice = with_poles(nodes, reduced, degree, n_poles);
+    if (choice.without_one.size() == nodes.size()) {
+      double squares = 0.0;
+      for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
+        squares += (reduced * leave_one_out(nodes, degree, i, choice.without_one[i])).squaredNorm();
+      choice.error = std::sqrt(squares);
+    }
+    result.push_back(std::move(choice));
+  }
+  return result;
+}
+
+/// The smallest degree whose error is about the least one.
+Choice best_degree(const std::vector<Choice>& all) {
+  double least = INFINITY;
+  for (const Choice& choice : all) least = std::min(least, choice.error);
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [least](const Choice& choice) { return choice.error <= as_good * least; });
+  return found == all.end() ? Choice{} : *found;
+}
+
+Choice best_choice(const std::vector<double>& nodes, const Matrix& reduced) {
   const int count = static_cast<int>(nodes.size());
-  if (count < 4) return std::max(0, std::min(1, count - 1));
-  const std::vector<double> errors = leave_one_out_errors(nodes, reduced);
-  const double least = *std::min_element(errors.begin(), errors.end());
-  const auto found =
-      std::find_if(errors.begin(), errors.end(), [least](double e) { return e <= as_good * least; });
-  return 1 + static_cast<int>(found - errors.begin());
+  if (count < 4) return {std::max(0, std::min(1, count - 1))};
+  Choice best = best_degree(choices(nodes, reduced, 0));
+  best.without_one.clear();
+  const bool few = nodes.size() <= most_samples_with_poles && reduced.rows() > 0;
+  for (int n_poles = 1; few && n_poles <= most_poles; ++n_poles) {
+    Choice choice = best_degree(choices(nodes, reduced, n_poles));
+    if (choice.error < worth_poles * best.error) best = std::move(choice);
+  }
+  return best;
 }
 
 }  // namespace
 
-Vector leave_one_out(const std::vector<double>& nodes, int degree, std::size_t left_out) {
-  std::vector<double> others = nodes;
-  others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+Vector leave_one_out(const std::vector<double>& nodes, int degree, std::size_t left_out,
+                     const Denominator& denominator) {
+  const std::vector<double> others = without(nodes, left_out);
   const int highest = static_cast<int>(others.size()) - 1;
-  const Vector values = RationalInterpolant(others, std::min(degree, highest)).values(nodes[left_out]);
+  const Vector values =
+      RationalInterpolant(others, std::min(degree, highest), denominator).values(nodes[left_out]);
   const auto at = static_cast<Eigen::Index>(left_out);
   Vector missed(values.size() + 1);
   missed << -values.head(at), 1.0, -values.tail(values.size() - at);
   return missed;
-}
-
-std::vector<double> leave_one_out_errors(const std::vector<double>& nodes, const Matrix& reduced) {
-  const int highest = std::max(1, std::min(static_cast<int>(nodes.size()) - 3, highest_degree));
-  std::vector<double> errors;
-  for (int degree = 1; degree <= highest; ++degree) {
-    double squares = 0.0;
-    for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
-      squares += (reduced * leave_one_out(nodes, degree, i)).squaredNorm();
-    errors.push_back(std::sqrt(squares));
-  }
-  return errors;
 }
 
 std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std::vector<double>& values,
@@ -128,8 +188,9 @@ std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std:
                                     values.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     Matrix reduced = reduce(data, first, nodes.size());
     const int highest = static_cast<int>(nodes.size()) - 1;
-    const int chosen = degree ? std::min(*degree, highest) : chosen_degree(nodes, reduced);
-    pieces.push_back({first, RationalInterpolant(nodes, chosen), std::move(reduced)});
+    Choice chosen = degree ? Choice{std::min(*degree, highest)} : best_choice(nodes, reduced);
+    pieces.push_back({first, RationalInterpolant(nodes, chosen.degree, std::move(chosen.denominator)),
+                      std::move(reduced), std::move(chosen.without_one)});
     first = last;
   }
   return pieces;

@@ -1,5 +1,5 @@
-// The interpolant of sampled matrices: in pieces between kinks, each a rational interpolant whose degree is
-// chosen by leave-one-out errors.
+// The interpolant of sampled matrices: in pieces between kinks, each a rational interpolant whose degree and
+// poles are chosen by leave-one-out errors.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,14 @@ struct SamplePiece {
   /// k x n, k <= n: products of its columns are those of the samples, with the entries scaled to equal
   /// magnitude and without their mean.
   Matrix reduced;
+  /// Denominators fitted to all samples but one, a denominator per sample; empty if there are no poles.
+  std::vector<Denominator> without_one = {};
 
   std::size_t size() const { return interpolant.nodes().size(); }
 };
 
 /// `values` are those of the data in the unit of the model; kinks are indices of samples, ascending.
-/// `degree`: absent, the one with the least leave-one-out error.
+/// `degree`: absent, degree and poles are those with the least leave-one-out error; else there are no poles.
 std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std::vector<double>& values,
                                              const std::vector<std::size_t>& kinks,
                                              std::optional<int> degree);
@@ -29,11 +31,8 @@ std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std:
 /// The piece that holds x; a kink belongs to the piece before it.
 const SamplePiece& piece_at(const std::vector<SamplePiece>& pieces, double x);
 
-/// For each degree from 1, the error with which the interpolant of all samples but one misses that one, in
-/// the norm of the reduced samples, over all samples but the first and the last. At least four nodes.
-std::vector<double> leave_one_out_errors(const std::vector<double>& nodes, const Matrix& reduced);
-
 /// The coefficients, one per node, of what the interpolant of the other nodes misses at node `left_out`.
-Vector leave_one_out(const std::vector<double>& nodes, int degree, std::size_t left_out);
+Vector leave_one_out(const std::vector<double>& nodes, int degree, std::size_t left_out,
+                     const Denominator& denominator = {});
 
 }  // namespace eigentrail

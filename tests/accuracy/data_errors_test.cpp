@@ -18,7 +18,7 @@ namespace {
 
 constexpr Eigen::Index size = 6;
 
-enum class Kind { smooth, pole, noise };
+enum class Kind { smooth, pole, branch, noise };
 
 /// A random family of that kind on 0 <= p <= 1.
 MatrixFunction random_function(Kind kind, std::mt19937_64& engine) {
@@ -26,10 +26,15 @@ MatrixFunction random_function(Kind kind, std::mt19937_64& engine) {
   std::vector<Matrix> A;
   for (int i = 0; i < 4; ++i) A.push_back(random_matrix(size, size, engine));
   for (Eigen::Index i = 0; i < size; ++i) A[0](i, i) -= 2.0 * static_cast<double>(i + 1);
-  if (kind == Kind::pole) {
-    const double distance = 0.05 + 0.25 * uniform(engine);
-    const double place = uniform(engine) < 0.5 ? -distance : 1.0 + distance;
+  const double distance = 0.05 + 0.25 * uniform(engine);
+  const double place = uniform(engine) < 0.5 ? -distance : 1.0 + distance;
+  if (kind == Kind::pole)
     return [A, place](double p) { return Matrix(A[0] + 0.1 / (p - place) * A[1] + 0.3 * p * A[2]); };
+  // No rational function: a branch point beside the range, as that of 1 / sqrt(1 - Mach^2).
+  if (kind == Kind::branch) {
+    return [A, place](double p) {
+      return Matrix(A[0] + 0.3 / std::sqrt(std::abs(p - place)) * A[1] + 0.3 * p * A[2]);
+    };
   }
   const double rate = 4.0 + 4.0 * uniform(engine), phase = 6.0 * uniform(engine);
   return [A, rate, phase](double p) {
@@ -104,7 +109,10 @@ TEST_P(StatedErrors, HoldAtThousandRandomPlacesAndAreNotMuchLarger) {
 
 std::string name_of(const testing::TestParamInfo<std::pair<Kind, int>>& info) {
   const auto [kind, samples] = info.param;
-  const char* name = kind == Kind::smooth ? "Smooth" : kind == Kind::pole ? "Pole" : "Noise";
+  const char* name = kind == Kind::smooth   ? "Smooth"
+                     : kind == Kind::pole   ? "Pole"
+                     : kind == Kind::branch ? "Branch"
+                                            : "Noise";
   return name + std::to_string(samples);
 }
 
@@ -112,8 +120,9 @@ INSTANTIATE_TEST_SUITE_P(Families, StatedErrors,
                          testing::Values(std::pair{Kind::smooth, 8}, std::pair{Kind::smooth, 12},
                                          std::pair{Kind::smooth, 20}, std::pair{Kind::pole, 8},
                                          std::pair{Kind::pole, 12}, std::pair{Kind::pole, 20},
-                                         std::pair{Kind::noise, 8}, std::pair{Kind::noise, 12},
-                                         std::pair{Kind::noise, 20}),
+                                         std::pair{Kind::branch, 8}, std::pair{Kind::branch, 12},
+                                         std::pair{Kind::branch, 20}, std::pair{Kind::noise, 8},
+                                         std::pair{Kind::noise, 12}, std::pair{Kind::noise, 20}),
                          name_of);
 
 /// x rounded to `digits` significant digits.

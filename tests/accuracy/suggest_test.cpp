@@ -34,7 +34,7 @@ MatrixFunction family(Family kind) {
     case Family::resonance:
       return [=](double p) { return Matrix(A0 + 0.1 / (0.04 + (p - 0.3) * (p - 0.3)) * A1 + p * A2); };
     case Family::smooth:
-      return [=](double p) { return Matrix(A0 + std::sin(8.0 * p) * A1 + std::exp(2.0 * p) * A2); };
+      return [=](double p) { return Matrix(A0 + std::sin(6.0 * p) * A1 + std::exp(2.0 * p) * A2); };
   }
   return {};
 }
@@ -120,25 +120,41 @@ double spline_error(const MatrixFunction& truth, int n) {
 std::size_t suggested_samples(const MatrixFunction& truth) {
   std::vector<double> values{0.0, 0.25, 0.5, 0.75, 1.0};
   while (values.size() < 40) {
-    const double error = interpolated_error(truth, values);
-    std::printf("%zu: %.2e\n", values.size(), error);
-    if (error < wanted) break;
+    if (interpolated_error(truth, values) < wanted) break;
     values.push_back(suggest_samples(SampledScene(sampled(truth, values)).setting()).front().p);
     std::sort(values.begin(), values.end());
   }
   return values.size();
 }
 
-class Suggest : public testing::TestWithParam<Family> {};
+/// A family and a number of equidistant samples with which the spline is not accurate enough.
+class Suggest : public testing::TestWithParam<std::pair<Family, int>> {};
 
-TEST_P(Suggest, X) {
-  const MatrixFunction truth = family(GetParam());
-  std::printf("suggest %zu\n", suggested_samples(truth));
-  for (const int n : {12, 20, 30, 40, 50, 60, 70, 80})
-    std::printf("spline %d %.2e\n", n, spline_error(truth, n));
+TEST_P(Suggest, TwelveSamplesReachWhatManyEquidistantOnesWithASplineMiss) {
+  const auto [kind, n_spline] = GetParam();
+  EXPECT_LE(suggested_samples(family(kind)), 12u);
+  EXPECT_GT(spline_error(family(kind), n_spline), wanted);
 }
-INSTANTIATE_TEST_SUITE_P(F, Suggest,
-                         testing::Values(Family::pole, Family::two_poles, Family::resonance, Family::smooth));
+
+INSTANTIATE_TEST_SUITE_P(Families, Suggest,
+                         testing::Values(std::pair{Family::pole, 59}, std::pair{Family::two_poles, 59},
+                                         std::pair{Family::resonance, 59}, std::pair{Family::smooth, 50}));
+
+TEST(SuggestedSamples, AreOrderedByErrorAndHaveFewDecimals) {
+  const MatrixFunction truth = family(Family::pole);
+  const std::vector<Suggestion> all =
+      suggest_samples(SampledScene(sampled(truth, {0.0, 0.3, 0.6, 0.8, 1.0})).setting());
+  ASSERT_EQ(all.size(), 4u);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i - 1].error, all[i].error);
+  EXPECT_LT(all.front().p, 0.3);  // the pole is at -0.1
+  for (const Suggestion& one : all) EXPECT_EQ(one.p, std::round(one.p * 1000.0) / 1000.0);
+}
+
+TEST(SuggestedSamples, NeedSamplesAndMoreThanOne) {
+  EXPECT_THROW(suggest_samples(scene_setting("rotating_mass")), InputError);
+  const SampledScene one(sampled(family(Family::pole), {0.5}), "", "from = 0.5\n");
+  EXPECT_THROW(suggest_samples(one.setting(Purpose::operating_point)), InputError);
+}
 
 }  // namespace
 }  // namespace eigentrail::test

@@ -77,15 +77,54 @@ MatrixFunction pole(double distance) {
   };
 }
 
-TEST(SampledFamily, ChosenDegreeBeatsCubicPiecesBesideAPole) {
-  const MatrixFunction A = pole(0.2);
+double error_in_first_entry(const MatrixFunction& A, const SampledData& data, std::optional<int> degree) {
+  const auto pieces = interpolate_samples(data, data.values, {}, degree);
+  return largest_error(pieces[0].interpolant, [&](double p) { return A(p)(0, 0); });
+}
+
+TEST(SampledFamily, ChosenDegreeBeatsCubicPieces) {
+  const MatrixFunction A = [](double p) { return Matrix{{-1.0 - std::sin(5.0 * p), 3.0}, {-3.0, -2.0 + p}}; };
   const SampledData data = sampled(A, sample_values(20, 3));
-  const auto error = [&](std::optional<int> degree) {
-    const auto pieces = interpolate_samples(data, data.values, {}, degree);
-    return largest_error(pieces[0].interpolant, [&](double p) { return A(p)(0, 0); });
+  const auto pieces = interpolate_samples(data, data.values, {}, std::nullopt);
+  EXPECT_GT(pieces[0].interpolant.degree(), 5);
+  EXPECT_LT(error_in_first_entry(A, data, std::nullopt), 1e-3 * error_in_first_entry(A, data, 3));
+}
+
+TEST(SamplePoles, RealPoleAndPairAreFoundExactly) {
+  const SampledData real = sampled(pole(0.2), sample_values(8, 3));
+  const RationalInterpolant found = interpolate_samples(real, real.values, {}, std::nullopt)[0].interpolant;
+  ASSERT_EQ(found.denominator().poles.size(), 1u);
+  EXPECT_NEAR(found.denominator().poles[0].real(), -0.2, 1e-10);
+  EXPECT_EQ(found.denominator().poles[0].imag(), 0.0);
+  EXPECT_LT(error_in_first_entry(pole(0.2), real, std::nullopt), 1e-12);
+  EXPECT_GT(error_in_first_entry(pole(0.2), real, 6), 1e-5) << "the rival";
+
+  const MatrixFunction resonance = [](double p) {
+    return Matrix{{-1.0, 1.0 / (0.04 + (p - 0.3) * (p - 0.3))}, {-3.0, -2.0 + p}};
   };
-  EXPECT_GT(interpolate_samples(data, data.values, {}, std::nullopt)[0].interpolant.degree(), 5);
-  EXPECT_LT(error(std::nullopt), 0.05 * error(3));
+  const SampledData pair = sampled(resonance, sample_values(12, 3));
+  const RationalInterpolant two = interpolate_samples(pair, pair.values, {}, std::nullopt)[0].interpolant;
+  ASSERT_EQ(two.denominator().poles.size(), 1u);
+  EXPECT_LT(std::abs(two.denominator().poles[0] - Complex(0.3, 0.2)), 1e-9);
+}
+
+/// Functions that are no quotients of polynomials, few samples and noise must not be taken for poles; a pole
+/// between the samples cannot be interpolated and is not tried.
+TEST(SamplePoles, AreNotSeenWhereThereAreNone) {
+  const auto n_poles = [](const MatrixFunction& A, int samples) {
+    const SampledData data = sampled(A, sample_values(samples, 2));
+    return interpolate_samples(data, data.values, {}, std::nullopt)[0].interpolant.denominator().degree();
+  };
+  const MatrixFunction smooth = [](double p) {
+    return Matrix{{-1.0, std::sin(4.0 * p)}, {std::exp(p), -2.0 + p}};
+  };
+  EXPECT_EQ(n_poles(smooth, 8), 0);
+  EXPECT_EQ(n_poles(pole(0.2), 4), 0);
+  EXPECT_EQ(n_poles(pole(-0.47), 12), 0);
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    std::mt19937_64 engine(seed);
+    EXPECT_EQ(n_poles([&](double p) { return Matrix(p * random_matrix(2, 2, engine)); }, 12), 0) << seed;
+  }
 }
 
 TEST(SampledFamily, NoiseIsInterpolatedWithALowDegree) {

@@ -32,9 +32,10 @@ class SampledScene {
                            : trace);
   }
 
-  Setting setting() const {
+  Setting setting(Purpose purpose = Purpose::trace) const {
     Setting setting;
-    static_cast<TraceSetup&>(setting) = prepare_trace(parse_scene(text_, folder_.path() + "/scene.toml"), {});
+    static_cast<TraceSetup&>(setting) =
+        prepare_trace(parse_scene(text_, folder_.path() + "/scene.toml"), {}, purpose);
     return setting;
   }
   std::string file() const { return folder_.path() + "/samples.h5"; }

@@ -9,7 +9,7 @@ namespace eigentrail {
 
 /// A value of the parameter where another sample helps most.
 struct Suggestion {
-  double p = 0.0;      ///< in the parameter's unit, in the middle between two samples
+  double p = 0.0;      ///< in the parameter's unit, between two samples
   double error = 0.0;  ///< stated error of the eigenvalue there, relative to max(|s|, reference)
   Complex s;           ///< the eigenvalue with that error, of the followed modes
 };

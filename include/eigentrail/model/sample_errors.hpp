@@ -54,9 +54,9 @@ struct SampleErrorOptions {
   double leave_one_out = 7.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
   /// standard deviation on the whole range,
-  double deviations = 8.0;
+  double deviations = 12.0;
   /// or, if that is less, with this factor times the root mean square of leave-one-out errors nearby.
-  double deviations_nearby = 3.5;
+  double deviations_nearby = 5.0;
 };
 
 /// Refers to samples and pieces, which must outlive it.
@@ -72,9 +72,11 @@ class SampleErrors {
   /// the given eigenvectors. Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
   SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const;
 
- private:
-  struct Noise;
+  /// The place between the samples `gap` and `gap` + 1, cut to `from` ... `to`, where the error of the
+  /// interpolant is largest for a function whose derivatives vary little.
+  double place_of_largest_error(std::size_t gap, double from, double to) const;
 
+ private:
   const std::vector<double>& values_;
   const std::array<PencilSamples, 3>& samples_;
   const std::vector<SamplePiece>& pieces_;
