@@ -115,7 +115,7 @@ class SampleReader {
     if (file_.has_attribute("digits")) data_.digits = static_cast<int>(file_.integer_attribute("digits"));
     if (file_.has_attribute("source")) data_.source = file_.text_attribute("source");
     check(data_);
-    match_states();
+    match_states(data_, names_);
     sort();
     return std::move(data_);
   }
@@ -165,13 +165,14 @@ class SampleReader {
     if (file_.has("/state_names")) {
       const Shape shape = file_.shape("/state_names");
       if (shape.empty() || shape.size() > 2) fail("state_names: expected n names, or n for each sample");
-      names_ = file_.read_texts("/state_names");
-      const std::size_t n = shape.back();
+      const std::vector<std::string> all = file_.read_texts("/state_names");
+      const auto n = static_cast<std::ptrdiff_t>(shape.back());
       if (shape.size() == 2 && shape[0] != data_.count())
         fail("state_names has rows for " + plural(shape[0], "sample") + " of " +
              std::to_string(data_.count()));
-      data_.state_names.assign(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(n));
-      if (shape.size() == 1) names_.clear();
+      data_.state_names.assign(all.begin(), all.begin() + n);
+      for (auto row = all.begin(); shape.size() == 2 && n > 0 && row != all.end(); row += n)
+        names_.emplace_back(row, row + n);
     }
     if (file_.has("/state_units")) data_.state_units = file_.read_texts("/state_units");
     if (file_.has("/derivative_order")) {
@@ -186,20 +187,6 @@ class SampleReader {
       if (frame != "fixed" && frame != "rotating")
         fail("frame: expected fixed or rotating, found '" + frame + "'");
       data_.state_frames.push_back(frame == "fixed" ? StateFrame::fixed : StateFrame::rotating);
-    }
-  }
-
-  /// Brings all samples in the order of states of the first one.
-  void match_states() {
-    if (names_.empty()) return;
-    const std::size_t n = data_.state_names.size();
-    for (std::size_t i = 1; i < data_.count(); ++i) {
-      const auto begin = names_.begin() + static_cast<std::ptrdiff_t>(i * n);
-      const auto from = places(data_.state_names, {begin, begin + static_cast<std::ptrdiff_t>(n)}, i);
-      for (const SampledMatrix& named : sampled_matrices()) {
-        if (!(data_.*named.samples).empty()) reorder((data_.*named.samples)[i], from);
-      }
-      if (!data_.A_error.empty()) reorder(data_.A_error[i], from);
     }
   }
 
@@ -222,7 +209,7 @@ class SampleReader {
   Hdf5File file_;
   bool by_columns_ = false;
   std::size_t numbers_ = 0;
-  std::vector<std::string> names_;  ///< of the states of each sample; empty if all have the same order
+  std::vector<std::vector<std::string>> names_;  ///< of the states of each sample; empty: one order for all
   SampledData data_;
 };
 
@@ -258,6 +245,16 @@ void check(const SampledData& data) {
   check_length(data.state_frames, "frame", n);
   if (data.digits && (*data.digits < 1 || *data.digits > 17))
     fail("digits: expected 1 to 17, found " + std::to_string(*data.digits));
+}
+
+void match_states(SampledData& data, const std::vector<std::vector<std::string>>& names) {
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const auto from = places(names.front(), names[i], i);
+    for (const SampledMatrix& named : sampled_matrices()) {
+      if (!(data.*named.samples).empty()) reorder((data.*named.samples)[i], from);
+    }
+    if (!data.A_error.empty()) reorder(data.A_error[i], from);
+  }
 }
 
 SampledData read_samples(const std::string& path) {

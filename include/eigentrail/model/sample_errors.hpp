@@ -54,9 +54,9 @@ struct SampleErrorOptions {
   double leave_one_out = 7.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
   /// standard deviation on the whole range,
-  double deviations = 12.0;
+  double deviations = 10.0;
   /// or, if that is less, with this factor times the root mean square of leave-one-out errors nearby.
-  double deviations_nearby = 5.0;
+  double deviations_nearby = 4.0;
 };
 
 /// Refers to samples and pieces, which must outlive it.

@@ -1,0 +1,51 @@
+#include "import/digits.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace eigentrail {
+namespace {
+
+constexpr int fewest_digits = 3;
+constexpr int most_digits = 7;
+/// Entries that must need all digits, and their share among those that are not whole numbers: rounded results
+/// end in a zero in one of ten, while matrices that somebody typed have all kinds of lengths.
+constexpr std::size_t fewest_entries = 20;
+constexpr double least_share = 0.6;
+
+/// Whether x, rounded to this many digits, is x.
+bool has_digits(double x, int digits) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific, digits - 1).ptr;
+  double back = 0.0;
+  std::from_chars(text.data(), end, back);
+  return back == x;
+}
+
+}  // namespace
+
+std::optional<int> digits_of(const SampledData& data) {
+  int digits = 1;
+  std::array<std::size_t, most_digits + 1> entries{};
+  for (const SampledMatrix& named : sampled_matrices()) {
+    for (const Matrix& sample : data.*named.samples) {
+      for (const double x : sample.reshaped()) {
+        if (x == std::round(x)) continue;
+        int own = 1;
+        while (own <= most_digits && !has_digits(x, own)) ++own;
+        if (own > most_digits) return std::nullopt;
+        digits = std::max(digits, own);
+        ++entries[static_cast<std::size_t>(own)];
+      }
+    }
+  }
+  std::size_t all = 0;
+  for (const std::size_t count : entries) all += count;
+  const std::size_t full = entries[static_cast<std::size_t>(digits)];
+  const bool clear =
+      full >= fewest_entries && static_cast<double>(full) >= least_share * static_cast<double>(all);
+  return digits >= fewest_digits && clear ? std::optional(digits) : std::nullopt;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,401 @@
+#include "import/named_arrays.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+#include "import/digits.hpp"
+
+namespace eigentrail {
+namespace {
+
+bool is_identifier(const std::string& name) {
+  const auto word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+         std::all_of(name.begin(), name.end(), word);
+}
+
+std::string shape_text(const std::vector<std::size_t>& shape) {
+  if (shape.empty()) return "a single number";
+  std::string text;
+  for (const std::size_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  return text;
+}
+
+/// Sample `i` along `axis` of an array of three dimensions, as an array of two.
+NamedArray slice(const NamedArray& cube, std::size_t axis, std::size_t i) {
+  NamedArray result = cube;
+  result.numbers.assign(cube.numbers.begin() + static_cast<std::ptrdiff_t>(i * cube.strides[axis]),
+                        cube.numbers.end());
+  result.shape.erase(result.shape.begin() + static_cast<std::ptrdiff_t>(axis));
+  result.strides.erase(result.strides.begin() + static_cast<std::ptrdiff_t>(axis));
+  return result;
+}
+
+Matrix matrix_of(const NamedArray& array) {
+  Matrix result(array.shape[0], array.shape[1]);
+  for (std::size_t r = 0; r < array.shape[0]; ++r) {
+    for (std::size_t c = 0; c < array.shape[1]; ++c) {
+      result(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+          array.numbers[r * array.strides[0] + c * array.strides[1]];
+    }
+  }
+  return result;
+}
+
+/// Arrays that differ by a number at the end of their names: A00, A01, ...
+struct Family {
+  std::string stem;
+  std::vector<const NamedArray*> members;  ///< by number
+};
+
+class ArrayReader {
+ public:
+  ArrayReader(const std::vector<NamedArray>& arrays, const ArrayOptions& options,
+              const std::map<std::string, std::string>& user)
+      : arrays_(arrays), options_(options), user_(user) {
+    find_families();
+  }
+
+  Imported read() {
+    result_.title = std::filesystem::path(options_.file).stem().string();
+    read_matrices();
+    read_parameter();
+    repeat_constants();
+    read_states();
+    read_digits();
+    SampledData& data = result_.samples;
+    data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
+    try {
+      check(data);
+      match_states(data, names_per_sample_);
+    } catch (const std::invalid_argument& error) {
+      fail(error.what());
+    }
+    describe();
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(options_.file + ": " + message);
+  }
+
+  const NamedArray* find(const std::string& name) const {
+    const auto found =
+        std::find_if(arrays_.begin(), arrays_.end(), [&](const NamedArray& a) { return a.name == name; });
+    return found == arrays_.end() ? nullptr : &*found;
+  }
+
+  const Family* find_family(const std::string& stem) const {
+    const auto found =
+        std::find_if(families_.begin(), families_.end(), [&](const Family& f) { return f.stem == stem; });
+    return found == families_.end() ? nullptr : &*found;
+  }
+
+  std::optional<std::string> option(const std::string& name) const {
+    const auto found = user_.find(name);
+    return found == user_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  void find_families() {
+    std::map<std::string, std::map<long, const NamedArray*>> numbered;
+    for (const NamedArray& array : arrays_) {
+      const std::size_t end = array.name.find_last_not_of("0123456789");
+      const std::string digits = end == std::string::npos ? "" : array.name.substr(end + 1);
+      constexpr std::size_t most_digits = 9;
+      if (digits.empty() || digits.size() > most_digits) continue;
+      std::string stem = array.name.substr(0, end + 1);
+      if (stem.size() > 1 && stem.back() == '_') stem.pop_back();
+      numbered[stem][std::stol(digits)] = &array;
+    }
+    for (const auto& [stem, members] : numbered) {
+      Family family{stem, {}};
+      for (const auto& [number, array] : members) family.members.push_back(array);
+      families_.push_back(std::move(family));
+    }
+  }
+
+  /// The samples of one matrix; empty if it is absent.
+  std::vector<Matrix> matrices(const std::string& name) const {
+    if (const NamedArray* array = find(name)) return from_array(*array);
+    const Family* family = find_family(name);
+    std::vector<Matrix> result;
+    if (family == nullptr) return result;
+    for (const NamedArray* member : family->members) {
+      std::vector<Matrix> one = from_array(*member);
+      if (one.size() != 1)
+        fail("array " + member->name + " is " + shape_text(member->shape) + "; expected n x n");
+      result.push_back(std::move(one[0]));
+    }
+    return result;
+  }
+
+  std::vector<Matrix> from_array(const NamedArray& array) const {
+    const std::vector<std::size_t>& shape = array.shape;
+    const bool plane = shape.size() == 2 && shape[0] == shape[1];
+    const bool first = shape.size() == 3 && shape[1] == shape[2];
+    const bool last = shape.size() == 3 && shape[0] == shape[1];
+    if (array.is_text || (!plane && !first && !last))
+      fail("array " + array.name + " is " + (array.is_text ? "text" : shape_text(shape)) +
+           "; expected a matrix n x n, or samples " + (options_.samples_first ? "k x n x n" : "n x n x k"));
+    const bool samples_first = first && (!last || options_.samples_first);
+    const std::size_t rows = samples_first ? shape[1] : shape[0];
+    const std::size_t count = plane ? 1 : samples_first ? shape[0] : shape[2];
+    if (rows > limits::matrix_rows || count > limits::samples)
+      fail("array " + array.name + " is " + shape_text(shape) + "; at most " +
+           std::to_string(limits::matrix_rows) + " rows and " + std::to_string(limits::samples) +
+           " samples are read");
+    if (plane) return {matrix_of(array)};
+    std::vector<Matrix> result;
+    for (std::size_t i = 0; i < count; ++i)
+      result.push_back(matrix_of(slice(array, samples_first ? 0 : 2, i)));
+    return result;
+  }
+
+  void read_matrices() {
+    SampledData& data = result_.samples;
+    const bool state_space = find("A") != nullptr || find_family("A") != nullptr;
+    for (const SampledMatrix& named : sampled_matrices()) {
+      // Beside A, C holds the outputs of a state-space model.
+      if (state_space && named.name == std::string("C")) continue;
+      data.*named.samples = matrices(named.name);
+      samples_ = std::max(samples_, (data.*named.samples).size());
+    }
+    data.A_error = matrices("A_error");
+    if (samples_ > 0) return;
+    std::vector<std::string> names;
+    for (const NamedArray& array : arrays_) names.push_back(array.name);
+    std::string list;
+    for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i)
+      list += (i == 0 ? "" : ", ") + names[i];
+    fail("no matrices: expected arrays A (and E), or K with M or C; found " + (list.empty() ? "none" : list));
+  }
+
+  /// A matrix that is given once holds for all samples.
+  void repeat_constants() {
+    SampledData& data = result_.samples;
+    const auto repeat = [this](std::vector<Matrix>& list) {
+      if (list.size() == 1) list.assign(samples_, list[0]);
+    };
+    for (const SampledMatrix& named : sampled_matrices()) repeat(data.*named.samples);
+    repeat(data.A_error);
+  }
+
+  /// The numbers of an array or of numbered single ones, if there is one for each sample.
+  std::optional<std::vector<double>> numbers_per_sample(const std::string& name) const {
+    if (const NamedArray* array = find(name)) {
+      const std::size_t longest =
+          array->shape.empty() ? 1 : *std::max_element(array->shape.begin(), array->shape.end());
+      if (array->is_text || array->size() != samples_ || longest != samples_) return std::nullopt;
+      return array->numbers;
+    }
+    const Family* family = find_family(name);
+    if (family == nullptr || family->members.size() != samples_) return std::nullopt;
+    std::vector<double> values;
+    for (const NamedArray* member : family->members) {
+      if (member->is_text || member->size() != 1) return std::nullopt;
+      values.push_back(member->numbers[0]);
+    }
+    return values;
+  }
+
+  /// Arrays with one number per sample that rise or fall from sample to sample.
+  std::vector<std::string> candidates() const {
+    std::vector<std::string> names;
+    for (const NamedArray& array : arrays_) names.push_back(array.name);
+    for (const Family& family : families_) names.push_back(family.stem);
+    std::vector<std::string> result;
+    for (const std::string& name : names) {
+      const auto values = numbers_per_sample(name);
+      const bool is_matrix =
+          result_.samples.size() == 1 && name.size() == 1 && std::string("MCKEA").find(name) < 5;
+      if (!values || is_matrix) continue;
+      const auto rises = [](const std::vector<double>& list, auto less) {
+        return std::adjacent_find(list.begin(), list.end(),
+                                  [&](double a, double b) { return !less(a, b); }) == list.end();
+      };
+      if (rises(*values, std::less<>()) || rises(*values, std::greater<>())) result.push_back(name);
+    }
+    return result;
+  }
+
+  void read_parameter() {
+    std::string name = option("parameter").value_or("");
+    if (name.empty()) name = chosen_parameter();
+    if (name.empty()) {
+      result_.parameter = "p";
+      result_.samples.values = {0.0};
+      result_.understood.emplace_back("one sample, and no value of a parameter");
+      return;
+    }
+    const auto values = numbers_per_sample(name);
+    if (!values)
+      fail("parameter '" + name + "': expected an array of " + std::to_string(samples_) +
+           " numbers, one per sample" +
+           (find(name) ? ", found " + shape_text(find(name)->shape) : "; " + suggestion(name, candidates())));
+    result_.samples.values = *values;
+    result_.parameter = is_identifier(name) && name != "parameter" ? name : "p";
+    result_.samples.parameter_unit = option("unit").value_or("");
+  }
+
+  /// The array with the values of the parameter; empty if there is none and one sample.
+  std::string chosen_parameter() const {
+    if (numbers_per_sample("parameter")) return "parameter";
+    const std::vector<std::string> found = candidates();
+    if (samples_ == 1) return found.size() == 1 ? found[0] : "";
+    if (found.size() == 1) return found[0];
+    std::string list;
+    for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
+    fail(found.empty() ? "no values of a parameter: expected an array 'parameter' of " +
+                             std::to_string(samples_) + " numbers, one per sample"
+                       : "the parameter may be any of " + list + "; name it with --parameter");
+  }
+
+  const NamedArray* texts(std::initializer_list<const char*> names) const {
+    for (const char* name : names) {
+      const NamedArray* array = find(name);
+      if (array == nullptr) continue;
+      if (!array->is_text) fail(std::string(name) + ": expected texts, found numbers");
+      return array;
+    }
+    return nullptr;
+  }
+
+  void read_states() {
+    SampledData& data = result_.samples;
+    const auto n = static_cast<std::size_t>(data.size());
+    if (const NamedArray* names = texts({"state_names", "states", "names"})) {
+      if (names->size() == n * samples_ && samples_ > 1 && names->shape.size() == 2)
+        names_per_sample_ = rows_of_texts(*names, n);
+      data.state_names = names_per_sample_.empty() ? names->texts : names_per_sample_.front();
+    }
+    if (const NamedArray* units = texts({"state_units", "units"})) data.state_units = units->texts;
+    for (const char* name : {"derivative_order", "order"}) {
+      const NamedArray* orders = find(name);
+      if (orders == nullptr || orders->is_text || orders->size() != n) continue;
+      for (const double order : orders->numbers) {
+        if (order != 0.0 && order != 1.0 && order != 2.0)
+          fail(std::string(name) + ": expected 0, 1 or 2 for each state, found " + exact_text(order));
+        data.derivative_order.push_back(static_cast<int>(order));
+      }
+      break;
+    }
+    if (const NamedArray* frames = texts({"frame"})) {
+      for (const std::string& frame : frames->texts) {
+        if (frame != "fixed" && frame != "rotating")
+          fail("frame: expected fixed or rotating for each state, found '" + printable(frame) + "'");
+        data.state_frames.push_back(frame == "fixed" ? StateFrame::fixed : StateFrame::rotating);
+      }
+    }
+  }
+
+  /// Names k x n, one row per sample.
+  std::vector<std::vector<std::string>> rows_of_texts(const NamedArray& array, std::size_t n) const {
+    const bool rows = array.shape[0] == samples_ && array.shape[1] == n;
+    std::vector<std::vector<std::string>> result(samples_, std::vector<std::string>(n));
+    for (std::size_t i = 0; i < samples_; ++i) {
+      for (std::size_t j = 0; j < n; ++j)
+        result[i][j] = array.texts[(rows ? i : j) * array.strides[0] + (rows ? j : i) * array.strides[1]];
+    }
+    return result;
+  }
+
+  void read_digits() {
+    SampledData& data = result_.samples;
+    const std::optional<std::string> given = option("digits");
+    if (given && *given != "all") {
+      int digits = 0;
+      const auto parsed = std::from_chars(given->data(), given->data() + given->size(), digits);
+      if (parsed.ec != std::errc() || parsed.ptr != given->data() + given->size() || digits < 1 ||
+          digits > 17)
+        throw InputError("--digits: expected a whole number from 1 to 17, or all; found '" + *given + "'");
+      data.digits = digits;
+    } else if (!given) {
+      data.digits = digits_of(data);
+    }
+  }
+
+  void describe() {
+    const SampledData& data = result_.samples;
+    std::string matrices;
+    for (const SampledMatrix& named : sampled_matrices()) {
+      if (!(data.*named.samples).empty())
+        matrices += (matrices.empty() ? "" : ", ") + std::string(named.name);
+    }
+    const std::string size = std::to_string(data.size()) + " x " + std::to_string(data.size());
+    const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
+    if (samples_ > 1 || *least != 0.0)
+      result_.understood.push_back(std::to_string(samples_) +
+                                   (samples_ == 1 ? " sample of " : " samples of ") + matrices + ", " + size +
+                                   ", at " + result_.parameter + " = " + exact_text(*least) +
+                                   (samples_ > 1 ? " to " + exact_text(*most) : "") +
+                                   (data.parameter_unit.empty() ? "" : " " + data.parameter_unit));
+    else
+      result_.understood.push_back(matrices + ", " + size);
+    if (!data.state_names.empty())
+      result_.understood.push_back(std::to_string(data.size()) + " names of states");
+    if (data.digits)
+      result_.understood.push_back(
+          std::to_string(*data.digits) + " significant digits" +
+          (option("digits") ? "" : ", as most entries show; --digits all if they are exact"));
+  }
+
+  const std::vector<NamedArray>& arrays_;
+  const ArrayOptions& options_;
+  const std::map<std::string, std::string>& user_;
+  std::vector<Family> families_;
+  std::vector<std::vector<std::string>> names_per_sample_;
+  std::size_t samples_ = 0;
+  Imported result_;
+};
+
+}  // namespace
+
+std::size_t NamedArray::size() const {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void NamedArray::set_order(bool last_fastest) {
+  strides.assign(shape.size(), 1);
+  std::size_t stride = 1;
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    const std::size_t i = last_fastest ? shape.size() - 1 - k : k;
+    strides[i] = stride;
+    stride *= shape[i];
+  }
+}
+
+std::map<std::string, std::string> array_options() {
+  return {{"parameter", "array with the values of the parameter; default: the only one that fits"},
+          {"unit", "unit of the parameter, such as \"m/s\""},
+          {"digits", "significant digits of the entries, or all; default: as many as they show"}};
+}
+
+std::vector<ImportedItem> array_items(const std::string& cube) {
+  return {{"A, E", "E x' = A x; " + cube + ", or n x n: the same for all samples"},
+          {"M, C, K", "M x'' + C x' + K x = 0, likewise"},
+          {"A00, A01, ...", "the same, one array n x n per sample"},
+          {"parameter",
+           "its values, one per sample, or another array that is named by --parameter or is the "
+           "only one that rises or falls throughout"},
+          {"w00, w01, ...", "the same, one number per sample"},
+          {"state_names, state_units", "n texts; names k x n: states are matched by name"},
+          {"derivative_order", "2 or 1 for each state"},
+          {"frame", "fixed or rotating for each state"},
+          {"A_error", "bounds of the errors of the entries of A"}};
+}
+
+Imported from_arrays(std::vector<NamedArray> arrays, const ArrayOptions& options,
+                     const std::map<std::string, std::string>& user_options) {
+  return ArrayReader(arrays, options, user_options).read();
+}
+
+}  // namespace eigentrail

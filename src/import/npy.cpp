@@ -1,0 +1,208 @@
+#include "import/npy.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Letter and size of the elements, as in "<f8".
+struct ElementCode {
+  bool swapped = false;
+  char kind = 'f';
+  std::size_t bytes = 8;
+};
+
+class NpyReader {
+ public:
+  NpyReader(std::string_view bytes, const std::string& where) : bytes_(bytes), where_(where) {}
+
+  NamedArray read() {
+    read_header();
+    NamedArray array;
+    const ElementCode code = element_code();
+    const bool fortran = value_of("fortran_order").substr(0, 4) == "True";
+    array.shape = shape();
+    array.set_order(!fortran);
+    array.is_text = code.kind == 'U' || code.kind == 'S';
+    const std::size_t count = checked_count(array.shape, code.bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::string element(data_.substr(i * code.bytes, code.bytes));
+      if (array.is_text) {
+        array.texts.push_back(text(element, code));
+      } else {
+        array.numbers.push_back(number(element, code));
+      }
+    }
+    return array;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(where_ + ": " + message); }
+
+  void read_header() {
+    constexpr std::string_view magic = "\x93NUMPY";
+    constexpr std::size_t prefix = 8;  // magic and version
+    if (bytes_.size() < prefix + 4 || bytes_.substr(0, magic.size()) != magic)
+      fail("is no array of NumPy: it does not begin with \\x93NUMPY");
+    const auto byte = [this](std::size_t i) {
+      return static_cast<std::size_t>(static_cast<unsigned char>(bytes_[i]));
+    };
+    const std::size_t version = byte(6);
+    if (version < 1 || version > 3)
+      fail("version " + std::to_string(version) + " of NumPy's format; known: 1 to 3");
+    const std::size_t length_bytes = version == 1 ? 2 : 4;
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < length_bytes; ++i) length |= byte(prefix + i) << (8 * i);
+    const std::size_t begin = prefix + length_bytes;
+    if (length > bytes_.size() - begin) fail("ends within its header");
+    header_ = bytes_.substr(begin, length);
+    data_ = bytes_.substr(begin + length);
+  }
+
+  /// What follows 'key': in the header.
+  std::string_view value_of(const std::string& key) const {
+    const std::size_t at = header_.find("'" + key + "'");
+    const std::size_t colon = at == std::string_view::npos ? at : header_.find(':', at);
+    if (colon == std::string_view::npos) fail("its header has no '" + key + "'");
+    std::string_view rest = header_.substr(colon + 1);
+    rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(' ')));
+    return rest;
+  }
+
+  ElementCode element_code() const {
+    const std::string_view rest = value_of("descr");
+    const std::size_t end = rest.size() > 1 ? rest.find('\'', 1) : std::string_view::npos;
+    const std::string text(rest.substr(0, end == std::string_view::npos ? 0 : end + 1));
+    const std::string shown = printable(std::string(rest.substr(0, 20)));
+    if (text.size() < 4 || text[0] != '\'')
+      fail("elements of several fields (" + shown + "); expected plain numbers or texts");
+    ElementCode code;
+    code.swapped = text[1] == '>' && std::endian::native == std::endian::little;
+    code.kind = text[2];
+    const auto parsed = std::from_chars(text.data() + 3, text.data() + text.size() - 1, code.bytes);
+    if (code.kind == 'O')
+      fail(
+          "holds Python objects; save the array with a plain type, such as np.asarray(x, dtype=float) or "
+          "dtype=str");
+    if (code.kind == 'c') fail("is complex; expected real numbers");
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() - 1)
+      fail("unknown type " + shown);
+    if (code.kind == 'U') code.bytes *= 4;
+    const bool known =
+        (code.kind == 'f' && (code.bytes == 4 || code.bytes == 8)) ||
+        ((code.kind == 'i' || code.kind == 'u') && std::has_single_bit(code.bytes) && code.bytes <= 8) ||
+        (code.kind == 'b' && code.bytes == 1) ||
+        ((code.kind == 'U' || code.kind == 'S') && code.bytes <= limits::text_length);
+    if (!known) fail("type " + shown + "; known: f4, f8, i1 to i8, u1 to u8, b1, U and S");
+    return code;
+  }
+
+  std::vector<std::size_t> shape() const {
+    std::string_view rest = value_of("shape");
+    if (rest.empty() || rest[0] != '(') fail("its shape cannot be read");
+    rest = rest.substr(1, rest.find(')') - 1);
+    std::vector<std::size_t> result;
+    while (true) {
+      const std::size_t begin = rest.find_first_of("0123456789");
+      if (begin == std::string_view::npos) return result;
+      rest.remove_prefix(begin);
+      std::size_t extent = 0;
+      const auto parsed = std::from_chars(rest.data(), rest.data() + rest.size(), extent);
+      if (parsed.ec != std::errc() || result.size() == 8) fail("its shape cannot be read");
+      result.push_back(extent);
+      rest.remove_prefix(static_cast<std::size_t>(parsed.ptr - rest.data()));
+    }
+  }
+
+  std::size_t checked_count(const std::vector<std::size_t>& extents, std::size_t element) const {
+    std::size_t count = 1;
+    for (const std::size_t extent : extents) {
+      if (extent != 0 && count > limits::matrix_numbers / extent)
+        fail("has more than " + std::to_string(limits::matrix_numbers) + " elements");
+      count *= extent;
+    }
+    if (element == 0 ? count > limits::matrix_rows
+                     : count > data_.size() / element || count * element < data_.size())
+      fail("has " + std::to_string(data_.size()) + " bytes of data; its header announces " +
+           std::to_string(count * element));
+    return count;
+  }
+
+  template <class T>
+  static double converted(const std::string& element) {
+    T value;
+    std::memcpy(&value, element.data(), sizeof value);
+    return static_cast<double>(value);
+  }
+
+  static double number(std::string& element, const ElementCode& code) {
+    if (code.swapped) std::reverse(element.begin(), element.end());
+    if (code.kind == 'f') return code.bytes == 4 ? converted<float>(element) : converted<double>(element);
+    const bool is_signed = code.kind == 'i';
+    switch (code.bytes) {
+      case 1:
+        return is_signed ? converted<std::int8_t>(element) : converted<std::uint8_t>(element);
+      case 2:
+        return is_signed ? converted<std::int16_t>(element) : converted<std::uint16_t>(element);
+      case 4:
+        return is_signed ? converted<std::int32_t>(element) : converted<std::uint32_t>(element);
+      default:
+        return is_signed ? converted<std::int64_t>(element) : converted<std::uint64_t>(element);
+    }
+  }
+
+  /// Texts are filled up with zeros; U has four bytes per character.
+  static std::string text(const std::string& element, const ElementCode& code) {
+    std::string result;
+    for (std::size_t i = 0; i < element.size(); i += code.kind == 'U' ? 4 : 1) {
+      std::uint32_t character = static_cast<unsigned char>(element[i]);
+      if (code.kind == 'U') {
+        std::string four = element.substr(i, 4);
+        if (code.swapped) std::reverse(four.begin(), four.end());
+        std::memcpy(&character, four.data(), 4);
+      }
+      if (character == 0) break;
+      append_utf8(result, character);
+    }
+    return result;
+  }
+
+  static void append_utf8(std::string& text, std::uint32_t c) {
+    const auto tail = [&](int shift) { text += static_cast<char>(0x80U | ((c >> shift) & 0x3FU)); };
+    if (c < 0x80U) {
+      text += static_cast<char>(c);
+    } else if (c < 0x800U) {
+      text += static_cast<char>(0xC0U | (c >> 6U));
+      tail(0);
+    } else if (c < 0x10000U) {
+      text += static_cast<char>(0xE0U | (c >> 12U));
+      tail(6);
+      tail(0);
+    } else {
+      text += static_cast<char>(0xF0U | ((c >> 18U) & 7U));
+      tail(12);
+      tail(6);
+      tail(0);
+    }
+  }
+
+  std::string_view bytes_;
+  const std::string& where_;
+  std::string_view header_, data_;
+};
+
+}  // namespace
+
+NamedArray read_npy(std::string_view bytes, const std::string& where) {
+  return NpyReader(bytes, where).read();
+}
+
+}  // namespace eigentrail
