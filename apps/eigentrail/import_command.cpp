@@ -37,6 +37,7 @@ int run_import(const Importer& format, const ImportArguments& arguments) {
 void add_import(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("import", "make a scene from the files of another program");
   command->require_subcommand(1);
+  command->footer("Example:\n  eigentrail import numpy turbine.npz -o turbine");
   for (const Importer& format : importers()) {
     auto arguments = std::make_shared<ImportArguments>();
     CLI::App* one = command->add_subcommand(format.format, format.description);

@@ -5,7 +5,7 @@
 namespace eigentrail {
 
 const std::vector<Importer>& importers() {
-  static const std::vector<Importer> all{matlab_importer(), numpy_importer()};
+  static const std::vector<Importer> all{openfast_importer(), matlab_importer(), numpy_importer()};
   return all;
 }
 

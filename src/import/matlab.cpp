@@ -125,7 +125,8 @@ class MatReader {
     if (std::accumulate(variable.dims, variable.dims + variable.rank, std::size_t{1}, std::multiplies<>()) !=
         1)
       return;
-    const unsigned count = Mat_VarGetNumberOfFields(&variable);
+    const unsigned count = variable.data == nullptr ? 0 : Mat_VarGetNumberOfFields(&variable);
+    check_holds(variable, name_of(variable), count, sizeof(matvar_t*));
     char* const* names = Mat_VarGetStructFieldnames(&variable);
     for (unsigned i = 0; i < count && names != nullptr; ++i) {
       matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
@@ -145,6 +146,7 @@ class MatReader {
     NamedArray array = empty_array(variable, name);
     array.is_text = true;
     auto* const* cells = static_cast<matvar_t* const*>(variable.data);
+    check_holds(variable, name, array.size(), sizeof(matvar_t*));
     for (std::size_t i = 0; i < array.size(); ++i) {
       if (cells == nullptr || cells[i] == nullptr || cells[i]->class_type != MAT_C_CHAR)
         return;  // other contents

@@ -47,4 +47,7 @@ inline constexpr std::size_t matrix_numbers = 200'000'000;
 /// Samples of a sampled family.
 inline constexpr std::size_t samples = 1000;
 
+/// Bytes of a text file of another program.
+inline constexpr std::size_t text_file_bytes = 1024U << 20U;
+
 }  // namespace eigentrail::limits

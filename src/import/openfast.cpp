@@ -1,0 +1,419 @@
+// Linearizations of OpenFAST (.lin): one file per operating point and azimuth. The states of the blades
+// become multiblade coordinates, the azimuths of an operating point are averaged.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "import/formats.hpp"
+#include "import/lin_file.hpp"
+#include "import/multiblade.hpp"
+#include "import/openfast_states.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Files belong to one operating point if wind speed and rotor speed agree to this share of the largest; the
+/// rotor speed varies a little with the azimuth.
+constexpr double same_operating_point = 0.01;
+constexpr double to_rpm = 9.549296585513721;  // 30 / pi
+/// What is left of the dependence on the azimuth is worth a warning from here.
+constexpr double large_periodicity = 0.05;
+
+std::string count_of(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string rounded_text(double x) {
+  constexpr double digits = 1e6;
+  return exact_text(std::round(x * digits) / digits);
+}
+
+/// The states of all files, in the order of the first one.
+class States {
+ public:
+  explicit States(const std::vector<LinFile>& files) : files_(files) {
+    for (const LinQuantity& state : files[0].states) parsed_.push_back(openfast_state(state.description));
+    for (const LinFile& file : files) places_.push_back(places_in(file));
+    find_frames();
+    find_tuples();
+  }
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(parsed_.size()); }
+  const std::vector<BladeStates>& tuples() const { return tuples_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::size_t n_blades() const { return n_blades_; }
+  /// Whether states in the rotating frame are left.
+  bool rotating_states_left() const { return left_rotating_; }
+
+  /// A of a file with its states in the order of the first file.
+  Matrix matrix(std::size_t file) const { return files_[file].A(places_[file], places_[file]); }
+
+  /// Names, units, orders and frames in multiblade coordinates.
+  void describe(SampledData& data) const {
+    std::vector<std::string> names;
+    for (const OpenFastState& state : parsed_) names.push_back(name_of(state, state.blade));
+    const std::vector<std::string> parts = multiblade_names(n_blades_);
+    std::vector<bool> fixed(parsed_.size(), false);
+    for (const BladeStates& tuple : tuples_) {
+      for (std::size_t k = 0; k < n_blades_; ++k) {
+        for (const std::vector<Eigen::Index>* list : {&tuple.states, &tuple.rates}) {
+          if (list->empty()) continue;
+          const auto i = static_cast<std::size_t>((*list)[k]);
+          OpenFastState state = parsed_[i];
+          state.motion += " " + parts[k];
+          names[i] = name_of(state, 0);
+          fixed[i] = true;
+        }
+      }
+    }
+    data.state_names = names;
+    for (std::size_t i = 0; i < parsed_.size(); ++i) {
+      data.state_units.push_back(parsed_[i].unit.empty() ? "1" : parsed_[i].unit);
+      data.derivative_order.push_back(files_[0].states[i].derivative_order);
+      data.state_frames.push_back(rotating_[i] && !fixed[i] ? StateFrame::rotating : StateFrame::fixed);
+    }
+  }
+
+ private:
+  static std::string name_of(const OpenFastState& state, int blade) {
+    return state.motion + (blade > 0 ? ", blade " + std::to_string(blade) : "") +
+           (state.is_rate ? " velocity" : "");
+  }
+
+  /// For each state of the first file its place in another one.
+  std::vector<Eigen::Index> places_in(const LinFile& file) const {
+    std::map<std::string, Eigen::Index> own;
+    for (std::size_t i = 0; i < file.states.size(); ++i) {
+      if (!own.emplace(file.states[i].description, static_cast<Eigen::Index>(i)).second)
+        throw InputError(file.path + ": lists the state '" + printable(file.states[i].description) +
+                         "' twice");
+    }
+    std::vector<Eigen::Index> result;
+    for (const LinQuantity& state : files_[0].states) {
+      const auto found = own.find(state.description);
+      if (found == own.end())
+        throw InputError(file.path + ": has no state '" + printable(state.description) + "', which " +
+                         files_[0].path + " has; all files need the same states");
+      result.push_back(found->second);
+    }
+    if (own.size() != result.size())
+      throw InputError(file.path + ": has " + count_of(own.size(), "state") + ", " + files_[0].path +
+                       " has " + std::to_string(result.size()) + "; all files need the same states");
+    return result;
+  }
+
+  /// The frame of each state: that of most files, and rotating for states of blades.
+  void find_frames() {
+    std::set<std::string> differ, blades;
+    for (std::size_t i = 0; i < parsed_.size(); ++i) {
+      std::size_t count = 0;
+      for (std::size_t f = 0; f < files_.size(); ++f)
+        count += files_[f].states[static_cast<std::size_t>(places_[f][i])].rotating ? 1 : 0;
+      if (count != 0 && count != files_.size()) differ.insert(parsed_[i].motion);
+      const bool marked = 2 * count > files_.size();
+      if (marked != (parsed_[i].blade > 0)) blades.insert(name_of(parsed_[i], parsed_[i].blade));
+      rotating_.push_back(marked || parsed_[i].blade > 0);
+    }
+    const auto listed = [](const std::set<std::string>& names) {
+      std::string text;
+      for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
+      constexpr std::size_t longest = 200;
+      return text.size() > longest ? text.substr(0, longest) + " ..." : text;
+    };
+    if (!differ.empty())
+      warnings_.push_back("the files disagree on the frame of these states: " + listed(differ) +
+                          "; the frame of most files is used, and the rotating one for states of blades");
+    if (!blades.empty())
+      warnings_.push_back("the frames of these states are not those of their names: " + listed(blades) +
+                          "; states of blades are taken as rotating, the others as marked");
+  }
+
+  void find_tuples() {
+    std::map<std::string, std::map<int, Eigen::Index>> motions, rates;
+    for (std::size_t i = 0; i < parsed_.size(); ++i) {
+      const OpenFastState& state = parsed_[i];
+      n_blades_ = std::max(n_blades_, static_cast<std::size_t>(state.blade));
+      if (state.blade > 0)
+        (state.is_rate ? rates : motions)[state.motion][state.blade] = static_cast<Eigen::Index>(i);
+    }
+    const auto complete = [this](const std::map<int, Eigen::Index>& blades) {
+      return n_blades_ >= 3 && blades.size() == n_blades_;
+    };
+    const auto indices = [](const std::map<int, Eigen::Index>& blades) {
+      std::vector<Eigen::Index> result;
+      for (const auto& [blade, index] : blades) result.push_back(index);
+      return result;
+    };
+    std::vector<bool> done(parsed_.size(), false);
+    for (const auto& [motion, blades] : motions) {
+      if (!complete(blades)) continue;
+      BladeStates tuple{indices(blades)};
+      const auto own_rates = rates.find(motion);
+      if (own_rates != rates.end() && complete(own_rates->second)) tuple.rates = indices(own_rates->second);
+      for (const Eigen::Index i : tuple.states) done[static_cast<std::size_t>(i)] = true;
+      for (const Eigen::Index i : tuple.rates) done[static_cast<std::size_t>(i)] = true;
+      tuples_.push_back(std::move(tuple));
+    }
+    for (std::size_t i = 0; i < parsed_.size(); ++i)
+      left_rotating_ = left_rotating_ || (rotating_[i] && !done[i]);
+    if (left_rotating_ && n_blades_ > 0 && n_blades_ < 3)
+      warnings_.push_back(
+          "a rotor of " + count_of(n_blades_, "blade") +
+          " has no multiblade coordinates in which its equations are constant; the states of the "
+          "blades stay in the rotating frame, and the average over the azimuths is an approximation");
+    else if (left_rotating_)
+      warnings_.emplace_back(
+          "some states in the rotating frame do not belong to all blades and stay as they are; the "
+          "average over the azimuths is an approximation");
+  }
+
+  const std::vector<LinFile>& files_;
+  std::vector<OpenFastState> parsed_;
+  std::vector<std::vector<Eigen::Index>> places_;  ///< per file
+  std::vector<bool> rotating_;
+  std::vector<BladeStates> tuples_;
+  std::vector<std::string> warnings_;
+  std::size_t n_blades_ = 0;
+  bool left_rotating_ = false;
+};
+
+/// Bounds of the rounding of the entries to `digits` significant digits.
+Matrix rounding_of(const Matrix& A, int digits) {
+  return A.unaryExpr([digits](double x) {
+    const bool exact = x == 0.0 || std::abs(x) == 1.0;
+    return exact ? 0.0 : 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(x))) - digits + 1);
+  });
+}
+
+/// Files of one operating point, as indices.
+struct OperatingPointFiles {
+  std::vector<std::size_t> files;
+  double parameter = 0.0;
+};
+
+struct Parameter {
+  std::string name, unit, text;
+  std::vector<double> values;  ///< per file
+};
+
+class OpenFastImport {
+ public:
+  explicit OpenFastImport(const ImportRequest& request) : request_(request) {
+    for (const std::string& path : request.files) files_.push_back(read_lin_file(path));
+  }
+
+  Imported read() {
+    const States states(files_);
+    const Parameter parameter = chosen_parameter();
+    std::vector<OperatingPointFiles> points = operating_points(parameter);
+    Imported result;
+    result.title = std::filesystem::path(files_[0].path).stem().stem().string() + ", OpenFAST";
+    result.parameter = parameter.name;
+    SampledData& data = result.samples;
+    data.parameter_unit = parameter.unit;
+    data.source = "OpenFAST, " + count_of(files_.size(), "linearization");
+    double periodicity = 0.0;
+    for (const OperatingPointFiles& point : points) {
+      data.values.push_back(point.parameter);
+      periodicity = std::max(periodicity, add_average(point, states, data));
+    }
+    states.describe(data);
+    check(data);
+    result.warnings = states.warnings();
+    describe(states, parameter, points, periodicity, result);
+    return result;
+  }
+
+ private:
+  /// Wind speed, else rotor speed; or the operating value whose description has the text that is asked for.
+  Parameter chosen_parameter() const {
+    const auto asked = request_.options.find("parameter");
+    if (asked != request_.options.end() && asked->second != "wind_speed" && asked->second != "rotor_speed")
+      return operating_value(asked->second);
+    Parameter wind{"wind_speed", "m/s", "wind speed", {}}, rotor{"rotor_speed", "rpm", "rotor speed", {}};
+    for (const LinFile& file : files_) {
+      if (file.wind_speed) wind.values.push_back(*file.wind_speed);
+      rotor.values.push_back(file.rotor_speed * to_rpm);
+    }
+    const bool has_wind = wind.values.size() == files_.size();
+    if (asked != request_.options.end() && asked->second == "wind_speed" && !has_wind)
+      throw InputError("openfast: not all files state a wind speed; use --parameter rotor_speed");
+    const bool want_rotor = asked != request_.options.end() && asked->second == "rotor_speed";
+    return want_rotor || !has_wind || (varies(rotor.values) && !varies(wind.values)) ? rotor : wind;
+  }
+
+  static bool varies(const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *most - *least > same_operating_point * std::max(std::abs(*least), std::abs(*most));
+  }
+
+  Parameter operating_value(const std::string& text) const {
+    Parameter result;
+    for (const LinFile& file : files_) {
+      std::vector<const LinQuantity*> found;
+      for (const std::vector<LinQuantity>* table : {&file.states, &file.operating_values}) {
+        for (const LinQuantity& one : *table) {
+          if (one.description.find(text) != std::string::npos) found.push_back(&one);
+        }
+      }
+      if (found.empty())
+        throw InputError(file.path + ": --parameter: no state, input or output has '" + printable(text) +
+                         "' in its description; expected wind_speed, rotor_speed or a part of a description");
+      result.values.push_back(found[0]->value);
+      const OpenFastState parsed = openfast_state(found[0]->description);
+      result.unit = parsed.unit;
+      result.text = parsed.motion;
+    }
+    for (const char c : result.text)
+      result.name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    if (result.name.empty() || std::isalpha(static_cast<unsigned char>(result.name[0])) == 0)
+      result.name = "p_" + result.name;
+    return result;
+  }
+
+  bool same_point(std::size_t a, std::size_t b) const {
+    const auto close = [](double x, double y) {
+      return std::abs(x - y) <= same_operating_point * std::max({std::abs(x), std::abs(y), 1e-6});
+    };
+    return close(files_[a].wind_speed.value_or(0.0), files_[b].wind_speed.value_or(0.0)) &&
+           close(files_[a].rotor_speed, files_[b].rotor_speed);
+  }
+
+  std::vector<OperatingPointFiles> operating_points(const Parameter& parameter) const {
+    std::vector<OperatingPointFiles> points;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const auto found = std::find_if(points.begin(), points.end(), [&](const OperatingPointFiles& point) {
+        return same_point(point.files[0], i);
+      });
+      if (found == points.end()) {
+        points.push_back({{i}, 0.0});
+      } else {
+        check_azimuth(*found, i);
+        found->files.push_back(i);
+      }
+    }
+    for (OperatingPointFiles& point : points) {
+      for (const std::size_t i : point.files)
+        point.parameter += parameter.values[i] / static_cast<double>(point.files.size());
+    }
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (points[i].parameter == points[i - 1].parameter)
+        throw InputError("openfast: " + files_[points[i - 1].files[0]].path + " and " +
+                         files_[points[i].files[0]].path +
+                         " are different operating points, but have the same " + parameter.text + " " +
+                         rounded_text(points[i].parameter) +
+                         "; choose another parameter, such as --parameter rotor_speed");
+    }
+    return points;
+  }
+
+  /// The same azimuth twice would count twice in the average.
+  void check_azimuth(const OperatingPointFiles& point, std::size_t file) const {
+    constexpr double same_azimuth = 1e-3;  // rad; azimuths are printed with four decimals
+    for (const std::size_t other : point.files) {
+      const double difference = std::remainder(files_[file].azimuth - files_[other].azimuth, 2.0 * M_PI);
+      if (std::abs(difference) < same_azimuth)
+        throw InputError(files_[file].path + ": has the operating point and the azimuth of " +
+                         files_[other].path + "; give each azimuth once");
+    }
+  }
+
+  /// Adds the average of the A of an operating point. Returns the largest deviation of one of them from it,
+  /// as a share.
+  double add_average(const OperatingPointFiles& point, const States& states, SampledData& data) const {
+    const Eigen::Index n = states.size();
+    Matrix sum = Matrix::Zero(n, n), error = sum;
+    std::vector<Matrix> all;
+    const auto count = static_cast<double>(point.files.size());
+    for (const std::size_t i : point.files) {
+      const Matrix A = states.matrix(i);
+      const double speed = files_[i].rotor_speed;
+      const MultibladeTransformation transformation =
+          multiblade(n, states.tuples(), files_[i].azimuth, speed);
+      all.push_back(in_multiblade_coordinates(A, transformation, speed));
+      sum += all.back() / count;
+      // Rounding of the entries, carried through the transformation. The deviations between azimuths are no
+      // errors of the data: they are what the average leaves out, and are reported apart.
+      error += transformation.T.inverse().cwiseAbs() * rounding_of(A, files_[i].digits) *
+               transformation.T.cwiseAbs() / count;
+    }
+    double deviation = 0.0;
+    for (const Matrix& one : all) deviation = std::max(deviation, (one - sum).norm() / sum.norm());
+    data.A.push_back(sum);
+    data.A_error.push_back(error);
+    return deviation;
+  }
+
+  void describe(const States& states, const Parameter& parameter,
+                const std::vector<OperatingPointFiles>& points, double periodicity, Imported& result) const {
+    std::size_t fewest = files_.size();
+    int digits = 17;
+    for (const OperatingPointFiles& point : points) fewest = std::min(fewest, point.files.size());
+    for (const LinFile& file : files_) digits = std::min(digits, file.digits);
+    std::string range = rounded_text(points.front().parameter);
+    if (points.size() > 1) range += " to " + rounded_text(points.back().parameter);
+    result.understood.push_back(count_of(points.size(), "operating point") + " from " +
+                                count_of(files_.size(), "file") + ": " + parameter.text + " " + range + " " +
+                                parameter.unit);
+    result.understood.push_back(std::to_string(states.size()) + " states" +
+                                (states.tuples().empty()
+                                     ? std::string(", none of them in the rotating frame")
+                                     : "; " + std::to_string(states.tuples().size()) + " motions of " +
+                                           std::to_string(states.n_blades()) +
+                                           " blades in multiblade coordinates"));
+    result.understood.push_back("entries known to " + std::to_string(digits) + " digits");
+    const std::string percent = rounded_text(std::round(periodicity * 1e4) / 1e2) + " %";
+    if (fewest > 1)
+      result.understood.push_back("averaged over " + count_of(fewest, "azimuth") +
+                                  (points.size() > 1 ? " or more" : "") +
+                                  "; single azimuths differ from the average by up to " + percent);
+    if (fewest == 1 && (!states.tuples().empty() || states.rotating_states_left()) && turning(points))
+      result.warnings.emplace_back(
+          "an operating point has one azimuth only; an average over several, evenly spread, "
+          "leaves out what is left of the dependence on the azimuth");
+    if (periodicity > large_periodicity)
+      result.warnings.push_back(
+          "the equations depend on the azimuth by " + percent +
+          " in multiblade coordinates (gravity, shear, unequal blades); modes of the average "
+          "are an approximation");
+  }
+
+  bool turning(const std::vector<OperatingPointFiles>& points) const {
+    return std::any_of(points.begin(), points.end(), [this](const OperatingPointFiles& point) {
+      return point.files.size() == 1 && files_[point.files[0]].rotor_speed != 0.0;
+    });
+  }
+
+  const ImportRequest& request_;
+  std::vector<LinFile> files_;
+};
+
+Imported read_openfast(const ImportRequest& request) {
+  return OpenFastImport(request).read();
+}
+
+}  // namespace
+
+Importer openfast_importer() {
+  return {"openfast",
+          "a turbine from OpenFAST's linearizations (.lin)",
+          {{"Rotor Speed, Azimuth, Wind Speed",
+            "operating point; files of one point are averaged over the azimuths"},
+           {"Order of continuous states", "names, units, frames and derivative orders of the states"},
+           {"A: n x n", "state matrix, in multiblade coordinates for three or more blades"},
+           {"Order of inputs, of outputs", "operating values that can be the parameter"},
+           {"B, C, D, Jacobians", "not read"}},
+          {{"parameter",
+            "wind_speed, rotor_speed, or a part of the description of a state, input or output; "
+            "default: wind_speed, or rotor_speed if the wind does not vary"}},
+          read_openfast};
+}
+
+}  // namespace eigentrail

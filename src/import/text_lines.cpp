@@ -1,0 +1,115 @@
+#include "import/text_lines.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/scene/limits.hpp"
+
+namespace eigentrail {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+}  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path + ": no such file");
+  if (std::filesystem::file_size(path, error) > limits::text_file_bytes)
+    throw InputError(path + ": is larger than " + std::to_string(limits::text_file_bytes >> 20U) + " MiB");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": cannot be opened");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::optional<std::string_view> TextLines::next() {
+  if (rest_.empty()) return std::nullopt;
+  before_ = rest_;
+  const std::size_t end = rest_.find('\n');
+  std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  ++line_;
+  return line;
+}
+
+void TextLines::back() {
+  rest_ = before_;
+  --line_;
+}
+
+void TextLines::fail(const std::string& message) const {
+  throw InputError(path_ + ":" + std::to_string(line_) + ": " + message);
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const auto begin = std::find_if_not(line.begin(), line.end(), is_blank);
+    const auto end = std::find_if(begin, line.end(), is_blank);
+    if (begin == line.end()) return words;
+    words.emplace_back(begin, end);
+    line.remove_prefix(static_cast<std::size_t>(end - line.begin()));
+  }
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool equal_words(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::optional<double> number_of(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  std::string text(word);
+  for (char& c : text) c = c == 'D' || c == 'd' ? 'e' : c;
+  // Fortran leaves the letter out before exponents of three digits.
+  const std::size_t sign = text.find_first_of("+-", 1);
+  if (sign != std::string::npos && text.find_first_of("eE") == std::string::npos) text.insert(sign, "e");
+  double value = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ptr != text.data() + text.size() || text.empty()) return std::nullopt;
+  if (parsed.ec == std::errc::result_out_of_range)
+    return text.find("e-") != std::string::npos ? 0.0 : INFINITY;
+  return parsed.ec == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<long> whole_number_of(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  long value = 0;
+  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+  return parsed.ec == std::errc() && parsed.ptr == word.data() + word.size() ? std::optional(value)
+                                                                             : std::nullopt;
+}
+
+int printed_digits(std::string_view word) {
+  int digits = 0;
+  bool point = false, started = false;
+  for (const char c : word) {
+    if (c == '.') point = true;
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+      started = started || c != '0';
+      digits += started ? 1 : 0;
+    } else if (c != '.' && c != '+' && c != '-') {
+      break;
+    } else if (c != '.' && digits > 0) {
+      break;
+    }
+  }
+  return point ? digits : 0;
+}
+
+}  // namespace eigentrail

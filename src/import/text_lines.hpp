@@ -1,0 +1,46 @@
+// Lines and words of text files of other programs, with errors that name the line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eigentrail {
+
+/// The content of a file of at most `limits::text_file_bytes`. Throws InputError.
+std::string read_text_file(const std::string& path);
+
+/// Goes through a text line by line.
+class TextLines {
+ public:
+  TextLines(std::string_view text, std::string path) : rest_(text), path_(std::move(path)) {}
+
+  /// The next line without its end, or nothing.
+  std::optional<std::string_view> next();
+  /// Gives the last line back.
+  void back();
+  int line() const { return line_; }
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  std::string_view rest_, before_;
+  std::string path_;
+  int line_ = 0;
+};
+
+/// Words between blanks.
+std::vector<std::string_view> words_of(std::string_view line);
+std::string_view trimmed(std::string_view text);
+/// Whether both are equal but for upper and lower case.
+bool equal_words(std::string_view a, std::string_view b);
+
+/// A decimal number with exponent E, D or, as Fortran prints long exponents, with a sign only (1.5-101).
+/// Empty if the word is anything else.
+std::optional<double> number_of(std::string_view word);
+/// A whole number; empty if the word is anything else.
+std::optional<long> whole_number_of(std::string_view word);
+/// Significant digits of a number as printed; leading zeros do not count. 0 for zero and whole numbers.
+int printed_digits(std::string_view word);
+
+}  // namespace eigentrail
