@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -18,11 +19,22 @@ struct ImportArguments {
   std::map<std::string, std::string> options;
 };
 
+/// What the names of the files begin with, up to a separator: "ws03.0" for ws03.0.1.lin and ws03.0.13.lin.
+std::string common_name(const std::vector<std::string>& files) {
+  std::string name = std::filesystem::path(files.front()).stem().string();
+  for (const std::string& file : files) {
+    const std::string other = std::filesystem::path(file).stem().string();
+    const auto end = std::mismatch(name.begin(), name.end(), other.begin(), other.end()).first;
+    if (end != name.end())
+      name.erase(std::min(name.find_last_of("._-", static_cast<std::size_t>(end - name.begin())),
+                          static_cast<std::size_t>(end - name.begin())));
+  }
+  return name.empty() ? std::filesystem::path(files.front()).stem().string() : name;
+}
+
 int run_import(const Importer& format, const ImportArguments& arguments) {
   const Imported imported = format.read({arguments.files, arguments.options});
-  const std::string name = arguments.name.empty()
-                               ? std::filesystem::path(arguments.files.front()).stem().string()
-                               : arguments.name;
+  const std::string name = arguments.name.empty() ? common_name(arguments.files) : arguments.name;
   const std::string scene = write_import(imported, arguments.folder, name, arguments.force);
   for (const std::string& line : imported.understood) std::printf("  %s\n", printable(line).c_str());
   for (const std::string& line : imported.warnings) std::printf("  warning  %s\n", printable(line).c_str());
@@ -37,13 +49,16 @@ int run_import(const Importer& format, const ImportArguments& arguments) {
 void add_import(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("import", "make a scene from the files of another program");
   command->require_subcommand(1);
-  command->footer("Example:\n  eigentrail import numpy turbine.npz -o turbine");
+  command->footer(
+      "Examples:\n"
+      "  eigentrail import openfast ws*.lin -o turbine\n"
+      "  eigentrail import numpy turbine.npz -o turbine");
   for (const Importer& format : importers()) {
     auto arguments = std::make_shared<ImportArguments>();
     CLI::App* one = command->add_subcommand(format.format, format.description);
     one->add_option("FILES", arguments->files, "files to read")->required();
     one->add_option("-o,--output", arguments->folder, "folder for the scene and its matrices")->required();
-    one->add_option("--name", arguments->name, "name of the two files; default: that of the first file");
+    one->add_option("--name", arguments->name, "name of the two files; default: that of the files");
     one->add_flag("--force", arguments->force, "replace existing files");
     for (const auto& [name, help] : format.options) {
       one->add_option_function<std::string>(

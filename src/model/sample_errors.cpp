@@ -158,8 +158,18 @@ struct Estimators {
   Vector weights;                           ///< largest magnitude of each basis function
 };
 
+constexpr std::array<double, 5> places_in_gap{0.1, 0.3, 0.5, 0.7, 0.9};
+
+/// The nearest sample as an interpolant. Two samples are all that there is: the line between them is compared
+/// with this, because the interpolant of degree 0 through two samples is the line, too.
+Matrix nearest_samples() {
+  Matrix columns = Matrix::Zero(2, places_in_gap.size());
+  for (std::size_t i = 0; i < places_in_gap.size(); ++i)
+    columns(places_in_gap[i] < 0.5 ? 0 : 1, static_cast<Eigen::Index>(i)) = 1.0;
+  return columns;
+}
+
 Estimators estimators(const SamplePiece& piece, const Window& window, const SampleErrorOptions& options) {
-  constexpr std::array<double, 5> places{0.1, 0.3, 0.5, 0.7, 0.9};
   const auto n = static_cast<Eigen::Index>(window.nodes.size());
   const int degree = std::min(piece.interpolant.degree(), static_cast<int>(n) - 1);
   const int top = std::min(degree + 1, static_cast<int>(n) - 1);
@@ -181,11 +191,12 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
         .value_or(piece.interpolant.denominator());
   };
   const auto values_of = [&](int d) {
+    if (n == 2 && d < 1) return nearest_samples();
     d = std::max(n_poles, d);
     const RationalInterpolant interpolant(window.nodes, d, denominator_of(d));
-    Matrix columns(n, places.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-      columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places[i] * length);
+    Matrix columns(n, places_in_gap.size());
+    for (std::size_t i = 0; i < places_in_gap.size(); ++i)
+      columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places_in_gap[i] * length);
     return columns;
   };
   for (int i = 0; i < 4; ++i) values[static_cast<std::size_t>(i)] = values_of(top - i);
@@ -277,10 +288,10 @@ SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<P
 double SampleErrors::place_of_largest_error(std::size_t gap, double from, double to) const {
   const double low = std::max(from, values_[gap]), high = std::min(to, values_[gap + 1]);
   const RationalInterpolant& interpolant = piece_at(pieces_, 0.5 * (low + high)).interpolant;
-  constexpr int places = 50;
+  constexpr int places_in_gap = 50;
   double best = 0.5 * (low + high), largest = 0.0;
-  for (int i = 1; i < places; ++i) {
-    const double x = low + (high - low) * i / places;
+  for (int i = 1; i < places_in_gap; ++i) {
+    const double x = low + (high - low) * i / places_in_gap;
     const double factor = interpolant.error_factor(x);
     if (factor <= largest) continue;
     largest = factor;

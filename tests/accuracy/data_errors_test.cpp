@@ -234,6 +234,17 @@ TEST(DataErrors, ExactSamplesOfALineLeaveNothingUndecided) {
   EXPECT_LT(length, 1e-6);
 }
 
+/// Two samples say nothing about what is between them: the change of the eigenvalue is the measure.
+TEST(DataErrors, OfTwoSamplesAreOfTheSizeOfTheChange) {
+  const MatrixFunction curved = [](double p) { return Matrix{{-1.0 - p * p, 0.0}, {0.0, -9.0}}; };
+  const SampledScene scene(sampled(curved, {0.0, 1.0}));
+  const Setting setting = scene.setting();
+  const Matrix stated = *data_errors_at(*setting.model, setting.options, 0.5, ComplexVector{{-1.5, -9.0}});
+  EXPECT_GT(stated(0, 0), 0.25);  // the true error
+  EXPECT_LT(stated(0, 0), 2.0);
+  EXPECT_LT(stated(1, 0), 1e-12);
+}
+
 TEST(DataErrors, ModelsWithoutDataHaveNone) {
   const Setting setting = scene_setting("rotating_mass");
   RecordedPath path;
