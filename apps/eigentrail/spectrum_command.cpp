@@ -86,7 +86,8 @@ void print_csv(const std::vector<ShownPoint>& points) {
   for (const ShownPoint& point : points) {
     for (std::size_t i = 0; i < point.modes.size(); ++i) {
       std::string names, values;
-      for (const auto& [name, value] : json_row(point, i).items()) {
+      const nlohmann::ordered_json row = json_row(point, i);
+      for (const auto& [name, value] : row.items()) {
         names += (names.empty() ? "" : ",") + name;
         values += values.empty() ? "" : ",";
         values += value.is_string()         ? "\"" + value.get<std::string>() + "\""

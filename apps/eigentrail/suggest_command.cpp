@@ -55,9 +55,8 @@ int run_suggest(const SuggestArguments& arguments) {
   const double tolerance = setup.options.tolerance;
   const auto above = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.error > tolerance; }));
-  const std::vector<Suggestion> first(
-      all.begin(),
-      all.begin() + static_cast<std::ptrdiff_t>(std::min(above, static_cast<std::size_t>(arguments.count))));
+  std::vector<Suggestion> first = all;
+  first.resize(std::min(above, static_cast<std::size_t>(arguments.count)));
   if (arguments.json) {
     print_json(first);
     return done;

@@ -93,7 +93,8 @@ std::vector<EigenTriple> eigen_triples(const Matrix& M, const Matrix& C, const M
     a.bottomLeftCorner(n, n) = -K;
     a.bottomRightCorner(n, n) = -C;
     b.bottomRightCorner(n, n) = M;
-    for (EigenTriple& one : generalized(std::move(a), std::move(b))) {
+    const std::vector<EigenTriple> doubled = generalized(std::move(a), std::move(b));
+    for (const EigenTriple& one : doubled) {
       const ComplexVector upper = one.right.head(n), lower = one.right.tail(n);
       all.push_back({one.s, upper.norm() >= lower.norm() ? upper : lower, one.left.tail(n)});
     }

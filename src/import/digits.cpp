@@ -23,6 +23,14 @@ bool has_digits(double x, int digits) {
   return back == x;
 }
 
+/// The fewest digits to which x may have been rounded; 0 if it has more than `most_digits`.
+int least_digits_of(double x) {
+  for (int digits = 1; digits <= most_digits; ++digits) {
+    if (has_digits(x, digits)) return digits;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::optional<int> digits_of(const SampledData& data) {
@@ -32,9 +40,8 @@ std::optional<int> digits_of(const SampledData& data) {
     for (const Matrix& sample : data.*named.samples) {
       for (const double x : sample.reshaped()) {
         if (x == std::round(x)) continue;
-        int own = 1;
-        while (own <= most_digits && !has_digits(x, own)) ++own;
-        if (own > most_digits) return std::nullopt;
+        const int own = least_digits_of(x);
+        if (own == 0) return std::nullopt;
         digits = std::max(digits, own);
         ++entries[static_cast<std::size_t>(own)];
       }

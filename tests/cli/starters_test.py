@@ -67,7 +67,7 @@ class Reference(ProgramTest):
             self.assertTrue(keys, name)
         self.write("scene.toml", scene + "[[xxxxxxxxxxxxxxxx]]\n")
         known = re.search(r"known: (.*)$", self.run_program("explain", "scene.toml").stderr)[1].split(", ")
-        self.assertEqual(set(known), set(tables) | {"title", "parameters", "matrix_family"})
+        self.assertEqual(set(known), set(tables) | {"title", "parameters", "matrix_family", "sampled_family"})
 
     def test_page_of_the_documentation_is_current(self):
         page = SCENES.parent.parent / "docs" / "scene-tables.md"

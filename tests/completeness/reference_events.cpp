@@ -35,6 +35,7 @@ class Search {
     const auto by_place = [](const ReferenceEvent& a, const ReferenceEvent& b) { return a.p < b.p; };
     std::sort(result_.events.begin(), result_.events.end(), by_place);
     std::sort(result_.touching.begin(), result_.touching.end(), by_place);
+    for (std::size_t i = 0; i < result_.events.size(); ++i) find_direction(i);
     check_counts();
     return result_;
   }
@@ -154,14 +155,26 @@ class Search {
     const double p = locate(f, a, b);
     ReferenceEvent event = describe(f, p, true);
     if (event.kind == "opposite") return;
-    // The nearest places on either side where the counts differ.
-    for (double aside = 1e-10; f != D && event.direction == 0 && aside < 1e-7; aside *= 3.0) {
-      const AtParameter& left = at(p - aside * (to_ - from_));
-      const AtParameter& right = at(p + aside * (to_ - from_));
-      const int more = right.unstable() - left.unstable();
-      event.direction = f == F ? more / 2 : more;
-    }
     result_.events.push_back(event);
+  }
+
+  /// How many eigenvalues become unstable, from places on either side as far away as the neighbouring events
+  /// allow: close to the zero the signs of real parts are rounding.
+  void find_direction(std::size_t i) {
+    constexpr double farthest = 1e-7;
+    constexpr double nearest = 1e-10;  // of the range
+    ReferenceEvent& event = result_.events[i];
+    if (event.kind == "collision") return;
+    double aside = farthest * (to_ - from_);
+    constexpr double before_the_next = 0.4;
+    if (i > 0) aside = std::min(aside, before_the_next * (event.p - result_.events[i - 1].p));
+    if (i + 1 < result_.events.size())
+      aside = std::min(aside, before_the_next * (result_.events[i + 1].p - event.p));
+    aside = std::max(aside, nearest * (to_ - from_));
+    for (; event.direction == 0 && aside >= nearest * (to_ - from_); aside /= 3.0) {
+      const int more = at(event.p + aside).unstable() - at(event.p - aside).unstable();
+      event.direction = event.kind == "flutter" ? more / 2 : more;
+    }
   }
 
   /// All spectra that were computed must have as many unstable pairs and real eigenvalues as the events say.
@@ -173,7 +186,7 @@ class Search {
       const auto beside = [&, at = p](const ReferenceEvent& event) {
         return std::abs(event.p - at) < margin;
       };
-      if (std::any_of(result_.events.begin(), result_.events.end(), beside)) continue;
+      if (std::any_of(result_.events.begin(), result_.events.end(), beside) || !here.is_decided()) continue;
       if (last != nullptr) check_between(last_p, *last, p, here);
       last = &here;
       last_p = p;

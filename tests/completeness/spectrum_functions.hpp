@@ -35,6 +35,19 @@ struct AtParameter {
     const auto alone = std::count_if(real.begin(), real.end(), [](double s) { return s > 0.0; });
     return static_cast<int>(2 * pairs + alone);
   }
+
+  /// Whether no real part is so small that rounding decides its sign.
+  bool is_decided() const {
+    constexpr double rounding = 1e-14;  // of the largest eigenvalue: some fifty units in the last place
+    double largest = 0.0, least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](Complex s) {
+      largest = std::max(largest, std::abs(s));
+      least = std::min(least, std::abs(s.real()));
+    };
+    std::for_each(upper.begin(), upper.end(), consider);
+    std::for_each(real.begin(), real.end(), consider);
+    return least > rounding * largest;
+  }
 };
 
 AtParameter spectrum_at(const Family& family, double p);

@@ -41,8 +41,8 @@ struct SampledData {
 /// expected and what was found.
 void check(const SampledData& data);
 
-/// Brings the samples in the order of states of the first one, by name. `names`: those of each sample, n each;
-/// empty if all have the same order. Throws std::invalid_argument if a sample has other states.
+/// Brings the samples in the order of states of the first one, by name. `names`: those of each sample, n
+/// each; empty if all have the same order. Throws std::invalid_argument if a sample has other states.
 void match_states(SampledData& data, const std::vector<std::vector<std::string>>& names);
 
 /// One of the matrices and its name.
