@@ -32,7 +32,7 @@ TEST(CriteriaOnStep, GivesTheEigenvaluesOfTheDenseOutput) {
   const HermiteInterpolant excitation = no_excitation();
   CriteriaOnStep on_step(lines.step, 0, excitation);
   EXPECT_EQ(on_step.begin(), 0.0);
-  EXPECT_EQ(on_step.noise(), 0.0);
+  EXPECT_LT(on_step.rounding(0, 0.5), 1e-12);
   for (const double t : {0.0, 0.3, 1.0}) {
     EXPECT_LT(std::abs(on_step.root(0, t) - (2.0 + 0.2 * t) * j), 1e-12);
     EXPECT_LT(std::abs(on_step.root(1, t) - (2.6 - 0.2 * t) * j), 1e-12);
@@ -296,8 +296,10 @@ TEST(CriteriaOnStep, BeginsWhereEigenvaluesCanBeDistinguished) {
   const HermiteInterpolant none(step.h, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2));
   CriteriaOnStep on_step(step, 0, none);
   EXPECT_NEAR(on_step.begin(), 1e-3, 1e-12);
-  EXPECT_GT(on_step.noise(), 1e-8);
-  EXPECT_LT(on_step.noise(), 1e-5);
+  // The roots differ by 2 sqrt(p - 0.75), so that their error is that of the square over this.
+  EXPECT_GT(on_step.rounding(0, 0.0), 1e-9);
+  EXPECT_LT(on_step.rounding(0, on_step.begin()), 1e-11);
+  EXPECT_LT(on_step.rounding(0, 0.4), 0.2 * on_step.rounding(0, on_step.begin()));
   EXPECT_NEAR(on_step.value(flutter, 0, 0.4), -0.3, 1e-6);
   EXPECT_NEAR(on_step.value(flutter, 1, 0.4), -0.7, 1e-6);
   // Beyond the ends: those at the ends.

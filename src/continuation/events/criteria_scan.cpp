@@ -131,9 +131,9 @@ class TrackScan {
     const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
     const double value = on_step_.value(criterion, s, t);
     // The sign of a value this small, as of Re s of an undamped mode, is rounding.
-    const double on_axis =
-        std::max(axis_width(search_.thresholds().criterion, track()) * size, on_step_.noise());
-    if (!criterion.asks_for_extrema() && std::abs(value) <= on_axis) {
+    const double on_axis = axis_width(search_.thresholds().criterion, track()) * size;
+    if (!criterion.asks_for_extrema() &&
+        (std::abs(value) <= on_axis || std::abs(value) <= on_step_.rounding(member, t))) {
       history.skip();
       return;
     }

@@ -347,10 +347,10 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
   return value(criterion, root(member, t), t);
 }
 
-double CriteriaOnStep::noise() const {
+double CriteriaOnStep::rounding(std::size_t member, double t) {
   if (track_.size() == 1) return 0.0;
-  const double level = rounding_margin * std::sqrt(function_rounding(track_.pair.Lambda).maxCoeff());
-  return least_gap(track_.roots) <= level ? level : 0.0;
+  const Vector of_functions = rounding_margin * function_rounding(track_.pair.Lambda);
+  return root_errors(roots_.functions()(t), roots_(t), of_functions)[static_cast<Eigen::Index>(member)];
 }
 
 double axis_width(const CriterionThresholds& thresholds, const Track& track) {

@@ -46,9 +46,9 @@ class CriteriaOnStep {
   double value(const Criterion& criterion, Complex root, double t) const;
   double value(const Criterion& criterion, std::size_t member, double t);
 
-  /// Rounding error of the eigenvalues if some of them coincide at the left end, where they are known to the
-  /// square root of rounding only; else zero.
-  double noise() const;
+  /// Rounding error of an eigenvalue of a block at t: near a meeting it is known to a root of rounding only.
+  /// Zero for a mode that is followed alone.
+  double rounding(std::size_t member, double t);
 
  private:
   const Track& track_;
