@@ -79,6 +79,12 @@ class TrackScan {
   using Seen = CriterionHistory::Seen;
   using Sought = CriterionTarget::Sought;
 
+  /// A place on the step at which criteria are evaluated.
+  struct Sample {
+    double last, t;        ///< the place before it, and its own
+    bool of_mean = false;  ///< the eigenvalue is the mean of some that meet there
+  };
+
   const Track& track() const { return step_.left->tracks[index_]; }
 
   /// Evaluates all criteria of a mode at the sample t; `last` is the sample before it.
@@ -93,7 +99,7 @@ class TrackScan {
         history = {};
         continue;
       }
-      take(search_.criteria[c], history, member, s, last, t);
+      take(search_.criteria[c], history, member, s, {last, t});
     }
   }
 
@@ -119,21 +125,24 @@ class TrackScan {
       for (std::size_t c = 0; c < search_.criteria.size(); ++c) {
         CriterionHistory& history = histories_[{track().modes[member], c}];
         if (!search_.criteria[c].asks_for_pairs())
-          take(search_.criteria[c], history, member, mean, last, 1.0);
+          take(search_.criteria[c], history, member, mean, {last, 1.0, true});
       }
     }
   }
 
   /// Compares a criterion at the sample t with the samples before, and locates the zero or extremum that
   /// they show.
-  void take(const Criterion& criterion, CriterionHistory& history, std::size_t member, Complex s, double last,
-            double t) {
+  void take(const Criterion& criterion, CriterionHistory& history, std::size_t member, Complex s,
+            const Sample& at) {
     const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
-    const double value = on_step_.value(criterion, s, t);
+    const double value = on_step_.value(criterion, s, at.t);
     // The sign of a value this small, as of Re s of an undamped mode, is rounding.
     const double on_axis = axis_width(search_.thresholds().criterion, track()) * size;
-    if (!criterion.asks_for_extrema() &&
-        (std::abs(value) <= on_axis || std::abs(value) <= on_step_.rounding(member, t))) {
+    const auto is_rounding = [&] {
+      return std::abs(value) <= on_axis ||
+             (!at.of_mean && std::abs(value) <= on_step_.rounding(member, at.t));
+    };
+    if (!criterion.asks_for_extrema() && is_rounding()) {
       history.skip();
       return;
     }
@@ -142,15 +151,15 @@ class TrackScan {
     const Seen seen = history.next(value);
     history.is_pair(s.imag() != 0.0);
     // Where eigenvalues coincide at the left end the criterion may have a kink there, which is no extremum.
-    if (seen == Seen::extremum && track().departure && last <= on_step_.begin()) return;
+    if (seen == Seen::extremum && track().departure && at.last <= on_step_.begin()) return;
     if (seen == Seen::zero && !criterion.asks_for_extrema()) {
-      const double guess = sign_change(on_step_, criterion, member, last, t, before);
+      const double guess = sign_change(on_step_, criterion, member, at.last, at.t, before);
       if (!locate_at(member, {criterion, pair, Sought::zero, value}, guess) && !criterion.asks_for_pairs())
         note_unlocated(member, guess);
     } else if (seen == Seen::extremum && criterion.asks_for_extrema()) {
-      if (is_told(history)) locate_extremum(member, {criterion, pair, Sought::extremum}, last);
+      if (is_told(history)) locate_extremum(member, {criterion, pair, Sought::extremum}, at.last);
     } else if (seen == Seen::extremum && before * history.bend() > 0.0 && may_touch(history, before, size)) {
-      locate_extremum(member, {criterion, pair, Sought::touch}, last);
+      locate_extremum(member, {criterion, pair, Sought::touch}, at.last);
     }
   }
 
