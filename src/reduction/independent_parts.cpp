@@ -551,4 +551,21 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
   return parts;
 }
 
+std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
+                                                               const Matrix& T) {
+  const auto projected = [&T](const std::vector<Matrix>& matrices) {
+    std::vector<Matrix> result;
+    for (const Matrix& A : matrices) result.emplace_back(T.transpose() * A * T);
+    return result;
+  };
+  const auto within = find_independent_parts(
+      {projected(coefficients.M), projected(coefficients.C), projected(coefficients.K)});
+  if (within == nullptr || within->count() == 1) return nullptr;
+  auto parts = std::make_shared<IndependentParts>(*within);
+  parts->right = T * within->right;
+  parts->left = T * within->left;
+  parts->inverse = within->inverse * T.transpose();
+  return parts;
+}
+
 }  // namespace eigentrail

@@ -79,7 +79,7 @@ MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, c
       result[k] = parts.left.diagonal().asDiagonal() * coefficient * parts.right.diagonal().asDiagonal();
       continue;
     }
-    result[k] = Matrix::Zero(coefficient.rows(), coefficient.cols());
+    result[k] = Matrix::Zero(parts.left.cols(), parts.right.cols());
     const Matrix product = coefficient * parts.right;
     for (const IndependentParts::Range& range : parts.ranges) {
       result[k].block(range.first, range.first, range.size, range.size).noalias() =
@@ -100,10 +100,21 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
   return result;
 }
 
-ReducedPencil reduce(const Linearization& linearization, const IndependentParts& parts, int order) {
-  ReducedPencil whole{transformed(parts, linearization.M, parts.pattern_M, order),
-                      transformed(parts, linearization.C, parts.pattern_C, order),
-                      transformed(parts, linearization.K, parts.pattern_K, order)};
+/// The same where the basis changes along the path: left(h)^T B(h) right(h), of which the diagonal blocks are
+/// used.
+MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, int order) {
+  const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
+  const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
+  return transposed_product(basis.left, BT, count);
+}
+
+ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
+  const IndependentParts& parts = *basis.parts;
+  const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
+    return basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, order);
+  };
+  ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
+                      reduced(linearization.K, parts.pattern_K)};
   if (parts.count() == 1) return whole;
   for (const IndependentParts::Range& range : parts.ranges)
     whole.parts.push_back({block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range)});
@@ -113,7 +124,7 @@ ReducedPencil reduce(const Linearization& linearization, const IndependentParts&
 }  // namespace
 
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order) {
-  if (basis.parts) return reduce(linearization, *basis.parts, order);
+  if (basis.parts) return reduce_parts(linearization, basis, order);
   return {project(basis, linearization.M, order), project(basis, linearization.C, order),
           project(basis, linearization.K, order)};
 }

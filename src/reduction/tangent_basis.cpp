@@ -68,15 +68,29 @@ void randomize_basis(TangentBasis& basis, std::uint64_t seed) {
   basis.is_identity = false;
 }
 
+namespace {
+
+/// Continues B_0, whose columns are tangent, to B_0 + B_1 h + ... with A(h) B(h) = 0.
+void continue_within(const ConstraintFactorization& constraints, const SystemSeries& A, int order,
+                     MatrixSeries& B) {
+  for (int k = 1; k <= order; ++k) {
+    Matrix sum = Matrix::Zero(A[0].rows(), B[0].cols());
+    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) A[j].add_product_to(sum, B[k - j]);
+    B.push_back(-constraints.pseudo_inverse_times(sum));
+  }
+}
+
+}  // namespace
+
 void differentiate_basis(const ConstraintFactorization& constraints, const SystemSeries& A, int order,
                          TangentBasis& basis) {
   basis.T.resize(1);
+  basis.left.clear();
   if (A.size() == 1 || constraints.rank() == 0) return;
-  for (int k = 1; k <= order; ++k) {
-    Matrix sum = Matrix::Zero(A[0].rows(), basis.T[0].cols());
-    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) A[j].add_product_to(sum, basis.T[k - j]);
-    basis.T.push_back(-constraints.pseudo_inverse_times(sum));
-  }
+  continue_within(constraints, A, order, basis.T);
+  if (!basis.parts) return;
+  basis.left = {basis.parts->left};
+  continue_within(constraints, A, order, basis.left);
 }
 
 }  // namespace eigentrail

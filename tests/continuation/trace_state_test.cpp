@@ -19,7 +19,8 @@ struct State {
     state.result.counts.evaluations = planted.family.model().new_counts();
   }
   TraceState restored(const std::string& bytes) {
-    return restore_state(bytes, planted.family.problem(), planted.options);
+    PathProblem problem = planted.family.problem();
+    return restore_state(bytes, problem, planted.options);
   }
   PlantedSearch planted;
   TraceState state;
@@ -50,7 +51,8 @@ TEST(TraceState, OfAnotherProblemIsRefused) {
   State other;
   other.planted.options.from = -0.5;
   Planted larger = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}, {7.0, 0.0}}));
-  EXPECT_THROW(restore_state(save_state(state.state), larger.problem(), state.planted.options), InputError);
+  PathProblem problem = larger.problem();
+  EXPECT_THROW(restore_state(save_state(state.state), problem, state.planted.options), InputError);
 }
 
 TEST(TraceState, ThatIsDamagedIsRefused) {

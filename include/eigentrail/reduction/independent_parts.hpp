@@ -17,7 +17,7 @@
 namespace eigentrail {
 
 /// New coordinates y with x = right y, and equations multiplied from the left by left^T. In them M, C and K
-/// are block diagonal.
+/// are block diagonal. y has as many entries as the system has freedoms, n' <= n.
 struct IndependentParts {
   /// Coordinates of one part.
   struct Range {
@@ -27,10 +27,10 @@ struct IndependentParts {
     std::size_t copy_of = 0;
   };
 
-  Matrix right;    ///< n x n
-  Matrix left;     ///< n x n
-  Matrix inverse;  ///< of `right`
-  /// n x n, one where an entry of M, C or K may differ from zero, else zero: between the parts, and where
+  Matrix right;    ///< n x n'
+  Matrix left;     ///< n x n'
+  Matrix inverse;  ///< n' x n, inverse * right = I
+  /// n' x n', one where an entry of M, C or K may differ from zero, else zero: between the parts, and where
   /// the entry is rounding throughout, as in the stiffness of a rigid-body motion.
   Matrix pattern_M, pattern_C, pattern_K;
   std::vector<Range> ranges;
@@ -49,5 +49,10 @@ struct IndependentParts {
 /// where they neither fall apart nor need balancing. Parts whose coupling is not zero up to rounding are not
 /// separated. Cost: a few eigenproblems of size n.
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients);
+
+/// The same for equations with constant constraints: the parts of T^T A T for all matrices A, n x n, in
+/// coordinates within the tangent space. T: its orthonormal basis, n x n'. Null where they do not fall apart.
+std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
+                                                               const Matrix& T);
 
 }  // namespace eigentrail

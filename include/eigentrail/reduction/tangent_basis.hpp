@@ -16,6 +16,9 @@ struct TangentBasis {
   bool is_identity = false;  ///< no constraints: T is the identity, and multiplications by it are skipped
   /// Set where the equations fall apart or are balanced in constant coordinates: T = parts->right.
   std::shared_ptr<const IndependentParts> parts = {};
+  /// With parts and constraints that change along the path: the series of parts->left, as T is that of
+  /// parts->right. Else empty.
+  MatrixSeries left = {};
 
   /// Reduced coordinates of physical vectors within the tangent space: T^T V, or those of one part.
   ComplexMatrix coordinates(const ComplexMatrix& V, int part) const;

@@ -3,6 +3,7 @@
 // The state is everything that changes from one point to the next. Models and options are not part of it.
 // The functions `fields` below list the members that are saved. They decompose each struct by a structured
 // binding: if a member is added to a struct and not listed here, the code does not compile.
+#include "continuation/trace/scene_parts.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
@@ -53,7 +54,7 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TangentBasis> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [T, is_identity, parts] = self;  // the parts are found again
+  auto& [T, is_identity, parts, left] = self;  // parts are found again; left is of sensitivities only
   visit(T, is_identity);
 }
 
@@ -235,20 +236,41 @@ bool fits(const Track& track, const PointSizes& sizes, Eigen::Index n) {
          (!track.departure || track.departure->roots.size() == k);
 }
 
-bool fits(const PathNode& node, const PointSizes& sizes) {
+bool is_series(const VectorSeries& columns, Eigen::Index rows) {
+  return columns.rows() == rows && columns.cols() >= 1 && columns.cols() <= max_order + 1;
+}
+
+bool fits(const Path& path, const Model& model) {
+  const auto parameters = static_cast<Eigen::Index>(model.description().parameters.size());
+  return is_series(path.parameters, parameters) && is_series(path.x, model.n_coordinates()) &&
+         is_series(path.lambda, model.n_constraints());
+}
+
+/// Whether a pencil falls apart as the problem does.
+bool has_parts(const ReducedPencil& pencil, const IndependentParts* parts) {
+  const std::size_t count = parts != nullptr && parts->count() > 1 ? parts->count() : 0;
+  if (pencil.parts.size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Index size = parts->ranges[i].size;
+    const ReducedPencil& own = pencil.parts[i];
+    if (!all_are(own.M, size, size) || !all_are(own.C, size, size) || !all_are(own.K, size, size))
+      return false;
+  }
+  return true;
+}
+
+bool fits(const PathNode& node, const PointSizes& sizes, const IndependentParts* parts) {
   const Eigen::Index n = sizes.coordinates;
-  const auto series = [](const VectorSeries& columns, Eigen::Index rows) {
-    return columns.rows() == rows && columns.cols() >= 1 && columns.cols() <= max_order + 1;
-  };
-  const auto parts = static_cast<int>(std::max<std::size_t>(node.pencil.parts.size(), 1));
+  if (!has_parts(node.pencil, parts)) return false;
+  const auto count = static_cast<int>(std::max<std::size_t>(node.pencil.parts.size(), 1));
   for (const Track& track : node.tracks) {
     const int part = track.pair.part;
-    if (part < 0 || part >= parts || node.pencil.of(part).M.empty()) return false;
+    if (part < 0 || part >= count || node.pencil.of(part).M.empty()) return false;
     if (!fits(track, sizes, node.pencil.of(part).size())) return false;
   }
   const Linearization& full = node.linearization;
-  return series(node.path.parameters, sizes.parameters) && series(node.path.x, n) &&
-         series(node.path.lambda, sizes.constraints) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
+  return is_series(node.path.parameters, sizes.parameters) && is_series(node.path.x, n) &&
+         is_series(node.path.lambda, sizes.constraints) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
          all_are(full.K, n, n) && all_are(full.A, sizes.constraints, n) &&
          all_are(node.basis.T, n, sizes.freedoms) && all_are(node.pencil.M, sizes.freedoms, sizes.freedoms) &&
          all_are(node.pencil.C, sizes.freedoms, sizes.freedoms) &&
@@ -286,9 +308,11 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   if (order < 1 || order >= max_order || result.order != order) return "no order of a series";
   if (sizes.freedoms < 1 || sizes.freedoms > sizes.coordinates || sizes.columns < 1) return "other freedoms";
   if (state.numbers.count != sizes.columns) return "another number of modes";
-  if (!fits(origin.node, sizes)) return "another size of the last point";
-  if (origin.last_step != 0.0 && !fits(origin.previous, sizes)) return "another size of the point before it";
-  if (origin.tried && !fits(*origin.tried, sizes)) return "another size of a point that was tried";
+  if (!fits(origin.node, sizes, problem.parts.get())) return "another size of the last point";
+  if (origin.last_step != 0.0 && !fits(origin.previous, sizes, problem.parts.get()))
+    return "another size of the point before it";
+  if (origin.tried && !fits(*origin.tried, sizes, problem.parts.get()))
+    return "another size of a point that was tried";
   for (const EndedTrack& one : state.ended) {
     const auto parts = static_cast<int>(std::max<std::size_t>(origin.node.pencil.parts.size(), 1));
     const int part = one.track.pair.part;
@@ -316,7 +340,7 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
 
 }  // namespace
 
-TraceState restore_state(std::string_view bytes, const PathProblem& problem, const TraceOptions& options) {
+TraceState restore_state(std::string_view bytes, PathProblem& problem, const TraceOptions& options) {
   TraceState state;
   try {
     ArchiveReader archive(bytes);
@@ -324,6 +348,10 @@ TraceState restore_state(std::string_view bytes, const PathProblem& problem, con
     archive.finish();
   } catch (const ArchiveError& error) {
     throw InputError(std::string("the state of the trace is damaged: ") + error.what());
+  }
+  if (!problem.parts && fits(state.origin.node.path, problem.model)) {
+    const Path& path = state.origin.node.path;
+    problem.parts = parts_on_range(problem, options, path.x.col(0), path.lambda.col(0));
   }
   for (PathNode* node : {&state.origin.node, &state.origin.previous}) node->basis.parts = problem.parts;
   if (state.origin.tried) state.origin.tried->basis.parts = problem.parts;

@@ -6,6 +6,7 @@
 
 #include "continuation/events/event_search.hpp"
 #include "continuation/point/idle_freedom.hpp"
+#include "continuation/trace/scene_parts.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
@@ -66,6 +67,7 @@ class Start {
  private:
   using Failure = std::optional<StartFailure>;
 
+  void find_parts();
   void settle_order();
   Failure find_modes();
   Failure check_spectrum(const Spectrum& spectrum) const;
@@ -93,6 +95,7 @@ std::optional<StartFailure> Start::compute() {
   if (point_.status != PointStatus::computed)
     return StartFailure{TraceStatus::no_equilibrium, point_.message};
   result_.n_independent = point_.pencil.size();
+  find_parts();
   settle_order();
   if (auto on_branch_point = bridge_start(solver_, state_.frame, point_))
     point_ = std::move(*on_branch_point);
@@ -102,6 +105,16 @@ std::optional<StartFailure> Start::compute() {
   const auto groups = starting_groups(point_.pencil, modes_, result_.n_modes, problem_.s_ref, least_scale);
   if (auto failure = correct_groups(groups)) return failure;
   return make_node(groups);
+}
+
+/// A scene at rest may fall apart. Its equilibrium has to be known for that.
+void Start::find_parts() {
+  if (problem_.parts) return;
+  const Equilibrium& equilibrium = point_.equilibrium;
+  problem_.parts = parts_on_range(problem_, options_, equilibrium.x, equilibrium.lambda);
+  if (!problem_.parts) return;
+  point_.basis = basis_of(problem_.parts);
+  point_.pencil = reduce(equilibrium.linearization, point_.basis, 0);
 }
 
 void Start::settle_order() {

@@ -66,7 +66,8 @@ double parting_reach(const TraceOptions& options, int order);
 
 /// The state as bytes.
 std::string save_state(const TraceState& state);
-/// The state from such bytes. Throws InputError if they are not a state of a trace of this problem.
-TraceState restore_state(std::string_view bytes, const PathProblem& problem, const TraceOptions& options);
+/// The state from such bytes; sets the parts of the problem, which follow from it. Throws InputError if they
+/// are not a state of a trace of this problem.
+TraceState restore_state(std::string_view bytes, PathProblem& problem, const TraceOptions& options);
 
 }  // namespace eigentrail
