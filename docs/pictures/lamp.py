@@ -20,7 +20,7 @@ INK, UPRIGHT, LEANING = "#222222", "#0072b2", "#d55e00"
 def curve(path):
     """Masses and eigenvalues of all modes along a trace, from its dense output."""
     with h5py.File(path) as file:
-        loci = {name: file[name][()] for name in file}
+        loci = {name: data[()] for name, data in file.items() if isinstance(data, h5py.Dataset)}
     places = [(step, t) for step in range(len(loci["step_length"])) for t in np.linspace(0, 1, 60)]
     return np.array([parameter(loci, *place) for place in places]), np.array([eigenvalues(loci, *place) for place in places])
 

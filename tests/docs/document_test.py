@@ -20,8 +20,8 @@ class Mistake(Exception):
 
 
 def prepare(folder):
-    """The files and programs that a reader has: scenes, documents, and the program as built or on the path."""
-    for name in ("data", "docs"):
+    """The files and programs that a reader has: scenes, documents, test data, and the program as built or on the path."""
+    for name in ("data", "docs", "tests"):
         (folder / name).symlink_to(ROOT / name)
     for place in (folder / "build" / "release" / "apps", folder / "bin"):
         place.mkdir(parents=True)

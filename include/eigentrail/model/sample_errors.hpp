@@ -44,7 +44,7 @@ struct SampleBounds {
 };
 
 /// How the error between two samples is estimated. The numbers were calibrated on families in closed form
-/// (docs/developers/sampled-families.md).
+/// (docs/developers/accuracy.md, Errors of samples).
 struct SampleErrorOptions {
   /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
   double safety = 3.0;
