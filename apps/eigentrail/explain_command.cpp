@@ -11,6 +11,7 @@
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
@@ -234,7 +235,9 @@ int run_explain(const ExplainArguments& arguments) {
   print_parameters(*model, traced);
   print_effects(*model);
   print_states(*model);
-  const auto parts = find_independent_parts(model->coefficient_matrices());
+  auto parts = find_independent_parts(model->coefficient_matrices());
+  if (!parts && computed)
+    parts = parts_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda);
   print_structure(structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,

@@ -1,4 +1,4 @@
-#include "continuation/trace/scene_parts.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -6,10 +6,10 @@
 
 #include "continuation/events/event_search.hpp"
 #include "continuation/point/idle_freedom.hpp"
-#include "continuation/trace/scene_parts.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
