@@ -58,8 +58,12 @@ class ErrorSampler {
     return static_cast<std::size_t>(above - all.begin()) - 1;
   }
 
-  /// Bounds for the eigenvalues nearest to those of `s` that are finite; NaN for the others.
-  ErrorsAt at(double p, const ComplexVector& s) const {
+  /// Share of the largest smooth error between two samples that is there at p.
+  double shape(double p) const { return errors_.shape(p * factor_); }
+
+  /// Bounds for the eigenvalues nearest to those of `s` that are finite; NaN for the others. They hold
+  /// wherever the smooth error between the two samples has this share of its largest value.
+  ErrorsAt at(double p, const ComplexVector& s, double shape = 1.0) const {
     ErrorsAt result{p, Vector::Constant(s.size(), nan), Vector::Constant(s.size(), nan),
                     Vector::Constant(s.size(), nan)};
     const std::vector<EigenTriple> all = triples_at(p);
@@ -76,9 +80,10 @@ class ErrorSampler {
       modes.push_back(i);
     }
     const SampleBounds bounds = errors_.between(gap_of(p), chosen);
+    const Vector interpolation = bounds.interpolation(shape);
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const auto from = static_cast<Eigen::Index>(k);
-      result.interpolation[modes[k]] = bounds.interpolation[from];
+      result.interpolation[modes[k]] = interpolation[from];
       result.digits[modes[k]] = bounds.digits[from];
       result.distance[modes[k]] = distance_to_others(s, modes[k]);
     }
@@ -281,7 +286,8 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
 std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options, double p,
                                      const ComplexVector& s) {
   if (model.sample_errors() == nullptr) return std::nullopt;
-  const ErrorsAt errors = ErrorSampler(model, options).at(p, s);
+  const ErrorSampler sampler(model, options);
+  const ErrorsAt errors = sampler.at(p, s, sampler.shape(p));
   Matrix result(s.size(), 2);
   result << errors.interpolation, errors.digits;
   return result;

@@ -300,6 +300,16 @@ double SampleErrors::place_of_largest_error(std::size_t gap, double from, double
   return best;
 }
 
+double SampleErrors::shape(double x) const {
+  if (values_.size() < 2) return 1.0;
+  const RationalInterpolant& interpolant = piece_at(pieces_, x).interpolant;
+  const auto above = std::upper_bound(values_.begin() + 1, values_.end() - 1, x);
+  const auto gap = static_cast<std::size_t>(above - values_.begin()) - 1;
+  const double largest =
+      interpolant.error_factor(place_of_largest_error(gap, values_[gap], values_[gap + 1]));
+  return std::min(1.0, interpolant.error_factor(x) / largest);
+}
+
 SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
   const double middle = 0.5 * (values_[gap] + values_[std::min(gap + 1, values_.size() - 1)]);
   const SamplePiece& piece = piece_at(pieces_, middle);
@@ -357,12 +367,15 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
   Vector rough = options_.deviations * variance.cwiseSqrt();
   const Matrix& nearby = estimators_here.nearby;
   if (nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby) {
-    // By chance all of a few may be small, so the variance counts like one more sample.
+    // By chance all of a few may be small, so the variance counts like one more sample. It takes the entries
+    // for independent of each other and may be far too large, so that its weight is limited.
+    constexpr double largest_ratio = 30.0;
     const auto own = static_cast<double>(nearby.cols());
-    const Vector squares = ((shares * nearby).cwiseAbs2().rowwise().sum() + variance) / (own + 1.0);
+    const Vector sum = (shares * nearby).cwiseAbs2().rowwise().sum();
+    const Vector squares = (sum + variance.cwiseMin(largest_ratio / own * sum)) / (own + 1.0);
     rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
   }
-  return {smooth.cwiseMax(estimators_here.amplification * rough) + floor, digits};
+  return {smooth, estimators_here.amplification * rough + floor, digits};
 }
 
 }  // namespace eigentrail

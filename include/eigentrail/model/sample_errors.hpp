@@ -37,21 +37,25 @@ struct EigenTriple {
   ComplexVector right, left;
 };
 
-/// Bounds of the error of eigenvalues, absolute, 1/s; an entry per eigenvalue.
+/// Bounds of the error of eigenvalues between two samples, absolute, 1/s; an entry per eigenvalue.
 struct SampleBounds {
-  Vector interpolation;
-  Vector digits;
+  Vector smooth;  ///< what the interpolant misses at most; it vanishes at the samples (SampleErrors::shape)
+  Vector rough;   ///< of errors of the samples that do not depend smoothly on the parameter, and of rounding
+  Vector digits;  ///< of the digits of the samples
+
+  /// The bound of what is interpolated, where the smooth part has this share of its largest value.
+  Vector interpolation(double shape = 1.0) const { return (shape * smooth).cwiseMax(rough); }
 };
 
 /// How the error between two samples is estimated. The numbers were calibrated on families in closed form
 /// (docs/developers/accuracy.md, Errors of samples).
 struct SampleErrorOptions {
   /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
-  double safety = 3.0;
+  double safety = 4.0;
   /// Largest ratio of the errors of successive degrees with which that difference is extrapolated.
   double slowest = .8;
   /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
-  double leave_one_out = 7.0;
+  double leave_one_out = 10.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
   /// standard deviation on the whole range,
   double deviations = 10.0;
@@ -71,6 +75,10 @@ class SampleErrors {
   /// Bounds that hold between the samples `gap` and `gap` + 1, or at the only sample, for eigenvalues with
   /// the given eigenvectors. Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
   SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const;
+
+  /// The smooth error at x (SI unit) as a share of its largest value between the two samples beside it, if
+  /// the derivatives of the function vary little there: zero at a sample.
+  double shape(double x) const;
 
   /// The place between the samples `gap` and `gap` + 1, cut to `from` ... `to`, where the error of the
   /// interpolant is largest for a function whose derivatives vary little.
