@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <stdexcept>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -68,7 +69,7 @@ class DmigReader {
 
   void read_first_line(std::string_view line) {
     column_ = false;
-    std::string_view entry = trimmed(line.substr(0, std::min(line.find(','), small_width)));
+    std::string_view entry = trimmed(line.substr(0, std::min(line.find_first_of(",\t"), small_width)));
     if (!entry.empty() && entry.back() == '*') entry.remove_suffix(1);
     if (!equal_words(trimmed(entry), "DMIG")) return;
     const std::vector<std::string_view> fields = fields_of(line);
@@ -152,6 +153,27 @@ std::string name_of(const DmigFreedom& freedom) {
   return freedom.component == 0
              ? "point " + point
              : "grid " + point + ", " + directions[static_cast<std::size_t>(freedom.component)];
+}
+
+Matrix dense_matrix(const DmigMatrix& matrix, const std::vector<DmigFreedom>& freedoms) {
+  const auto n = static_cast<Eigen::Index>(freedoms.size());
+  const auto place = [&freedoms](const DmigFreedom& freedom) {
+    return std::lower_bound(freedoms.begin(), freedoms.end(), freedom) - freedoms.begin();
+  };
+  // NaN stands for entries that are not given.
+  Matrix result = Matrix::Constant(n, n, NAN);
+  const auto set = [&](Eigen::Index r, Eigen::Index c, const DmigEntry& entry) {
+    if (!std::isnan(result(r, c)) && result(r, c) != entry.value)
+      throw std::invalid_argument("matrix " + printable(matrix.name) + " has two entries for row " +
+                                  name_of(entry.row) + " and column " + name_of(entry.column));
+    result(r, c) = entry.value;
+  };
+  for (const DmigEntry& entry : matrix.entries) {
+    const Eigen::Index r = place(entry.row), c = place(entry.column);
+    set(r, c, entry);
+    if (matrix.symmetric && r != c) set(c, r, entry);
+  }
+  return result.array().isNaN().select(0.0, result);
 }
 
 std::vector<DmigMatrix> parse_dmig(std::string_view text, const std::string& path) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "eigentrail/core/types.hpp"
+
 namespace eigentrail {
 
 /// A displacement (components 1 to 3) or rotation (4 to 6) of a grid point, or a scalar point (0).
@@ -34,6 +36,10 @@ struct DmigMatrix {
   std::string fault = {};
   std::vector<DmigEntry> entries = {};
 };
+
+/// The matrix with these freedoms as rows and columns, which are in ascending order and have those of all
+/// entries. Throws std::invalid_argument if entries contradict each other.
+Matrix dense_matrix(const DmigMatrix& matrix, const std::vector<DmigFreedom>& freedoms);
 
 /// All matrices in a text; other bulk data are skipped. Throws InputError that names file and line.
 std::vector<DmigMatrix> parse_dmig(std::string_view text, const std::string& path);

@@ -200,6 +200,12 @@ class ArrayReader {
     return values;
   }
 
+  static bool describes_states(const std::string& name) {
+    static const std::vector<std::string> names = {"state_names", "states",           "names", "state_units",
+                                                   "units",       "derivative_order", "order", "frame"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
   /// Arrays with one number per sample that rise or fall from sample to sample.
   std::vector<std::string> candidates() const {
     std::vector<std::string> names;
@@ -210,7 +216,7 @@ class ArrayReader {
       const auto values = numbers_per_sample(name);
       const bool is_matrix =
           result_.samples.size() == 1 && name.size() == 1 && std::string("MCKEA").find(name) < 5;
-      if (!values || is_matrix) continue;
+      if (!values || is_matrix || describes_states(name)) continue;
       const auto rises = [](const std::vector<double>& list, auto less) {
         return std::adjacent_find(list.begin(), list.end(),
                                   [&](double a, double b) { return !less(a, b); }) == list.end();

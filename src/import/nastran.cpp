@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <optional>
+#include <stdexcept>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -35,10 +35,9 @@ const std::array<Role, 3> roles{
 /// A matrix of either kind of file.
 struct NastranMatrix {
   std::string file;
-  Op4Matrix dense;                 ///< its name, fault and digits hold for both kinds
-  std::vector<DmigEntry> entries;  ///< of DMIG
-  bool symmetric = false;          ///< of DMIG
-  bool from_bulk = false;          ///< it is DMIG
+  Op4Matrix dense;         ///< its name, fault and digits hold for both kinds
+  DmigMatrix bulk = {};    ///< with entries if it is DMIG
+  bool from_bulk = false;  ///< it is DMIG
 };
 
 /// The matrices of one operating point.
@@ -141,13 +140,12 @@ class NastranImport {
     const bool op4 = binary || equal_words(std::filesystem::path(file).extension().string(), ".op4");
     if (op4) {
       for (Op4Matrix& one : parse_op4(bytes, file, [this](const std::string& name) { return wanted(name); }))
-        result.push_back({file, std::move(one), {}, false, false});
+        result.push_back({file, std::move(one)});
       return result;
     }
     for (DmigMatrix& one : parse_dmig(bytes, file)) {
-      const int digits = one.single ? std::min(one.digits, digits_of_single) : one.digits;
-      result.push_back(
-          {file, {one.name, {}, one.single, digits, one.fault}, std::move(one.entries), one.symmetric, true});
+      const Op4Matrix both{one.name, {}, one.single, one.digits, one.fault};
+      result.push_back({file, both, std::move(one), true});
     }
     if (result.empty())
       throw InputError(file +
@@ -272,7 +270,7 @@ class NastranImport {
     std::vector<DmigFreedom> freedoms;
     for (const NastranMatrix* one : own) {
       if (one == nullptr) continue;
-      for (const DmigEntry& entry : one->entries) {
+      for (const DmigEntry& entry : one->bulk.entries) {
         freedoms.push_back(entry.row);
         freedoms.push_back(entry.column);
       }
@@ -294,7 +292,11 @@ class NastranImport {
     for (std::size_t i = 0; i < roles.size(); ++i) {
       if (own[i] == nullptr) continue;
       count(own[i]->file, freedoms.size());
-      (data.*roles[i].samples).push_back(dense(*own[i]));
+      try {
+        (data.*roles[i].samples).push_back(dense_matrix(own[i]->bulk, freedoms));
+      } catch (const std::invalid_argument& error) {
+        throw InputError(own[i]->file + ": " + error.what());
+      }
     }
   }
 
@@ -312,28 +314,6 @@ class NastranImport {
     }
   }
 
-  Matrix dense(const NastranMatrix& matrix) const {
-    const auto n = static_cast<Eigen::Index>(freedoms_.size());
-    const auto place = [this](const DmigFreedom& freedom) {
-      return std::lower_bound(freedoms_.begin(), freedoms_.end(), freedom) - freedoms_.begin();
-    };
-    Matrix result = Matrix::Constant(n, n, NAN);
-    const auto set = [&](Eigen::Index r, Eigen::Index c, const DmigEntry& entry) {
-      // NaN stands for entries that are not given.
-      if (!std::isnan(result(r, c)) && result(r, c) != entry.value)
-        throw InputError(matrix.file + ": matrix " + printable(matrix.dense.name) +
-                         ": has two entries for row " + name_of(entry.row) + " and column " +
-                         name_of(entry.column));
-      result(r, c) = entry.value;
-    };
-    for (const DmigEntry& entry : matrix.entries) {
-      const Eigen::Index r = place(entry.row), c = place(entry.column);
-      set(r, c, entry);
-      if (matrix.symmetric && r != c) set(c, r, entry);
-    }
-    return result.array().isNaN().select(0.0, result);
-  }
-
   void finish(const std::vector<PointFiles>& points) {
     SampledData& data = result_.samples;
     result_.understood.insert(result_.understood.begin(),
@@ -346,7 +326,7 @@ class NastranImport {
     if (digits.given)
       data.digits = digits.digits;
     else if (single_ || printed)
-      data.digits = single_ ? std::min(std::max(digits_, 1), digits_of_single) : digits_;
+      data.digits = single_ ? digits_of_single : digits_;
     else
       data.digits = digits_of(data);
     if (data.digits) result_.understood.push_back(digits_text(*data.digits, digits.given));
