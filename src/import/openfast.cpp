@@ -264,6 +264,9 @@ class OpenFastImport {
       if (found.empty())
         throw InputError(file.path + ": --parameter: no state, input or output has '" + printable(text) +
                          "' in its description; expected wind_speed, rotor_speed or a part of a description");
+      if (!std::isfinite(found[0]->value))
+        throw InputError(file.path + ": --parameter: the operating value of '" +
+                         printable(found[0]->description) + "' is not finite");
       result.values.push_back(found[0]->value);
       const OpenFastState parsed = openfast_state(found[0]->description);
       result.unit = parsed.unit;
