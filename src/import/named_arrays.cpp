@@ -139,6 +139,7 @@ class ArrayReader {
     if (array.is_text || (!plane && !first && !last))
       fail("array " + array.name + " is " + (array.is_text ? "text" : shape_text(shape)) +
            "; expected a matrix n x n, or samples " + (options_.samples_first ? "k x n x n" : "n x n x k"));
+    if (array.size() == 0) fail("array " + array.name + " is " + shape_text(shape) + ", without entries");
     const bool samples_first = first && (!last || options_.samples_first);
     const std::size_t rows = samples_first ? shape[1] : shape[0];
     const std::size_t count = plane ? 1 : samples_first ? shape[0] : shape[2];
