@@ -138,7 +138,8 @@ TEST(NamedArrays, FaultsNameTheArray) {
   EXPECT_TRUE(
       test::contains(message({A, speed, texts("names", {3}, {"a", "b", "c"})}), "state_names has 3 entrys"));
   EXPECT_TRUE(test::contains(message({A, speed}, {{"digits", "x"}}), "--digits: expected"));
-  EXPECT_TRUE(test::contains(message({numbers("A", {2, 0, 0}, {})}), "array A is 2 x 0 x 0, without entries"));
+  EXPECT_TRUE(
+      test::contains(message({numbers("A", {2, 0, 0}, {})}), "array A is 2 x 0 x 0, without entries"));
   EXPECT_TRUE(test::contains(message({numbers("A", {0, 0}, {})}), "array A is 0 x 0, without entries"));
   NamedArray huge = numbers("A", {6000, 6000}, {});
   EXPECT_TRUE(test::contains(message({huge}), "at most 5000 rows"));
