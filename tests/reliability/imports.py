@@ -3,6 +3,7 @@
 import io
 import struct
 import zipfile
+import zlib
 
 import numpy as np
 import scipy.io
@@ -231,6 +232,17 @@ def matlab(name, content, *fragments):
     return row(f"mat {name}", "matlab", {"a.mat": content}, "a.mat:", *fragments)
 
 
+def mat_of_zeros(rows, numbers, compress):
+    """A variable A of rows x rows whose data have another number of zeros."""
+    def element(kind, content):
+        return struct.pack("<2i", kind, len(content)) + content + bytes(-len(content) % 8)
+
+    parts = [(6, struct.pack("<2I", 6, 0)), (5, struct.pack("<2i", rows, rows)), (1, b"A"), (9, bytes(8 * numbers))]
+    matrix = element(14, b"".join(element(*part) for part in parts))
+    packed = zlib.compress(matrix)
+    return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + (struct.pack("<2i", 15, len(packed)) + packed if compress else matrix)
+
+
 NUMPY = [
     archive("of no bytes", b"", "cannot be read as an archive"),
     archive("that is text", "A = 1\n", "cannot be read as an archive"),
@@ -261,6 +273,9 @@ MATLAB = [
     matlab("of version 4 cut short", mat(form="4", A=ONE)[:-1], ""),
     matlab("with compressed data cut short", mat(compress=True, A=np.arange(10000.0).reshape(100, 100))[:-100], "cut short"),
     matlab("without matrices", mat(x=1.0), "no matrices"),
+    matlab("with fewer numbers than it should have", mat_of_zeros(4, 8, False), "variable A has 8 numbers; its dimensions announce 16"),
+    matlab("with fewer compressed numbers", mat_of_zeros(4000, 1, True), "variable A has 1 numbers; its dimensions announce 16000000"),
+    matlab("with a compressed bomb", mat_of_zeros(6000, 6000 * 6000, True), ""),
     matlab("with nan", mat(A=np.full((2, 2), np.nan)), "A, sample 1 has an entry that is not finite"),
     matlab("that is not square", mat(A=np.ones((2, 3))), "array A is 2 x 3"),
     matlab("of complex numbers", mat(A=ONE + 1j), "variable A is complex"),
