@@ -1,4 +1,5 @@
-// The elements of MATLAB's files of version 5 (MathWorks, MAT-File Format), checked before libmatio reads them.
+// The elements of MATLAB's files of version 5 (MathWorks, MAT-File Format), checked before libmatio reads
+// them.
 #pragma once
 
 #include <string>
