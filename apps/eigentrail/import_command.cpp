@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -20,6 +21,7 @@ struct ImportArguments {
 };
 
 /// What the names of the files begin with, up to a separator: "ws03.0" for ws03.0.1.lin and ws03.0.13.lin.
+/// Empty if they have nothing in common.
 std::string common_name(const std::vector<std::string>& files) {
   std::string name = std::filesystem::path(files.front()).stem().string();
   for (const std::string& file : files) {
@@ -29,18 +31,28 @@ std::string common_name(const std::vector<std::string>& files) {
       name.erase(std::min(name.find_last_of("._-", static_cast<std::size_t>(end - name.begin())),
                           static_cast<std::size_t>(end - name.begin())));
   }
-  return name.empty() ? std::filesystem::path(files.front()).stem().string() : name;
+  return name;
+}
+
+/// A title as the name of a file: other characters than letters, digits, points and dashes become
+/// underscores.
+std::string file_name(std::string title) {
+  for (char& c : title) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+  }
+  return title.empty() || title.front() == '.' ? "model" : title;
 }
 
 int run_import(const Importer& format, const ImportArguments& arguments) {
   const Imported imported = format.read({arguments.files, arguments.options});
-  const std::string name = arguments.name.empty() ? common_name(arguments.files) : arguments.name;
+  std::string name = arguments.name.empty() ? common_name(arguments.files) : arguments.name;
+  if (name.empty()) name = file_name(imported.title);
   const std::string scene = write_import(imported, arguments.folder, name, arguments.force);
   for (const std::string& line : imported.understood) std::printf("  %s\n", printable(line).c_str());
   for (const std::string& line : imported.warnings) std::printf("  warning  %s\n", printable(line).c_str());
-  const char* next = imported.samples.count() == 1 ? "spectrum" : "trace";
+  const char* next = imported.one_point() ? "spectrum" : "trace";
   std::printf("wrote %s and its matrices; next: eigentrail %s %s%s\n", scene.c_str(), next, scene.c_str(),
-              imported.samples.count() == 1 ? "" : " -o loci.h5");
+              imported.one_point() ? "" : " -o loci.h5");
   return done;
 }
 
@@ -52,7 +64,9 @@ void add_import(CLI::App& program, int& exit_code) {
   command->footer(
       "Examples:\n"
       "  eigentrail import openfast ws*.lin -o turbine\n"
-      "  eigentrail import numpy turbine.npz -o turbine");
+      "  eigentrail import numpy turbine.npz -o turbine\n"
+      "  eigentrail import matrix-market M0.mtx K0.mtx K2.mtx -o rotor --parameter speed --to 100\n"
+      "  eigentrail import nastran 0.pch 100.pch 200.pch -o shaft --parameter speed --values 0,100,200");
   for (const Importer& format : importers()) {
     auto arguments = std::make_shared<ImportArguments>();
     CLI::App* one = command->add_subcommand(format.format, format.description);

@@ -4,6 +4,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "import/text_lines.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -53,6 +57,26 @@ std::optional<int> digits_of(const SampledData& data) {
   const bool clear =
       full >= fewest_entries && static_cast<double>(full) >= least_share * static_cast<double>(all);
   return digits >= fewest_digits && clear ? std::optional(digits) : std::nullopt;
+}
+
+DigitsOption digits_option(const std::map<std::string, std::string>& options) {
+  const auto found = options.find("digits");
+  if (found == options.end()) return {};
+  if (found->second == "all") return {true};
+  const auto digits = whole_number_of(found->second);
+  if (!digits || *digits < 1 || *digits > 17)
+    throw InputError("--digits: expected a whole number from 1 to 17, or all; found '" +
+                     printable(found->second) + "'");
+  return {true, static_cast<int>(*digits)};
+}
+
+std::pair<const std::string, std::string> digits_help() {
+  return {"digits", "significant digits of the entries, or all; default: as many as they show"};
+}
+
+std::string digits_text(int digits, bool given) {
+  return std::to_string(digits) + " significant digits" +
+         (given ? "" : ", as most entries show; --digits all if they are exact");
 }
 
 }  // namespace eigentrail

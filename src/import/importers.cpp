@@ -5,7 +5,8 @@
 namespace eigentrail {
 
 const std::vector<Importer>& importers() {
-  static const std::vector<Importer> all{openfast_importer(), matlab_importer(), numpy_importer()};
+  static const std::vector<Importer> all{openfast_importer(), matrix_market_importer(), matlab_importer(),
+                                         nastran_importer(), numpy_importer()};
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "import/lin_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "eigentrail/core/errors.hpp"
@@ -54,7 +55,7 @@ class LinReader {
   double quantity(std::string_view line, std::string_view unit, std::string_view other, double factor) {
     const auto words = words_of(line.substr(line.find(':') + 1));
     const auto value = words.empty() ? std::nullopt : number_of(words[0]);
-    if (!value) lines_.fail("expected a number and its unit");
+    if (!value || !std::isfinite(*value)) lines_.fail("expected a number and its unit");
     if (words.size() < 2 || words[1] == unit) return *value;
     if (words[1] == other) return *value * factor;
     lines_.fail("expected a number in " + std::string(unit) + ", found " + std::string(words[1]));

@@ -1,20 +1,17 @@
 // MATLAB's files of variables (.mat, versions 4, 5, 7 and 7.3), read with libmatio.
 #include <matio.h>
 
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <string_view>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/formats.hpp"
+#include "import/mat_elements.hpp"
 #include "import/named_arrays.hpp"
 
 namespace eigentrail {
@@ -39,7 +36,7 @@ class MatReader {
     Mat_LogInitFunc("eigentrail", keep_message);
     last_message().clear();
     if (!std::filesystem::is_regular_file(path)) fail("no such file");
-    check_ends_with_an_element();
+    check_mat_elements(path);
     file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file_) fail("is no file of MATLAB (.mat)" + reason());
   }
@@ -95,29 +92,6 @@ class MatReader {
       default:
         add_numbers(variable, name);
     }
-  }
-
-  /// The library reads a file of version 5 that is cut short as if it had fewer variables. The file is a
-  /// header of 128 bytes and elements with their type and length in front.
-  void check_ends_with_an_element() const {
-    std::ifstream file(path_, std::ios::binary);
-    std::array<char, 128> header{};
-    if (!file.read(header.data(), header.size())) return;
-    const std::string_view order(header.data() + 126, 2);
-    if (order != "IM" && order != "MI") return;  // another version
-    const bool swapped = (order == "MI") == (std::endian::native == std::endian::little);
-    if (header[swapped ? 124 : 125] != 1) return;
-    const std::uintmax_t size = std::filesystem::file_size(path_);
-    std::uintmax_t at = header.size();
-    while (at < size) {
-      std::array<unsigned char, 8> tag{};
-      file.seekg(static_cast<std::streamoff>(at));
-      if (!file.read(reinterpret_cast<char*>(tag.data()), tag.size())) break;
-      std::uintmax_t length = 0;
-      for (std::size_t i = 0; i < 4; ++i) length = 256 * length + tag[swapped ? 4 + i : 7 - i];
-      at += tag.size() + length;
-    }
-    if (at != size) fail("ends within a variable; it was cut short");
   }
 
   /// The fields of a structure as variables.

@@ -1,8 +1,6 @@
 #include "import/named_arrays.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <numeric>
@@ -12,15 +10,10 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/digits.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 namespace {
-
-bool is_identifier(const std::string& name) {
-  const auto word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-  return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::all_of(name.begin(), name.end(), word);
-}
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
   if (shape.empty()) return "a single number";
@@ -146,6 +139,7 @@ class ArrayReader {
     if (array.is_text || (!plane && !first && !last))
       fail("array " + array.name + " is " + (array.is_text ? "text" : shape_text(shape)) +
            "; expected a matrix n x n, or samples " + (options_.samples_first ? "k x n x n" : "n x n x k"));
+    if (array.size() == 0) fail("array " + array.name + " is " + shape_text(shape) + ", without entries");
     const bool samples_first = first && (!last || options_.samples_first);
     const std::size_t rows = samples_first ? shape[1] : shape[0];
     const std::size_t count = plane ? 1 : samples_first ? shape[0] : shape[2];
@@ -207,6 +201,12 @@ class ArrayReader {
     return values;
   }
 
+  static bool describes_states(const std::string& name) {
+    static const std::vector<std::string> names = {"state_names", "states",           "names", "state_units",
+                                                   "units",       "derivative_order", "order", "frame"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
   /// Arrays with one number per sample that rise or fall from sample to sample.
   std::vector<std::string> candidates() const {
     std::vector<std::string> names;
@@ -217,7 +217,7 @@ class ArrayReader {
       const auto values = numbers_per_sample(name);
       const bool is_matrix =
           result_.samples.size() == 1 && name.size() == 1 && std::string("MCKEA").find(name) < 5;
-      if (!values || is_matrix) continue;
+      if (!values || is_matrix || describes_states(name)) continue;
       const auto rises = [](const std::vector<double>& list, auto less) {
         return std::adjacent_find(list.begin(), list.end(),
                                   [&](double a, double b) { return !less(a, b); }) == list.end();
@@ -309,18 +309,8 @@ class ArrayReader {
   }
 
   void read_digits() {
-    SampledData& data = result_.samples;
-    const std::optional<std::string> given = option("digits");
-    if (given && *given != "all") {
-      int digits = 0;
-      const auto parsed = std::from_chars(given->data(), given->data() + given->size(), digits);
-      if (parsed.ec != std::errc() || parsed.ptr != given->data() + given->size() || digits < 1 ||
-          digits > 17)
-        throw InputError("--digits: expected a whole number from 1 to 17, or all; found '" + *given + "'");
-      data.digits = digits;
-    } else if (!given) {
-      data.digits = digits_of(data);
-    }
+    const DigitsOption given = digits_option(user_);
+    result_.samples.digits = given.given ? given.digits : digits_of(result_.samples);
   }
 
   void describe() {
@@ -342,10 +332,7 @@ class ArrayReader {
       result_.understood.push_back(matrices + ", " + size);
     if (!data.state_names.empty())
       result_.understood.push_back(std::to_string(data.size()) + " names of states");
-    if (data.digits)
-      result_.understood.push_back(
-          std::to_string(*data.digits) + " significant digits" +
-          (option("digits") ? "" : ", as most entries show; --digits all if they are exact"));
+    if (data.digits) result_.understood.push_back(digits_text(*data.digits, option("digits").has_value()));
   }
 
   const std::vector<NamedArray>& arrays_;
@@ -376,7 +363,7 @@ void NamedArray::set_order(bool last_fastest) {
 std::map<std::string, std::string> array_options() {
   return {{"parameter", "array with the values of the parameter; default: the only one that fits"},
           {"unit", "unit of the parameter, such as \"m/s\""},
-          {"digits", "significant digits of the entries, or all; default: as many as they show"}};
+          digits_help()};
 }
 
 std::vector<ImportedItem> array_items(const std::string& cube) {

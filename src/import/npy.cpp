@@ -24,6 +24,13 @@ class NpyReader {
  public:
   NpyReader(std::string_view bytes, const std::string& where) : bytes_(bytes), where_(where) {}
 
+  std::size_t announced_bytes() {
+    read_header();
+    const ElementCode code = element_code();
+    const std::size_t in_front = bytes_.size() - data_.size();
+    return in_front + announced_count(shape()) * code.bytes;
+  }
+
   NamedArray read() {
     read_header();
     NamedArray array;
@@ -122,13 +129,18 @@ class NpyReader {
     }
   }
 
-  std::size_t checked_count(const std::vector<std::size_t>& extents, std::size_t element) const {
+  std::size_t announced_count(const std::vector<std::size_t>& extents) const {
     std::size_t count = 1;
     for (const std::size_t extent : extents) {
       if (extent != 0 && count > limits::matrix_numbers / extent)
         fail("has more than " + std::to_string(limits::matrix_numbers) + " elements");
       count *= extent;
     }
+    return count;
+  }
+
+  std::size_t checked_count(const std::vector<std::size_t>& extents, std::size_t element) const {
+    const std::size_t count = announced_count(extents);
     if (element == 0 ? count > limits::matrix_rows
                      : count > data_.size() / element || count * element < data_.size())
       fail("has " + std::to_string(data_.size()) + " bytes of data; its header announces " +
@@ -200,6 +212,10 @@ class NpyReader {
 };
 
 }  // namespace
+
+std::size_t announced_npy_bytes(std::string_view beginning, const std::string& where) {
+  return NpyReader(beginning, where).announced_bytes();
+}
 
 NamedArray read_npy(std::string_view bytes, const std::string& where) {
   return NpyReader(bytes, where).read();

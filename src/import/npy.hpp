@@ -12,4 +12,7 @@ namespace eigentrail {
 /// byte order, or texts (U, S). Throws InputError that begins with `where`.
 NamedArray read_npy(std::string_view bytes, const std::string& where);
 
+/// The bytes that such a file has according to its header, from the first bytes of it. Throws like read_npy.
+std::size_t announced_npy_bytes(std::string_view beginning, const std::string& where);
+
 }  // namespace eigentrail

@@ -30,18 +30,22 @@ Archive open_archive(const std::string& path) {
 }
 
 /// The bytes of an entry, unpacked; its checksum is checked by the library. `budget` is what may still be
-/// read.
+/// read. An entry that unpacks to more than its header announces is given up at once.
 std::string entry_bytes(zip_t* archive, zip_uint64_t index, const std::string& where, std::size_t& budget) {
   const Entry entry(zip_fopen_index(archive, index, 0), &zip_fclose);
   if (!entry) throw InputError(where + ": cannot be read: " + zip_strerror(archive));
   std::string bytes;
   std::string block(1U << 16U, '\0');
+  std::size_t announced = 0;
   while (true) {
     const zip_int64_t count = zip_fread(entry.get(), block.data(), block.size());
     if (count < 0)
       throw InputError(where + ": is damaged: " + zip_error_strerror(zip_file_get_error(entry.get())));
     if (count == 0) return bytes;
     const auto read = static_cast<std::size_t>(count);
+    if (bytes.empty()) announced = announced_npy_bytes(std::string_view(block).substr(0, read), where);
+    if (bytes.size() + read > announced)
+      throw InputError(where + ": has more bytes than its header announces, " + std::to_string(announced));
     if (read > budget)
       throw InputError(where + ": more than " + std::to_string(limits::matrix_numbers) +
                        " numbers in all arrays together");

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
-#include <set>
+#include <stdexcept>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "import/formats.hpp"
 #include "import/lin_file.hpp"
+#include "import/lin_states.hpp"
 #include "import/multiblade.hpp"
 #include "import/openfast_states.hpp"
 
@@ -24,163 +24,10 @@ constexpr double to_rpm = 9.549296585513721;  // 30 / pi
 /// What is left of the dependence on the azimuth is worth a warning from here.
 constexpr double large_periodicity = 0.05;
 
-std::string count_of(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string rounded_text(double x) {
   constexpr double digits = 1e6;
   return exact_text(std::round(x * digits) / digits);
 }
-
-/// The states of all files, in the order of the first one.
-class States {
- public:
-  explicit States(const std::vector<LinFile>& files) : files_(files) {
-    for (const LinQuantity& state : files[0].states) parsed_.push_back(openfast_state(state.description));
-    for (const LinFile& file : files) places_.push_back(places_in(file));
-    find_frames();
-    find_tuples();
-  }
-
-  Eigen::Index size() const { return static_cast<Eigen::Index>(parsed_.size()); }
-  const std::vector<BladeStates>& tuples() const { return tuples_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
-  std::size_t n_blades() const { return n_blades_; }
-  /// Whether states in the rotating frame are left.
-  bool rotating_states_left() const { return left_rotating_; }
-
-  /// A of a file with its states in the order of the first file.
-  Matrix matrix(std::size_t file) const { return files_[file].A(places_[file], places_[file]); }
-
-  /// Names, units, orders and frames in multiblade coordinates.
-  void describe(SampledData& data) const {
-    std::vector<std::string> names;
-    for (const OpenFastState& state : parsed_) names.push_back(name_of(state, state.blade));
-    const std::vector<std::string> parts = multiblade_names(n_blades_);
-    std::vector<bool> fixed(parsed_.size(), false);
-    for (const BladeStates& tuple : tuples_) {
-      for (std::size_t k = 0; k < n_blades_; ++k) {
-        for (const std::vector<Eigen::Index>* list : {&tuple.states, &tuple.rates}) {
-          if (list->empty()) continue;
-          const auto i = static_cast<std::size_t>((*list)[k]);
-          OpenFastState state = parsed_[i];
-          state.motion += " " + parts[k];
-          names[i] = name_of(state, 0);
-          fixed[i] = true;
-        }
-      }
-    }
-    data.state_names = names;
-    for (std::size_t i = 0; i < parsed_.size(); ++i) {
-      data.state_units.push_back(parsed_[i].unit.empty() ? "1" : parsed_[i].unit);
-      data.derivative_order.push_back(files_[0].states[i].derivative_order);
-      data.state_frames.push_back(rotating_[i] && !fixed[i] ? StateFrame::rotating : StateFrame::fixed);
-    }
-  }
-
- private:
-  static std::string name_of(const OpenFastState& state, int blade) {
-    return state.motion + (blade > 0 ? ", blade " + std::to_string(blade) : "") +
-           (state.is_rate ? " velocity" : "");
-  }
-
-  /// For each state of the first file its place in another one.
-  std::vector<Eigen::Index> places_in(const LinFile& file) const {
-    std::map<std::string, Eigen::Index> own;
-    for (std::size_t i = 0; i < file.states.size(); ++i) {
-      if (!own.emplace(file.states[i].description, static_cast<Eigen::Index>(i)).second)
-        throw InputError(file.path + ": lists the state '" + printable(file.states[i].description) +
-                         "' twice");
-    }
-    std::vector<Eigen::Index> result;
-    for (const LinQuantity& state : files_[0].states) {
-      const auto found = own.find(state.description);
-      if (found == own.end())
-        throw InputError(file.path + ": has no state '" + printable(state.description) + "', which " +
-                         files_[0].path + " has; all files need the same states");
-      result.push_back(found->second);
-    }
-    if (own.size() != result.size())
-      throw InputError(file.path + ": has " + count_of(own.size(), "state") + ", " + files_[0].path +
-                       " has " + std::to_string(result.size()) + "; all files need the same states");
-    return result;
-  }
-
-  /// The frame of each state: that of most files, and rotating for states of blades.
-  void find_frames() {
-    std::set<std::string> differ, blades;
-    for (std::size_t i = 0; i < parsed_.size(); ++i) {
-      std::size_t count = 0;
-      for (std::size_t f = 0; f < files_.size(); ++f)
-        count += files_[f].states[static_cast<std::size_t>(places_[f][i])].rotating ? 1 : 0;
-      if (count != 0 && count != files_.size()) differ.insert(parsed_[i].motion);
-      const bool marked = 2 * count > files_.size();
-      if (marked != (parsed_[i].blade > 0)) blades.insert(name_of(parsed_[i], parsed_[i].blade));
-      rotating_.push_back(marked || parsed_[i].blade > 0);
-    }
-    const auto listed = [](const std::set<std::string>& names) {
-      std::string text;
-      for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
-      constexpr std::size_t longest = 200;
-      return text.size() > longest ? text.substr(0, longest) + " ..." : text;
-    };
-    if (!differ.empty())
-      warnings_.push_back("the files disagree on the frame of these states: " + listed(differ) +
-                          "; the frame of most files is used, and the rotating one for states of blades");
-    if (!blades.empty())
-      warnings_.push_back("the frames of these states are not those of their names: " + listed(blades) +
-                          "; states of blades are taken as rotating, the others as marked");
-  }
-
-  void find_tuples() {
-    std::map<std::string, std::map<int, Eigen::Index>> motions, rates;
-    for (std::size_t i = 0; i < parsed_.size(); ++i) {
-      const OpenFastState& state = parsed_[i];
-      n_blades_ = std::max(n_blades_, static_cast<std::size_t>(state.blade));
-      if (state.blade > 0)
-        (state.is_rate ? rates : motions)[state.motion][state.blade] = static_cast<Eigen::Index>(i);
-    }
-    const auto complete = [this](const std::map<int, Eigen::Index>& blades) {
-      return n_blades_ >= 3 && blades.size() == n_blades_;
-    };
-    const auto indices = [](const std::map<int, Eigen::Index>& blades) {
-      std::vector<Eigen::Index> result;
-      for (const auto& [blade, index] : blades) result.push_back(index);
-      return result;
-    };
-    std::vector<bool> done(parsed_.size(), false);
-    for (const auto& [motion, blades] : motions) {
-      if (!complete(blades)) continue;
-      BladeStates tuple{indices(blades)};
-      const auto own_rates = rates.find(motion);
-      if (own_rates != rates.end() && complete(own_rates->second)) tuple.rates = indices(own_rates->second);
-      for (const Eigen::Index i : tuple.states) done[static_cast<std::size_t>(i)] = true;
-      for (const Eigen::Index i : tuple.rates) done[static_cast<std::size_t>(i)] = true;
-      tuples_.push_back(std::move(tuple));
-    }
-    for (std::size_t i = 0; i < parsed_.size(); ++i)
-      left_rotating_ = left_rotating_ || (rotating_[i] && !done[i]);
-    if (left_rotating_ && n_blades_ > 0 && n_blades_ < 3)
-      warnings_.push_back(
-          "a rotor of " + count_of(n_blades_, "blade") +
-          " has no multiblade coordinates in which its equations are constant; the states of the "
-          "blades stay in the rotating frame, and the average over the azimuths is an approximation");
-    else if (left_rotating_)
-      warnings_.emplace_back(
-          "some states in the rotating frame do not belong to all blades and stay as they are; the "
-          "average over the azimuths is an approximation");
-  }
-
-  const std::vector<LinFile>& files_;
-  std::vector<OpenFastState> parsed_;
-  std::vector<std::vector<Eigen::Index>> places_;  ///< per file
-  std::vector<bool> rotating_;
-  std::vector<BladeStates> tuples_;
-  std::vector<std::string> warnings_;
-  std::size_t n_blades_ = 0;
-  bool left_rotating_ = false;
-};
 
 /// Bounds of the rounding of the entries to `digits` significant digits.
 Matrix rounding_of(const Matrix& A, int digits) {
@@ -208,7 +55,7 @@ class OpenFastImport {
   }
 
   Imported read() {
-    const States states(files_);
+    const LinStates states(files_);
     const Parameter parameter = chosen_parameter();
     std::vector<OperatingPointFiles> points = operating_points(parameter);
     Imported result;
@@ -223,7 +70,11 @@ class OpenFastImport {
       periodicity = std::max(periodicity, add_average(point, states, data));
     }
     states.describe(data);
-    check(data);
+    try {
+      check(data);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(files_[0].path + ": " + error.what());
+    }
     result.warnings = states.warnings();
     describe(states, parameter, points, periodicity, result);
     return result;
@@ -264,6 +115,9 @@ class OpenFastImport {
       if (found.empty())
         throw InputError(file.path + ": --parameter: no state, input or output has '" + printable(text) +
                          "' in its description; expected wind_speed, rotor_speed or a part of a description");
+      if (!std::isfinite(found[0]->value))
+        throw InputError(file.path + ": --parameter: the operating value of '" +
+                         printable(found[0]->description) + "' is not finite");
       result.values.push_back(found[0]->value);
       const OpenFastState parsed = openfast_state(found[0]->description);
       result.unit = parsed.unit;
@@ -327,7 +181,7 @@ class OpenFastImport {
 
   /// Adds the average of the A of an operating point. Returns the largest deviation of one of them from it,
   /// as a share.
-  double add_average(const OperatingPointFiles& point, const States& states, SampledData& data) const {
+  double add_average(const OperatingPointFiles& point, const LinStates& states, SampledData& data) const {
     const Eigen::Index n = states.size();
     Matrix sum = Matrix::Zero(n, n), error = sum;
     std::vector<Matrix> all;
@@ -351,7 +205,7 @@ class OpenFastImport {
     return deviation;
   }
 
-  void describe(const States& states, const Parameter& parameter,
+  void describe(const LinStates& states, const Parameter& parameter,
                 const std::vector<OperatingPointFiles>& points, double periodicity, Imported& result) const {
     std::size_t fewest = files_.size();
     int digits = 17;

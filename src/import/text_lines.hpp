@@ -40,6 +40,8 @@ bool equal_words(std::string_view a, std::string_view b);
 std::optional<double> number_of(std::string_view word);
 /// A whole number; empty if the word is anything else.
 std::optional<long> whole_number_of(std::string_view word);
+/// Whether a parameter may have this name: a letter, then letters, digits and underscores.
+bool is_identifier(std::string_view name);
 /// Significant digits of a number as printed; leading zeros do not count. 0 for zero and whole numbers.
 int printed_digits(std::string_view word);
 

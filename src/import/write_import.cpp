@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+#include <utility>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -63,6 +65,16 @@ void write_samples(const std::string& path, const SampledData& data) {
 
 namespace {
 
+/// The number of states: columns of the first coefficient.
+Eigen::Index family_size(const PolynomialData& family) {
+  for (const std::vector<Matrix>* list : {&family.M, &family.K, &family.C, &family.A}) {
+    for (const Matrix& one : *list) {
+      if (one.size() != 0) return one.cols();
+    }
+  }
+  return 0;
+}
+
 /// A text as a TOML string.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -73,20 +85,75 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+/// Throws std::invalid_argument if the coefficients do not fit each other or are not finite.
+void check(const PolynomialData& family) {
+  const auto list = [&](const std::vector<Matrix>& coefficients, const std::string& name, bool square) {
+    Eigen::Index rows = -1;
+    for (std::size_t power = 0; power < coefficients.size(); ++power) {
+      const Matrix& one = coefficients[power];
+      if (one.size() == 0) continue;
+      const Eigen::Index n = family_size(family);
+      if (rows < 0) rows = square ? n : one.rows();
+      const std::string which = name + ", power " + std::to_string(power);
+      if (one.rows() != rows || one.cols() != n)
+        throw std::invalid_argument(which + " is " + std::to_string(one.rows()) + " x " +
+                                    std::to_string(one.cols()) + "; expected " + std::to_string(rows) +
+                                    " x " + std::to_string(n));
+      if (!one.allFinite()) throw std::invalid_argument(which + " has an entry that is not finite");
+    }
+  };
+  const bool second_order = !family.M.empty() || !family.C.empty() || !family.K.empty();
+  if (second_order && (family.K.empty() || (family.M.empty() && family.C.empty())))
+    throw std::invalid_argument("expected K with M, C or both, or A and optionally E");
+  if (second_order && !family.E.empty()) throw std::invalid_argument("E cannot stand beside M, C or K");
+  if (!second_order && family.A.empty()) throw std::invalid_argument("no matrix K or A");
+  list(family.M, "M", true);
+  list(family.C, "C", true);
+  list(family.K, "K", true);
+  list(family.E, "E", true);
+  list(family.A, "A", !second_order);
+  const auto n = static_cast<std::size_t>(family_size(family));
+  if (!family.state_names.empty() && family.state_names.size() != n)
+    throw std::invalid_argument(std::to_string(family.state_names.size()) + " names for " +
+                                std::to_string(n) + " states");
+}
+
+void write_family(const std::string& path, const PolynomialData& family) {
+  Hdf5File file = Hdf5File::in_memory(path);
+  for (const auto& [name, coefficients] :
+       {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
+    for (std::size_t power = 0; power < coefficients->size(); ++power) {
+      const RowMajor one = (*coefficients)[power];
+      if (one.size() == 0) continue;
+      const std::string dataset = std::string(name) + "/" + std::to_string(power);
+      const Shape shape{static_cast<std::uint64_t>(one.rows()), static_cast<std::uint64_t>(one.cols())};
+      file.create_dataset({dataset, ElementType::real, shape, false, {}});
+      file.write_rows(dataset, 0, std::vector<double>(one.data(), one.data() + one.size()));
+    }
+  }
+  write_list(file, "state_names", ElementType::text, family.state_names);
+  write_durably(path, {file.image()});
+}
+
 std::string scene_text(const Imported& imported, const std::string& file) {
   const SampledData& samples = imported.samples;
-  const auto [least, largest] = std::minmax_element(samples.values.begin(), samples.values.end());
-  const std::string& unit = samples.parameter_unit;
+  const std::optional<PolynomialData>& family = imported.family;
+  const auto [least, largest] =
+      family ? std::pair(family->from, family->to)
+             : std::pair(*std::min_element(samples.values.begin(), samples.values.end()),
+                         *std::max_element(samples.values.begin(), samples.values.end()));
+  const std::string& unit = family ? family->parameter_unit : samples.parameter_unit;
   const bool known_unit = !unit.empty() && unit_factor(unit).has_value();
   std::string text = "title = " + quoted(imported.title) + "\n\n";
   for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
-  text += "\n[parameters]\n" + imported.parameter + " = { value = " + exact_text(*least);
+  text += "\n[parameters]\n" + imported.parameter + " = { value = " + exact_text(least);
   text += (known_unit ? ", unit = " + quoted(unit) : "") + " }";
   text += (unit.empty() || known_unit ? "" : "  # " + printable(unit)) + "\n\n";
-  text += "[sampled_family]\nfile = " + quoted(file) + "\n\n[trace]\n";
+  text += std::string(family ? "[matrix_family]" : "[sampled_family]") + "\nfile = " + quoted(file) +
+          "\n\n[trace]\n";
   text += "parameter = " + quoted(imported.parameter) + "\n";
-  text += "from = " + exact_text(*least) + "\n";
-  if (samples.count() > 1) text += "to = " + exact_text(*largest) + "\ntolerance = 1e-6\n";
+  text += "from = " + exact_text(least) + "\n";
+  if (!imported.one_point()) text += "to = " + exact_text(largest) + "\ntolerance = 1e-6\n";
   return text;
 }
 
@@ -102,9 +169,18 @@ std::string write_import(const Imported& imported, const std::string& folder, co
     if (!force && fs::exists(path, error))
       throw InputError(path.string() + ": exists already; --force replaces it, --name gives another name");
   }
+  if (imported.family) {
+    check(*imported.family);
+  } else {
+    check(imported.samples);
+  }
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
-  write_samples(data.string(), imported.samples);
+  if (imported.family) {
+    write_family(data.string(), *imported.family);
+  } else {
+    write_samples(data.string(), imported.samples);
+  }
   write_durably(scene.string(), {scene_text(imported, data.filename().string())});
   return scene.string();
 }

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 
+#include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "support/folder.hpp"
@@ -66,6 +68,63 @@ TEST(WriteImport, ErrorsOfEntriesSurviveTheRoundTrip) {
   EXPECT_EQ(read.A_error[1](1, 0), 0.2);
   imported.samples.A_error[0](0, 1) = -0.2;
   EXPECT_THROW(write_import(imported, folder.path(), "model", true), std::invalid_argument);
+}
+
+Imported polynomial() {
+  Imported imported;
+  imported.title = "shaft";
+  imported.parameter = "speed";
+  PolynomialData& family = imported.family.emplace();
+  family.M = {Matrix::Identity(2, 2)};
+  family.K = {Matrix{{1.0, 0.25}, {0.0, 2.0}}, Matrix(), Matrix{{0.0, 0.0}, {3.0, 0.0}}};
+  family.state_names = {"x", "y"};
+  family.parameter_unit = "rad/s";
+  family.from = -1.0;
+  family.to = 2.0;
+  return imported;
+}
+
+TEST(WriteImport, PolynomialsAreAMatrixFamily) {
+  const test::Folder folder;
+  const std::string scene = write_import(polynomial(), folder.path(), "model", false);
+  const TraceSetup setup = prepare_trace(read_scene(scene), {});
+  EXPECT_EQ(setup.options.from, -1.0);
+  EXPECT_EQ(setup.options.to, 2.0);
+  EXPECT_EQ(setup.model->description().coordinate_names, (std::vector<std::string>{"x", "y"}));
+  const Hdf5File file = Hdf5File::open(folder.path() + "/model.h5");
+  EXPECT_EQ(file.members("/K"), (std::vector<std::string>{"0", "2"}));
+  EXPECT_EQ(file.read_real("/K/0"), (std::vector<double>{1.0, 0.25, 0.0, 2.0}));
+  EXPECT_EQ(file.read_real("/K/2"), (std::vector<double>{0.0, 0.0, 3.0, 0.0}));
+}
+
+TEST(WriteImport, PolynomialsThatDoNotFitLeaveNothing) {
+  const auto message = [](const std::function<void(PolynomialData&)>& change) -> std::string {
+    const test::Folder folder;
+    Imported imported = polynomial();
+    change(*imported.family);
+    std::string result = "accepted";
+    try {
+      write_import(imported, folder.path() + "/new", "model", false);
+    } catch (const std::invalid_argument& error) {
+      result = error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.path() + "/new"));
+    return result;
+  };
+  EXPECT_EQ(message([](auto& f) { f.K[2] = Matrix::Zero(3, 3); }), "K, power 2 is 3 x 3; expected 2 x 2");
+  EXPECT_EQ(message([](auto& f) { f.K[0](0, 0) = NAN; }), "K, power 0 has an entry that is not finite");
+  EXPECT_EQ(message([](auto& f) { f.K.clear(); }), "expected K with M, C or both, or A and optionally E");
+  EXPECT_EQ(message([](auto& f) { f.E = f.M; }), "E cannot stand beside M, C or K");
+  EXPECT_EQ(message([](auto& f) {
+              f.M.clear();
+              f.K.clear();
+            }),
+            "no matrix K or A");
+  EXPECT_EQ(message([](auto& f) { f.state_names = {"x"}; }), "1 names for 2 states");
+  EXPECT_EQ(message([](auto& f) {
+              f.A = {Matrix::Ones(1, 2), Matrix::Ones(2, 2)};
+            }),
+            "A, power 1 is 2 x 2; expected 1 x 2");
 }
 
 }  // namespace

@@ -8,12 +8,14 @@ the message must point; it is taken out before the run. Without it the message m
 import collections
 import os
 import re
+import resource
 import shutil
 import sys
 import unittest
 
 import bodies
 import files
+import imports
 import keys
 import matrices
 import texts
@@ -140,10 +142,41 @@ class BadUsage(WithFiles):
         self.assert_all_refused([arguments], fragments)
 
 
+@each_case(imports.ROWS)
+class BadImport(ProgramTest):
+    """Sizes that are announced, and archives that unpack to more than they should, take no memory."""
+
+    MEMORY = 256 << 20
+
+    def run_program(self, *arguments):
+        if "EIGENTRAIL_SLOWDOWN" in os.environ:  # sanitizers reserve terabytes
+            return super().run_program(*arguments)
+        limits = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (self.MEMORY, limits[1]))
+        try:
+            return super().run_program(*arguments)
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, limits)
+
+    def check(self, form, content, arguments, fragments):
+        for name, bytes_or_text in content.items():
+            path = self.folder / name
+            if callable(bytes_or_text):
+                bytes_or_text(path)
+            elif isinstance(bytes_or_text, str):
+                path.write_text(bytes_or_text)
+            else:
+                path.write_bytes(bytes_or_text)
+        before = self.contents()
+        self.assert_refused(self.run_program("import", form, *arguments, "-o", "new"), fragments)
+        self.assertEqual(self.contents(), before)
+
+
 def print_counts():
     """The number of rows of each table."""
     by_hand = collections.Counter({"scenes": sum(len(module.SCENES) for module in (texts, values, bodies, matrices)),
-                                   "files": len(files.ROWS), "command lines": len(usage.ROWS)})
+                                   "files": len(files.ROWS), "files of other programs": len(imports.ROWS),
+                                   "command lines": len(usage.ROWS)})
     made = {"from the reference": len(keys.SCENES), "from the datasets of files": len(files.EACH_DATASET)}
     print(f"{by_hand.total()} bad inputs by hand ({', '.join(f'{n} {what}' for what, n in by_hand.items())}), and "
           + ", ".join(f"{n} made {what}" for what, n in made.items()), file=sys.stderr)

@@ -1,7 +1,9 @@
-// Models of other programs: each importer reads the files of one format into samples of matrices.
+// Models of other programs: each importer reads the files of one format into samples of matrices, or into the
+// coefficients of a polynomial family.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,27 @@ struct ImportRequest {
   std::map<std::string, std::string> options;
 };
 
-/// What an importer has read.
+/// Matrices that are polynomials of the parameter: M = M[0] + M[1] p + M[2] p^2 + ... Coefficients without
+/// entries are zero. The equations are those of [matrix_family]: E x' = A x, or M x'' + C x' + K x = 0 with
+/// constraints A x = 0.
+struct PolynomialData {
+  std::vector<Matrix> M, C, K, E, A;
+  std::vector<std::string> state_names;  ///< n, or empty
+  std::string parameter_unit;            ///< empty: none, or not known
+  double from = 0.0, to = 1.0;           ///< range of the parameter
+};
+
+/// What an importer has read: samples or, if there is one, a polynomial family.
 struct Imported {
   std::string title;
   std::string parameter;  ///< name of the parameter, an identifier
   SampledData samples;
+  std::optional<PolynomialData> family = {};
   std::vector<std::string> understood;  ///< sentences for the user: what was found and what was done with it
   std::vector<std::string> warnings;    ///< sentences for the user: what is doubtful
+
+  /// Whether there is one operating point only, and no range to trace.
+  bool one_point() const { return !family && samples.count() == 1; }
 };
 
 /// One thing in the files of a format, and what becomes of it. For help and documentation.

@@ -1,0 +1,380 @@
+// Mass, damping and stiffness of Nastran from files of OUTPUT4 (.op4), or from DMIG in punch files (.pch):
+// one operating point, or one per file.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <stdexcept>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+#include "import/digits.hpp"
+#include "import/dmig.hpp"
+#include "import/file_table.hpp"
+#include "import/formats.hpp"
+#include "import/op4.hpp"
+#include "import/text_lines.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int digits_of_single = 7;
+constexpr int digits_of_double = 16;
+
+struct Role {
+  char letter;         ///< with which Nastran's names begin
+  const char* option;  ///< that names the matrix
+  std::vector<Matrix> SampledData::*samples;
+};
+const std::array<Role, 3> roles{
+    {{'M', "mass", &SampledData::M}, {'B', "damping", &SampledData::C}, {'K', "stiffness", &SampledData::K}}};
+
+/// A matrix of either kind of file.
+struct NastranMatrix {
+  std::string file;
+  Op4Matrix dense;         ///< its name, fault and digits hold for both kinds
+  DmigMatrix bulk = {};    ///< with entries if it is DMIG
+  bool from_bulk = false;  ///< it is DMIG
+};
+
+/// The matrices of one operating point.
+struct PointFiles {
+  std::vector<std::string> files;
+  double value = 0.0;
+};
+
+class NastranImport {
+ public:
+  explicit NastranImport(const ImportRequest& request) : request_(request) {}
+
+  Imported read() {
+    SampledData& data = result_.samples;
+    const std::vector<PointFiles> points = operating_points();
+    for (const PointFiles& point : points) {
+      data.values.push_back(point.value);
+      add_sample(point);
+    }
+    finish(points);
+    return std::move(result_);
+  }
+
+ private:
+  std::string option(const std::string& name, const std::string& otherwise = "") const {
+    const auto found = request_.options.find(name);
+    return found == request_.options.end() ? otherwise : found->second;
+  }
+
+  std::vector<PointFiles> operating_points() {
+    const std::vector<std::string>& files = request_.files;
+    std::string parameter = "p", unit;
+    std::vector<PointFiles> points;
+    if (std::any_of(files.begin(), files.end(), is_file_table)) {
+      if (files.size() > 1 || request_.options.contains("values"))
+        throw InputError("nastran: expected one table (.csv), or files of matrices and --values");
+      const FileTable table = read_file_table(files[0]);
+      parameter = table.parameter;
+      unit = table.unit;
+      for (std::size_t i = 0; i < table.values.size(); ++i)
+        points.push_back({table.files[i], table.values[i]});
+    } else if (request_.options.contains("values")) {
+      const std::vector<double> values = listed_values();
+      if (values.size() != files.size())
+        throw InputError("--values: has " + std::to_string(values.size()) + " numbers for " +
+                         std::to_string(files.size()) + " files; expected one for each");
+      for (std::size_t i = 0; i < files.size(); ++i) points.push_back({{files[i]}, values[i]});
+    } else {
+      points.push_back({files, 0.0});
+    }
+    result_.title = std::filesystem::path(files[0]).stem().string();
+    result_.parameter = option("parameter", parameter);
+    if (!is_identifier(result_.parameter) || result_.parameter.size() > limits::key_length)
+      throw InputError(
+          "--parameter: expected a name, a letter and then letters, digits or underscores; found '" +
+          printable(result_.parameter) + "'");
+    result_.samples.parameter_unit = option("unit", unit);
+    return points;
+  }
+
+  std::vector<double> listed_values() const {
+    std::vector<double> values;
+    const std::string text = option("values");
+    std::string_view rest = text;
+    while (true) {
+      const std::size_t comma = rest.find(',');
+      const auto value = number_of(trimmed(rest.substr(0, comma)));
+      if (!value || !std::isfinite(*value))
+        throw InputError("--values: expected numbers separated by commas, found '" + printable(text) + "'");
+      if (std::find(values.begin(), values.end(), *value) != values.end())
+        throw InputError("--values: has " + exact_text(*value) + " twice");
+      values.push_back(*value);
+      if (values.size() > limits::samples)
+        throw InputError("--values: more than " + std::to_string(limits::samples) + " numbers");
+      if (comma == std::string_view::npos) return values;
+      rest.remove_prefix(comma + 1);
+    }
+  }
+
+  static bool same_name(const std::string& a, const std::string& b) { return equal_words(a, b); }
+
+  /// Whether a matrix may have a role: the name that the option says or, without one, the first letter. K4...
+  /// is structural damping, which belongs to responses at one frequency.
+  bool may_be(const Role& role, const std::string& name) const {
+    const auto asked = request_.options.find(role.option);
+    if (asked != request_.options.end()) return same_name(asked->second, name);
+    return !name.empty() && std::toupper(static_cast<unsigned char>(name[0])) == role.letter &&
+           !name.starts_with("K4");
+  }
+
+  bool wanted(const std::string& name) const {
+    return std::any_of(roles.begin(), roles.end(), [&](const Role& role) { return may_be(role, name); });
+  }
+
+  std::vector<NastranMatrix> matrices_in(const std::string& file) const {
+    const std::string bytes = read_text_file(file);
+    std::vector<NastranMatrix> result;
+    const std::string_view begin = std::string_view(bytes).substr(0, 16);
+    const bool binary = begin.find('\0') != std::string_view::npos;
+    const bool op4 = binary || equal_words(std::filesystem::path(file).extension().string(), ".op4");
+    if (op4) {
+      for (Op4Matrix& one : parse_op4(bytes, file, [this](const std::string& name) { return wanted(name); }))
+        result.push_back({file, std::move(one)});
+      return result;
+    }
+    for (DmigMatrix& one : parse_dmig(bytes, file)) {
+      const Op4Matrix both{one.name, {}, one.single, one.digits, one.fault};
+      result.push_back({file, both, std::move(one), true});
+    }
+    if (result.empty())
+      throw InputError(file +
+                       ": has no matrices: no entries DMIG; files of OUTPUT4 are known by their name, .op4");
+    return result;
+  }
+
+  /// The matrix of a role, or none.
+  const NastranMatrix* chosen(const std::vector<NastranMatrix>& all, const Role& role) const {
+    const NastranMatrix* result = nullptr;
+    for (const NastranMatrix& one : all) {
+      if (!may_be(role, one.dense.name)) continue;
+      if (result != nullptr)
+        throw InputError(one.file + ": the " + role.option + " may be " + printable(result->dense.name) +
+                         (result->file == one.file ? "" : " of " + result->file) + " or " +
+                         printable(one.dense.name) +
+                         (same_name(result->dense.name, one.dense.name)
+                              ? "; files of one operating point have each matrix once"
+                              : "; name it with --" + std::string(role.option)));
+      result = &one;
+    }
+    const std::string asked = option(role.option);
+    if (result == nullptr && !asked.empty() && asked != "none")
+      throw InputError(all.front().file + ": --" + role.option + ": no matrix '" + printable(asked) + "'; " +
+                       names_of(all));
+    if (result != nullptr && !result->dense.fault.empty())
+      throw InputError(result->file + ": matrix " + printable(result->dense.name) + " " +
+                       result->dense.fault);
+    return result;
+  }
+
+  static std::string names_of(const std::vector<NastranMatrix>& all) {
+    std::string list;
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
+      list += (i == 0 ? "found " : ", ") + printable(all[i].dense.name);
+    return list + (all.size() > most ? ", ..." : "");
+  }
+
+  void add_sample(const PointFiles& point) {
+    std::vector<NastranMatrix> all;
+    for (const std::string& file : point.files) {
+      for (NastranMatrix& one : matrices_in(file)) all.push_back(std::move(one));
+    }
+    std::array<const NastranMatrix*, roles.size()> own{};
+    for (std::size_t i = 0; i < roles.size(); ++i) own[i] = chosen(all, roles[i]);
+    if (own[2] == nullptr || (own[0] == nullptr && own[1] == nullptr))
+      throw InputError(all.front().file + ": no " + (own[2] == nullptr ? "stiffness" : "mass") + "; " +
+                       names_of(all) +
+                       "; the name of a matrix may be given by --mass, --damping and --stiffness");
+    note(all, own);
+    check_kinds(own);
+    own[2]->from_bulk ? add_bulk(own, point.files[0]) : add_dense(own);
+    SampledData& data = result_.samples;
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      const std::size_t count = (data.*roles[i].samples).size();
+      if (count != 0 && count != data.values.size())
+        throw InputError(point.files[0] + ": " + (own[i] == nullptr ? "has no " : "has a ") +
+                         roles[i].option + " matrix, unlike " + first_file_ +
+                         "; all operating points need the same matrices");
+    }
+  }
+
+  /// Keeps what is to be said, from the first operating point.
+  void note(const std::vector<NastranMatrix>& all,
+            const std::array<const NastranMatrix*, roles.size()>& own) {
+    for (const NastranMatrix* one : own) {
+      if (one == nullptr) continue;
+      digits_ = std::min(digits_, one->dense.digits);
+      single_ = single_ || one->dense.single;
+    }
+    if (!first_file_.empty()) return;
+    first_file_ = all.front().file;
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      if (own[i] != nullptr)
+        result_.understood.push_back(std::string(roles[i].option) + " " + own[i]->dense.name);
+    }
+    std::string others;
+    for (const NastranMatrix& one : all) {
+      if (std::find(own.begin(), own.end(), &one) == own.end())
+        others += (others.empty() ? "" : ", ") + one.dense.name;
+      if (one.dense.name.starts_with("K4"))
+        result_.warnings.push_back(one.dense.name + " is structural damping, which is not read");
+    }
+    if (!others.empty()) result_.understood.push_back("not read: " + others);
+  }
+
+  static void check_kinds(const std::array<const NastranMatrix*, roles.size()>& own) {
+    for (const NastranMatrix* one : own) {
+      if (one != nullptr && one->from_bulk != own[2]->from_bulk)
+        throw InputError(one->file + ": matrix " + printable(one->dense.name) + " and " +
+                         printable(own[2]->dense.name) + " of " + own[2]->file +
+                         " are DMIG and OUTPUT4; the order of their rows cannot be compared");
+    }
+  }
+
+  /// Counts the numbers before they are stored.
+  void count(const std::string& file, std::size_t rows) {
+    numbers_ += rows * rows;
+    if (numbers_ > limits::matrix_numbers)
+      throw InputError(file + ": more than " + std::to_string(limits::matrix_numbers) +
+                       " numbers in all matrices together");
+  }
+
+  void add_dense(const std::array<const NastranMatrix*, roles.size()>& own) {
+    SampledData& data = result_.samples;
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      if (own[i] == nullptr) continue;
+      const Matrix& values = own[i]->dense.values;
+      const Eigen::Index n = data.size() == 0 ? values.rows() : data.size();
+      if (values.rows() != n)
+        throw InputError(own[i]->file + ": matrix " + printable(own[i]->dense.name) + " has " +
+                         std::to_string(values.rows()) + " rows; expected " + std::to_string(n) + ", as in " +
+                         first_file_);
+      count(own[i]->file, static_cast<std::size_t>(n));
+      (data.*roles[i].samples).push_back(values);
+    }
+  }
+
+  /// Rows and columns are the points and components of all matrices, in ascending order.
+  void add_bulk(const std::array<const NastranMatrix*, roles.size()>& own, const std::string& file) {
+    std::vector<DmigFreedom> freedoms;
+    for (const NastranMatrix* one : own) {
+      if (one == nullptr) continue;
+      for (const DmigEntry& entry : one->bulk.entries) {
+        freedoms.push_back(entry.row);
+        freedoms.push_back(entry.column);
+      }
+    }
+    std::sort(freedoms.begin(), freedoms.end());
+    freedoms.erase(std::unique(freedoms.begin(), freedoms.end()), freedoms.end());
+    if (freedoms.empty()) throw InputError(file + ": the matrices have no entries");
+    if (freedoms.size() > limits::matrix_rows)
+      throw InputError(file + ": the matrices have " + std::to_string(freedoms.size()) +
+                       " rows; matrices of up to " + std::to_string(limits::matrix_rows) +
+                       " rows can be imported");
+    SampledData& data = result_.samples;
+    if (freedoms_.empty()) {
+      freedoms_ = freedoms;
+      for (const DmigFreedom& one : freedoms) data.state_names.push_back(name_of(one));
+    } else {
+      check_freedoms(freedoms, file);
+    }
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      if (own[i] == nullptr) continue;
+      count(own[i]->file, freedoms.size());
+      try {
+        (data.*roles[i].samples).push_back(dense_matrix(own[i]->bulk, freedoms));
+      } catch (const std::invalid_argument& error) {
+        throw InputError(own[i]->file + ": " + error.what());
+      }
+    }
+  }
+
+  void check_freedoms(const std::vector<DmigFreedom>& own, const std::string& file) const {
+    for (const bool missing : {true, false}) {
+      const std::vector<DmigFreedom>& expected = missing ? freedoms_ : own;
+      const std::vector<DmigFreedom>& found = missing ? own : freedoms_;
+      std::vector<DmigFreedom> difference;
+      std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(),
+                          std::back_inserter(difference));
+      if (difference.empty()) continue;
+      throw InputError(file + (missing ? ": lacks " : ": has ") + name_of(difference.front()) +
+                       (missing ? ", which " + first_file_ + " has" : ", which " + first_file_ + " lacks") +
+                       "; all operating points need the same rows");
+    }
+  }
+
+  void finish(const std::vector<PointFiles>& points) {
+    SampledData& data = result_.samples;
+    result_.understood.insert(result_.understood.begin(),
+                              std::to_string(points.size()) +
+                                  (points.size() == 1 ? " operating point, " : " operating points, ") +
+                                  std::to_string(data.size()) + " states");
+    const DigitsOption digits = digits_option(request_.options);
+    // What a program has printed has many digits; few of them are what somebody has typed.
+    const bool printed = digits_ >= digits_of_single && digits_ < digits_of_double;
+    if (digits.given)
+      data.digits = digits.digits;
+    else if (single_ || printed)
+      data.digits = single_ ? digits_of_single : digits_;
+    else
+      data.digits = digits_of(data);
+    if (data.digits) result_.understood.push_back(digits_text(*data.digits, digits.given));
+    data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
+    try {
+      check(data);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(first_file_ + ": " + error.what());
+    }
+  }
+
+  const ImportRequest& request_;
+  std::string first_file_;
+  std::vector<DmigFreedom> freedoms_;  ///< rows of DMIG
+  int digits_ = 17;
+  bool single_ = false;
+  std::size_t numbers_ = 0;
+  Imported result_;
+};
+
+Imported read_nastran(const ImportRequest& request) {
+  return NastranImport(request).read();
+}
+
+}  // namespace
+
+Importer nastran_importer() {
+  return {
+      "nastran",
+      "mass, damping and stiffness from Nastran (.op4, .pch)",
+      {{"OUTPUT4 (.op4)", "text or binary, dense or sparse, single or double precision, any order of bytes"},
+       {"DMIG in other files, such as .pch",
+        "small, large or free fields; square or symmetric; states are named by point and component"},
+       {"MAA, M2GG, ...; BAA, ...; KAA, ...",
+        "mass, damping, stiffness: M x'' + B x' + K x = 0; options say which if there are several"},
+       {"several files", "together one operating point, or one each with --values"},
+       {"a table (.csv) with titles such as speed [rpm],file",
+        "operating points: each row has a value of the parameter and one or more files"},
+       {"K4AA, ...", "structural damping, not read"},
+       {"complex matrices, loads", "not read"}},
+      {{"mass", "name of the mass matrix, or none"},
+       {"damping", "name of the matrix of viscous damping, or none"},
+       {"stiffness", "name of the stiffness matrix"},
+       {"parameter", "name of the parameter; default: p, or the title of the table's first column"},
+       {"unit", "unit of the parameter, such as \"rpm\""},
+       {"values", "values of the parameter, one per file, such as 0,100,200"},
+       digits_help()},
+      read_nastran};
+}
+
+}  // namespace eigentrail
