@@ -31,7 +31,7 @@ double distance_to_others(const ComplexVector& s, Eigen::Index i) {
 /// The errors of all modes at one place.
 struct ErrorsAt {
   double p = 0.0;
-  Vector interpolation, digits;
+  Vector interpolation, rough, digits;
   Vector distance;  ///< of each eigenvalue from the next one
 };
 
@@ -64,8 +64,8 @@ class ErrorSampler {
   /// Bounds for the eigenvalues nearest to those of `s` that are finite; NaN for the others. They hold
   /// wherever the smooth error between the two samples has this share of its largest value.
   ErrorsAt at(double p, const ComplexVector& s, double shape = 1.0) const {
-    ErrorsAt result{p, Vector::Constant(s.size(), nan), Vector::Constant(s.size(), nan),
-                    Vector::Constant(s.size(), nan)};
+    const Vector none = Vector::Constant(s.size(), nan);
+    ErrorsAt result{p, none, none, none, none};
     const std::vector<EigenTriple> all = triples_at(p);
     if (all.empty()) return result;
     std::vector<EigenTriple> chosen;
@@ -84,6 +84,7 @@ class ErrorSampler {
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const auto from = static_cast<Eigen::Index>(k);
       result.interpolation[modes[k]] = interpolation[from];
+      result.rough[modes[k]] = bounds.rough[from];
       result.digits[modes[k]] = bounds.digits[from];
       result.distance[modes[k]] = distance_to_others(s, modes[k]);
     }
@@ -220,7 +221,7 @@ class IntervalWalk {
           options_.events.excitation->evaluate(std::span<const double>(si.data(), parameters.size()));
     }
     const Criterion here = criterion(event, s, excitation);
-    return std::abs(here.value) <= here.per_s * errors_.at(at.step, mode);
+    return std::abs(here.value) <= here.per_s * errors_.at(at.step, mode, path_.parameter_at(at));
   }
 
   double end_of(const Event& event, double place, double direction) const {
@@ -255,7 +256,8 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
   const auto samples = errors_between(sampler, path);
   const auto n_steps = static_cast<Eigen::Index>(path.steps.size());
   const Eigen::Index n_modes = path.eigenvalues.cols();
-  DataErrors errors{Matrix::Constant(n_steps, n_modes, nan), Matrix::Constant(n_steps, n_modes, nan)};
+  const Matrix unknown = Matrix::Constant(n_steps, n_modes, nan);
+  DataErrors errors{unknown, unknown, {}, unknown, [sampler](double p) { return sampler.shape(p); }};
   for (Eigen::Index step = 0; step < n_steps; ++step) {
     const auto at = static_cast<std::size_t>(step);
     const auto [low, high] = std::minmax(path.p[at], path.p[at + 1]);
@@ -273,6 +275,7 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
             entry = std::isnan(entry) ? here : std::max(entry, here);
           };
           raise(errors.interpolation(step, mode), place.interpolation[mode]);
+          raise(errors.rough(step, mode), place.rough[mode]);
           raise(errors.digits(step, mode), place.digits[mode]);
         }
       }

@@ -45,7 +45,7 @@ class Sampler {
     for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
       if (permanence_[static_cast<std::size_t>(mode)] == Permanence::zero || !std::isfinite(s[mode].real()))
         continue;
-      const double error = errors_.at(here.step, mode) +
+      const double error = errors_.at(here.step, mode, path_.parameter_at(here)) +
                            accuracy_.tolerance * std::max(std::abs(s[mode]), accuracy_.reference);
       lowest = std::max(lowest, s[mode].real() - error);
       highest = std::max(highest, s[mode].real() + error);

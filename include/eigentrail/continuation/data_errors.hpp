@@ -1,7 +1,9 @@
 // Errors of the eigenvalues of a trace that come from the data of its model: samples and their digits.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "eigentrail/core/types.hpp"
@@ -18,14 +20,22 @@ struct EventInterval {
 /// Bounds, absolute, 1/s; a row per step and a column per mode. NaN where a mode does not exist. They hold to
 /// first order in the errors of the matrices, and stand beside the tolerance of the trace.
 struct DataErrors {
-  Matrix interpolation;                       ///< between the samples
+  Matrix interpolation;                       ///< between the samples, for the whole step
   Matrix digits;                              ///< from the digits of the samples; zero if these are not known
   std::vector<EventInterval> intervals = {};  ///< per event of the trace
 
-  /// The sum of both; infinite where it is not known.
-  double at(std::size_t step, Eigen::Index mode) const {
+  // These are not stored:
+  Matrix rough = {};  ///< the part of `interpolation` that does not vanish at the samples
+  /// The rest at a value of the parameter, as a share of its largest value between two samples; refers to the
+  /// model.
+  std::function<double(double)> shape = {};
+
+  /// The sum of both at the value p of the parameter on a step; infinite where it is not known.
+  double at(std::size_t step, Eigen::Index mode, double p) const {
     const auto row = static_cast<Eigen::Index>(step);
-    const double sum = interpolation(row, mode) + digits(row, mode);
+    const double there =
+        shape ? std::max(shape(p) * interpolation(row, mode), rough(row, mode)) : interpolation(row, mode);
+    const double sum = there + digits(row, mode);
     return std::isnan(sum) ? INFINITY : sum;
   }
 };
