@@ -3,6 +3,7 @@
 import unittest
 
 import h5py
+import numpy as np
 
 from program import BIRTH, BLADE, CROSSING, FAMILY, PUSHED_PENDULUM, ProgramTest
 
@@ -41,6 +42,18 @@ class Verify(ProgramTest):
 
     def test_a_crossing_passes(self):
         self.assert_passes(CROSSING)
+
+    def test_equal_real_eigenvalues_that_come_as_a_pair_pass(self):
+        """24 equal blades on a ring with drag: QZ makes a pair with a small imaginary part of some of the double real
+        eigenvalues."""
+        n = 24
+        turn = np.roll(np.eye(n), 1, axis=0)
+        stiffness = np.eye(n) + 0.3 * (2 * np.eye(n) - turn - turn.T)
+        with h5py.File(self.folder / "ring.h5", "w") as file:
+            file["M/0"] = file["C/1"] = np.eye(n)
+            file["C/0"] = np.zeros((n, n))
+            file["K/0"] = stiffness
+        self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0.1\nto = 4\n[matrix_family]\nfile = \"ring.h5\"\n")
 
     def test_a_path_that_turns_back_passes(self):
         """Long steps around the fold at p = 1, where Newton's method at constant p could find the equilibrium of the
