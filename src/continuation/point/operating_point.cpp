@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
+#include "eigentrail/modes/motion_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 
@@ -60,18 +60,15 @@ class ModeAtPoint {
   double condition_ = 0.0, backward_error_ = 0.0;
 };
 
-/// "q3 71 %, q4 24 %".
-std::string largest_names(const Vector& shares, const std::vector<std::string>& names) {
-  std::vector<std::size_t> order(names.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return shares[static_cast<Eigen::Index>(a)] > shares[static_cast<Eigen::Index>(b)];
-  });
+/// "1st flap progressive 71 %, drivetrain torsion 24 %".
+std::string largest_names(const Vector& shares, const ComplexVector& shape,
+                          const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(order.size(), most_named); ++i) {
-    const double share = shares[static_cast<Eigen::Index>(order[i])];
-    if (i > 0 && share < least_share) break;
-    text += (i > 0 ? ", " : "") + names[order[i]] + " " + std::to_string(std::lround(100.0 * share)) + " %";
+  std::size_t named = 0;
+  for (const MotionShare& one : motion_shares(names, shares, shape)) {
+    if (named == most_named || (named > 0 && one.share < least_share)) break;
+    text +=
+        (named++ > 0 ? ", " : "") + one.name + " " + std::to_string(std::lround(100.0 * one.share)) + " %";
   }
   return text;
 }
@@ -113,7 +110,8 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();
-    if (unconstrained) mode.what_moves = largest_names(at.participation(), description.coordinate_names);
+    if (unconstrained)
+      mode.what_moves = largest_names(at.participation(), shape, description.coordinate_names);
   }
   name_by_energy(description, point, result.modes);
   return result;
