@@ -62,26 +62,38 @@ bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
   return true;
 }
 
-/// Eigenvector of the eigenvalue in column j of LAPACK's real storage: the upper or the lower half of [z; mu
-/// z], whichever is larger.
-ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex) {
-  const Eigen::Index n = vectors.rows() / 2;
-  ComplexVector both(2 * n);
+/// Eigenvector of the eigenvalue in column j of LAPACK's real storage, of [z; mu z] with the velocities of
+/// all or some of the n coordinates: z, or with all velocities the larger half.
+ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex, Eigen::Index n) {
+  const Eigen::Index size = vectors.rows();
+  ComplexVector both(size);
   both.real() = vectors.col(j);
-  both.imag() = is_complex ? Vector(vectors.col(j + 1)) : Vector(Vector::Zero(2 * n));
-  const ComplexVector z = both.head(n).norm() >= both.tail(n).norm() ? both.head(n) : both.tail(n);
-  return z.normalized();
+  both.imag() = is_complex ? Vector(vectors.col(j + 1)) : Vector(Vector::Zero(size));
+  const bool upper = size < 2 * n || both.head(n).norm() >= both.tail(n).norm();
+  return (upper ? both.head(n) : both.tail(n)).normalized();
 }
 
-/// Companion form: a y = mu b y with y = [z; mu z].
+/// Companion form: a y = mu b y with y = [z; mu z_m], z_m the coordinates with mass. Those without have no
+/// velocity as a state: s C z stands on the right side for them.
 void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Matrix& b) {
   const Eigen::Index n = M.rows();
-  a = Matrix::Zero(2 * n, 2 * n);
-  b = Matrix::Identity(2 * n, 2 * n);
-  a.topRightCorner(n, n).setIdentity();
+  std::vector<Eigen::Index> with_mass;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!M.col(j).isZero(0.0)) with_mass.push_back(j);
+  }
+  const auto m = static_cast<Eigen::Index>(with_mass.size());
+  a = Matrix::Zero(m + n, n + m);
+  b = a;
+  a.topRightCorner(m, m).setIdentity();
   a.bottomLeftCorner(n, n) = -K;
-  a.bottomRightCorner(n, n) = -C;
-  b.bottomRightCorner(n, n) = M;
+  b.bottomLeftCorner(n, n) = C;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index j = with_mass[static_cast<std::size_t>(i)];
+    b(i, j) = 1.0;
+    b.col(j).tail(n).setZero();
+    a.col(n + i).tail(n) = -C.col(j);
+    b.col(n + i).tail(n) = M.col(j);
+  }
 }
 
 /// All eigenvalues mu = alpha / beta of a scaled pencil as LAPACK returns them; conjugates are neighbours.
@@ -90,6 +102,7 @@ struct Homogeneous {
       : alpha_real(count), alpha_imag(count), beta(Vector::Ones(count)) {}
 
   bool converged = false;
+  Eigen::Index left_out = 0;  ///< infinite eigenvalues of velocities that are no states
   Vector alpha_real, alpha_imag, beta;
   Matrix vectors = {};  ///< in LAPACK's real storage; empty if not requested
 };
@@ -98,6 +111,7 @@ Homogeneous by_qz(const Matrix& M, const Matrix& C, const Matrix& K, bool with_v
   Matrix a, b;
   linearize(M, C, K, a, b);
   Homogeneous all(a.rows());
+  all.left_out = 2 * M.rows() - a.rows();
   if (with_vectors) all.vectors.resize(a.rows(), a.rows());
   const auto size = static_cast<lapack_int>(a.rows());
   const lapack_int info =
@@ -137,14 +151,16 @@ void sort(Spectrum& spectrum) {
 }
 
 /// Collects the finite modes in the order of increasing |s|.
-void take_modes(const Homogeneous& all, Spectrum& spectrum) {
+void take_modes(const Homogeneous& all, Eigen::Index n, Spectrum& spectrum) {
+  spectrum.n_infinite = static_cast<int>(all.left_out);
   for (Eigen::Index j = 0; j < all.beta.size(); ++j) {
     const Complex alpha(all.alpha_real[j], all.alpha_imag[j]);
     if (std::abs(all.beta[j]) <= infinite * std::abs(alpha)) {
       ++spectrum.n_infinite;
     } else if (alpha.imag() >= 0.0) {
       spectrum.modes.push_back({spectrum.scale * alpha / all.beta[j], {}});
-      if (all.vectors.size() > 0) spectrum.modes.back().z = right_vector(all.vectors, j, alpha.imag() > 0.0);
+      if (all.vectors.size() > 0)
+        spectrum.modes.back().z = right_vector(all.vectors, j, alpha.imag() > 0.0, n);
     }
   }
   sort(spectrum);
@@ -168,7 +184,7 @@ Spectrum solve(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vect
   const Homogeneous all =
       with_vectors ? by_qz(scaled_M, scaled_C, scaled_K, true) : eigenvalues_of(scaled_M, scaled_C, scaled_K);
   if (!all.converged) return spectrum;
-  take_modes(all, spectrum);
+  take_modes(all, M.rows(), spectrum);
   spectrum.status = SpectrumStatus::complete;
   return spectrum;
 }
