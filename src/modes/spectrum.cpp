@@ -262,11 +262,11 @@ InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix&
   const double size = std::max(std::abs(mu), 1e-3);
   const Complex shift = is_real ? Complex(mu.real() + offset * size) : mu + offset * size * Complex(0.6, 0.8);
   const Eigen::PartialPivLU<ComplexMatrix> lu(a.cast<Complex>() - shift * b.cast<Complex>());
-  ComplexMatrix X(2 * n, k);
+  ComplexMatrix X(a.rows(), k);
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
     const ComplexMatrix Y = lu.solve(b.cast<Complex>() * X);
-    X = Eigen::HouseholderQR<ComplexMatrix>(Y).householderQ() * ComplexMatrix::Identity(2 * n, k);
+    X = Eigen::HouseholderQR<ComplexMatrix>(Y).householderQ() * ComplexMatrix::Identity(a.rows(), k);
   }
   InvariantPair pair;
   pair.is_real = is_real;

@@ -87,6 +87,14 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
   });
 }
 
+bool EventLog::has_veering(Complex p, const std::vector<int>& modes) const {
+  const double place = thresholds.event.same_veering * range.length();
+  return any_event([&](const Event& event) {
+    return event.kind == EventKind::veering && event.modes == modes &&
+           std::abs(event.p - p.real()) <= place && std::abs(event.half_width - std::abs(p.imag())) <= place;
+  });
+}
+
 bool EventLog::knows_veering(Complex p, const std::vector<int>& modes) const {
   const auto is_it = [&](const Event& event) {
     const double slack = thresholds.event.known_veering_share * event.half_width +

@@ -36,6 +36,9 @@ struct EventLog {
   /// accurate. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
   bool has_collision_at(const Event& zero, bool located, double s_ref) const;
 
+  /// Whether a veering of these modes that is located at the complex parameter value p is recorded.
+  bool has_veering(Complex p, const std::vector<int>& modes) const;
+
   /// Whether a veering of these modes, predicted at the complex parameter value p, is recorded or dismissed
   /// already.
   bool knows_veering(Complex p, const std::vector<int>& modes) const;

@@ -33,14 +33,13 @@ std::optional<PathNode> slopes_along(PathProblem problem, const PathPoint& point
   return differentiate_point(problem, point, parameter, counts);
 }
 
-/// Sets all sensitivities to NaN.
+}  // namespace
+
 void leave_unknown(std::size_t n_parameters, Event& event) {
   const auto count = static_cast<Eigen::Index>(n_parameters);
   event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
   event.shift = Vector::Constant(count, nan);
 }
-
-}  // namespace
 
 Complex mean_slope(const Track& track, const std::vector<Complex>& roots) {
   const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);

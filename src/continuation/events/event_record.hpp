@@ -19,6 +19,9 @@ Complex mean_slope(const Track& track, const std::vector<Complex>& roots);
 void keep_shape(const PathNode& node, const Track& track, const std::vector<int>& members, double offset,
                 Event& event);
 
+/// Sets all sensitivities of an event to NaN.
+void leave_unknown(std::size_t n_parameters, Event& event);
+
 /// The path point of a node as it was before differentiation, without pencil and modes.
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts);
 

@@ -351,6 +351,19 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   return roots;
 }
 
+/// The roots of the parabolas that agree with the gap at either end, as distances from the left end. Where
+/// other eigenvalues are as close, no interpolant of the gap is accurate, but a parabola tells that these two
+/// come close, and about where.
+std::vector<Complex> rough_roots(const ComplexVector& left, const ComplexVector& right, double length) {
+  std::vector<Complex> roots;
+  for (const ComplexVector* gap : {&left, &right}) {
+    if (gap->size() < 3) continue;
+    for (const Complex root : polynomial_roots(gap->head(3)))
+      roots.push_back(root + (gap == &right ? length : 0.0));
+  }
+  return roots;
+}
+
 }  // namespace
 
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
@@ -413,8 +426,14 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       if (a.track != b.track && stay_apart(left_a, left_b) && stay_apart(right_a, right_b)) continue;
       const ComplexVector at_left = gap_at(left, b, left_b, a, left_a);
       const ComplexVector at_right = gap_at(right, b, right_b, a, right_a);
+      const std::size_t before = meetings.size();
       for (const Complex root : gap_roots(at_left, at_right, length, width))
         expect(b, a, root, at_left, at_right);
+      if (meetings.size() > before) continue;
+      for (const Complex root : rough_roots(at_left, at_right, length)) {
+        expect(b, a, root);
+        if (meetings.size() > before) meetings.back().is_rough = true;
+      }
     }
   }
   return meetings;

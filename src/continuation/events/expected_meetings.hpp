@@ -12,6 +12,8 @@ struct ExpectedMeeting {
   /// Series of ((s_a - s_b) / 2)^2 at both ends; empty where not known.
   ComplexVector discriminant_at_left = {}, discriminant_at_right = {};
   double doubt = INFINITY;  ///< estimated error of the position; infinite: not known
+  /// The series at either end are no more than a hint of it.
+  bool is_rough = false;
 };
 
 /// Meetings, on or close to the real axis, of eigenvalues of one block, by ascending distance from the left

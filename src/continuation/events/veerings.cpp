@@ -8,6 +8,7 @@
 #include "continuation/events/complex_interpolant.hpp"
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/expected_meetings.hpp"
+#include "continuation/events/veering_partners.hpp"
 #include "continuation/events/walk.hpp"
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/regrouping.hpp"
@@ -331,7 +332,15 @@ FoundEvents find_veerings(const EventSearch& search, const Step& step) {
     const std::vector<int> modes = modes_of(*step.left, expected);
     const Complex p(step.left->p + expected.position.real() * speed, expected.position.imag() * speed);
     if (modes.size() < 2 || log.knows_veering(p, modes)) continue;
-    append(VeeringWalk(own, step, expected, modes).run(), found);
+    const double widest = search_width(search, *step.left);
+    if (!expected.is_rough) {
+      FoundEvents located = VeeringWalk(own, step, expected, modes).run();
+      std::erase_if(located.events, [&](const Event& event) {
+        return pencil_contradicts(own, step, expected, modes, widest, event);
+      });
+      append(std::move(located), found);
+    }
+    append(find_from_pencil(own, step, expected, modes, widest), found);
   }
   return found;
 }

@@ -1,0 +1,224 @@
+#include "continuation/events/veering_partners.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/events/event_record.hpp"
+#include "continuation/events/exceptional_point.hpp"
+#include "continuation/tracks/members.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/normalization.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Largest number of exceptional points that are looked for from one prediction. Two modes that hardly
+/// influence each other have two close ones.
+constexpr int most_of_one_prediction = 3;
+/// In units of the largest half-width: how far iterates may go from the prediction.
+constexpr double reach_in_widths = 2.0;
+/// In steps: exceptional points farther beyond the ends of the step, and farther than they are off the axis,
+/// are left to other steps.
+constexpr double beyond_the_step = 0.1;
+/// As a share of the distance from the real axis: two roots of the discriminant closer than this are a double
+/// root within rounding, where eigenvalues of independent modes coincide.
+constexpr double double_root = 1e-5;
+/// As a share of the distance of the two eigenvalues at the real axis: how well the dense output must agree.
+constexpr double same_mode = 0.2;
+/// As a share of the range: least half-width. Narrower ones are meetings on the axis.
+constexpr double narrowest = 1e-10;
+
+class PencilSearch {
+ public:
+  PencilSearch(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+               const std::vector<int>& modes, double widest)
+      : search_(search), step_(step), expected_(expected), modes_(modes), widest_(widest) {}
+
+  FoundEvents run() {
+    FoundEvents found;
+    position_ = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0) * step_.h;
+    node_ = node_at(position_);
+    if (!node_) return found;
+    std::vector<Complex> known = known_roots();
+    std::optional<ExceptionalPoint> point;
+    for (int i = 0; i < most_of_one_prediction; ++i) {
+      point = point ? next_to(*point, known) : from_prediction(known);
+      if (!point) break;
+      known.push_back(point->h);
+      if (auto event = event_at(*point)) found.events.push_back(std::move(*event));
+    }
+    return found;
+  }
+
+  /// Whether Newton's method leads from a veering that was located otherwise to another place.
+  bool contradicts(const Event& event) {
+    position_ =
+        std::clamp((event.p - step_.left->p) / search_.frame().speed(*step_.left) / step_.h, 0.0, 1.0) *
+        step_.h;
+    node_ = node_at(position_);
+    if (!node_) return false;
+    const double speed = search_.frame().speed(*node_);
+    const double sign = std::signbit(expected_.position.imag()) ? -1.0 : 1.0;
+    const Complex h((event.p - node_->p) / speed, sign * event.half_width / speed);
+    const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
+    if (!mean) return false;
+    const auto point = find_exceptional_point(pencil(), chart(), h, *mean, reach_in_widths * widest_, {});
+    const double same = search_.log.thresholds.event.same_veering * search_.frame().range.length();
+    return point && std::abs(point->h - h) * std::abs(speed) > same;
+  }
+
+ private:
+  const Track& track() const { return step_.left->tracks[expected_.a.track]; }
+  Chart chart() const { return track().pair.chart; }
+  const ReducedPencil& pencil() const { return node_->pencil.of(track().pair.part); }
+
+  /// Equilibrium and pencil, as series, at a distance from the left end; without modes.
+  std::optional<PathNode> node_at(double position) const {
+    const bool right = position / step_.h > 0.5;
+    const PathNode& nearer = right ? step_.right : *step_.left;
+    const PathPoint point = search_.solver.reduce(nearer, position - (right ? step_.h : 0.0));
+    if (point.status != PointStatus::computed) return std::nullopt;
+    return differentiate_point(search_.problem(), point, search_.solver.counts());
+  }
+
+  /// Exceptional points of these modes that the log has, as distances from the point; with those on the other
+  /// side of the axis, because a veering does not tell its side.
+  std::vector<Complex> known_roots() const {
+    std::vector<Complex> roots;
+    const double speed = search_.frame().speed(*node_);
+    const auto add = [&](const std::vector<Event>& events) {
+      for (const Event& event : events) {
+        if (event.kind != EventKind::veering || event.modes != modes_) continue;
+        const Complex h((event.p - node_->p) / speed, event.half_width / speed);
+        if (std::abs(h) > reach_in_widths * widest_ + std::abs(step_.h)) continue;
+        roots.push_back(h);
+        roots.push_back(std::conj(h));
+      }
+    };
+    add(search_.log.events);
+    if (search_.log.found != nullptr) add(search_.log.found->events);
+    return roots;
+  }
+
+  /// The mean of the two eigenvalues at the prediction. It is smooth there, unlike each of them, so that the
+  /// sum of their interpolants is accurate off the real axis; those of members of larger blocks are not known
+  /// there, and taken from the axis.
+  Complex mean_there() const {
+    const Complex t = expected_.position / step_.h;
+    Complex sum = 0.0;
+    double count = 0.0;
+    for (const Strand* strand : {&expected_.a, &expected_.b}) {
+      const Eigen::Index size = step_.left->tracks[strand->track].size();
+      StrandSampler sampler(*step_.left, step_.right, strand->track, step_.h);
+      for (const int member : strand->members) {
+        sum += size <= 2 ? sampler.functions()(t)[0] : sampler(position_ / step_.h)[member];
+        count += 1.0;
+      }
+    }
+    return sum / count;
+  }
+
+  /// A predicted eigenvalue at the point.
+  Complex value_of(const Strand& strand) const {
+    StrandSampler sampler(*step_.left, step_.right, strand.track, step_.h);
+    return sampler(position_ / step_.h)[strand.members.front()];
+  }
+
+  /// Another one beside one that was found, or from the prediction once more.
+  std::optional<ExceptionalPoint> next_to(const ExceptionalPoint& point,
+                                          const std::vector<Complex>& known) const {
+    const double reach = reach_in_widths * widest_;
+    if (std::abs(point.next - point.h) < reach) {
+      auto beside = find_exceptional_point(pencil(), chart(), point.next, point.mu, reach, known);
+      if (beside) return beside;
+    }
+    return from_prediction(known);
+  }
+
+  std::optional<ExceptionalPoint> from_prediction(const std::vector<Complex>& known) const {
+    const Complex h = expected_.position - position_;
+    const double reach = reach_in_widths * widest_;
+    auto point = find_exceptional_point(pencil(), chart(), h, mean_there(), reach, known);
+    if (point) return point;
+    const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
+    return mean ? find_exceptional_point(pencil(), chart(), h, *mean, reach, known) : std::nullopt;
+  }
+
+  std::optional<Event> event_at(const ExceptionalPoint& point) {
+    const double speed = search_.frame().speed(*node_);
+    const double range = search_.frame().range.length();
+    Event event;
+    event.kind = EventKind::veering;
+    event.p = node_->p + point.h.real() * speed;
+    event.half_width = std::abs(point.h.imag() * speed);
+    const double t = (position_ + point.h.real()) / step_.h;
+    const double beyond = std::max(beyond_the_step, std::abs(point.h.imag() / step_.h));
+    const bool here = t > -beyond && t < 1.0 + beyond && search_.log.is_on_range(event);
+    const bool counts = std::abs(point.h.imag()) <= widest_ && event.half_width >= narrowest * range &&
+                        0.5 * std::abs(point.next - point.h) > double_root * std::abs(point.h.imag());
+    if (!here || !counts) return std::nullopt;
+    const auto below = eigenvalues_below(pencil(), chart(), point);
+    if (!below) return std::nullopt;
+    event.modes = modes_of(*below, std::clamp(t, 0.0, 1.0));
+    if (event.modes.size() != 2) return std::nullopt;
+    event.s = chart_value(0.5 * ((*below)[0].mu + (*below)[1].mu), chart());
+    if (event.s.imag() < 0.0) event.s = std::conj(event.s);
+    event.node = search_.node;
+    const ComplexMatrix shape = node_->basis.shapes((*below)[0].z, track().pair.part);
+    event.shape = normalize_shape(shape.col(0), node_->linearization.M[0], {});
+    leave_unknown(search_.problem().model.description().parameters.size(), event);
+    return search_.log.has_veering({event.p, event.half_width}, event.modes)
+               ? std::nullopt
+               : std::optional(std::move(event));
+  }
+
+  /// The modes of two eigenvalues at a place of the step, by the dense output; empty if it does not tell.
+  std::vector<int> modes_of(const std::array<EigenvalueBelow, 2>& below, double t) const {
+    const double allowed = same_mode * std::abs(below[0].mu - below[1].mu);
+    std::vector<int> modes;
+    for (const EigenvalueBelow& one : below) {
+      double least = INFINITY;
+      int nearest = Track::no_mode;
+      for (std::size_t i = 0; i < step_.left->tracks.size(); ++i) {
+        const Track& other = step_.left->tracks[i];
+        if (other.pair.part != track().pair.part || other.pair.chart != chart()) continue;
+        StrandSampler sampler(*step_.left, step_.right, i, step_.h);
+        const ComplexVector& roots = sampler(t);
+        for (Eigen::Index k = 0; k < roots.size(); ++k) {
+          const double distance =
+              std::min(std::abs(roots[k] - one.mu), std::abs(std::conj(roots[k]) - one.mu));
+          if (distance >= least || other.modes[static_cast<std::size_t>(k)] < 0) continue;
+          least = distance;
+          nearest = other.modes[static_cast<std::size_t>(k)];
+        }
+      }
+      if (least > allowed) return {};
+      modes.push_back(nearest);
+    }
+    modes = sorted_modes(std::move(modes));
+    modes.erase(std::unique(modes.begin(), modes.end()), modes.end());
+    return modes;
+  }
+
+  const EventSearch& search_;
+  const Step& step_;
+  const ExpectedMeeting& expected_;
+  const std::vector<int>& modes_;
+  double widest_;
+  double position_ = 0.0;  ///< of the point, as a distance from the left end
+  std::optional<PathNode> node_;
+};
+
+}  // namespace
+
+FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                             const std::vector<int>& modes, double widest) {
+  return PencilSearch(search, step, expected, modes, widest).run();
+}
+
+bool pencil_contradicts(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                        const std::vector<int>& modes, double widest, const Event& veering) {
+  return PencilSearch(search, step, expected, modes, widest).contradicts(veering);
+}
+
+}  // namespace eigentrail

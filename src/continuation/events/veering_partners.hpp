@@ -1,0 +1,22 @@
+// Veerings that are found from the pencil at complex parameters: where series do not confirm a prediction,
+// because other exceptional points are as close to the real axis, and further ones of the same two modes.
+#pragma once
+
+#include "continuation/events/event_search.hpp"
+#include "continuation/events/expected_meetings.hpp"
+#include "continuation/step/step.hpp"
+
+namespace eigentrail {
+
+/// The veerings to which Newton's method for exceptional points leads from a prediction, up to `widest` off
+/// the real axis (in the coordinate along the path). Those in the log are not found again. Cost: the reduced
+/// equations at a point, and an LU per iteration.
+FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                             const std::vector<int>& modes, double widest);
+
+/// Whether Newton's method leads from a veering that was located from series to another place: the series
+/// were not accurate enough there.
+bool pencil_contradicts(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                        const std::vector<int>& modes, double widest, const Event& veering);
+
+}  // namespace eigentrail
