@@ -10,8 +10,9 @@ namespace {
 
 /// Newton iterations: from the prediction a few, close to another exceptional point linear convergence first.
 constexpr int most_iterations = 30;
-/// Relative size of the last move of h and of mu.
+/// As a share of the reach: the last move, and moves that may be rounding.
 constexpr double settled = 1e-12;
+constexpr double loose = 1e-6;
 /// Steps of the way down to the real axis: first share of it, and least one.
 constexpr double first_share = 0.02;
 constexpr double least_share = 1e-4;
@@ -49,17 +50,17 @@ class PencilAt {
   ComplexMatrix value(Complex mu) const {
     return mu * mu * second_.value + mu * first_.value + zeroth_.value;
   }
-  ComplexVector by_mu(Complex mu, const ComplexVector& v) const {
+  ComplexMatrix by_mu(Complex mu, const ComplexMatrix& v) const {
     return 2.0 * mu * (second_.value * v) + first_.value * v;
   }
-  ComplexVector by_mu_twice(const ComplexVector& v) const { return 2.0 * (second_.value * v); }
-  ComplexVector by_h(Complex mu, const ComplexVector& v) const {
+  ComplexMatrix by_mu_twice(const ComplexMatrix& v) const { return 2.0 * (second_.value * v); }
+  ComplexMatrix by_h(Complex mu, const ComplexMatrix& v) const {
     return mu * mu * (second_.slope * v) + mu * (first_.slope * v) + zeroth_.slope * v;
   }
-  ComplexVector by_h_twice(Complex mu, const ComplexVector& v) const {
+  ComplexMatrix by_h_twice(Complex mu, const ComplexMatrix& v) const {
     return mu * mu * (second_.curvature * v) + mu * (first_.curvature * v) + zeroth_.curvature * v;
   }
-  ComplexVector by_both(Complex mu, const ComplexVector& v) const {
+  ComplexMatrix by_both(Complex mu, const ComplexMatrix& v) const {
     return 2.0 * mu * (second_.slope * v) + first_.slope * v;
   }
 
@@ -67,73 +68,111 @@ class PencilAt {
   Jet second_, first_, zeroth_;
 };
 
+using TwoByTwo = Eigen::Matrix2cd;
+
+/// The derivative of det G by x and y, from those of G.
+Complex mixed(const TwoByTwo& G, const TwoByTwo& x, const TwoByTwo& y, const TwoByTwo& xy) {
+  const auto term = [&](int i, int j, int k, int l) {
+    return xy(i, j) * G(k, l) + x(i, j) * y(k, l) + y(i, j) * x(k, l) + G(i, j) * xy(k, l);
+  };
+  return term(0, 0, 1, 1) - term(0, 1, 1, 0);
+}
+
+Complex slope_of(const TwoByTwo& G, const TwoByTwo& x) {
+  return x(0, 0) * G(1, 1) + G(0, 0) * x(1, 1) - x(0, 1) * G(1, 0) - G(0, 1) * x(1, 0);
+}
+
 /// The bordered system at one place, with borders that are renewed from solution to solution.
 class Bordered {
  public:
-  explicit Bordered(Eigen::Index n) : b_(n), c_(n) {
+  explicit Bordered(Eigen::Index n) : b_(n, 2), c_(n, 2) {
     // Without symmetry, so that they are not orthogonal to the vectors that are wanted.
-    for (Eigen::Index i = 0; i < n; ++i) {
-      b_[i] = Complex(1.0, std::sin(1.0 + 2.3 * static_cast<double>(i)));
-      c_[i] = Complex(std::cos(0.7 + 1.9 * static_cast<double>(i)), 1.0);
+    for (Eigen::Index k = 0; k < b_.size(); ++k) {
+      b_(k) = Complex(1.0, std::sin(1.0 + 2.3 * static_cast<double>(k)));
+      c_(k) = Complex(std::cos(0.7 + 1.9 * static_cast<double>(k)), 1.0);
     }
-    b_.normalize();
-    c_.normalize();
+    b_ = orthonormal(b_);
+    c_ = orthonormal(c_);
   }
 
-  /// g, g_mu, g_h, g_mumu, g_muh, g_hh.
+  /// f = det G, f_mu, f_h, and where they are asked for f_mumu, f_muh, f_hh.
   struct Values {
-    Complex g, mu, h, mumu, muh, hh;
+    Complex f, mu, h, mumu, muh, hh;
   };
+  enum class Derivatives { first, second };
 
-  Values at(const PencilAt& pencil, Complex mu) {
-    const Eigen::Index n = b_.size();
-    ComplexMatrix B(n + 1, n + 1);
-    B << pencil.value(mu), b_, c_.adjoint(), ComplexMatrix::Zero(1, 1);
+  Values at(const PencilAt& pencil, Complex mu, Derivatives wanted = Derivatives::second) {
+    const Eigen::Index n = b_.rows();
+    ComplexMatrix B(n + 2, n + 2);
+    B << pencil.value(mu), b_, c_.adjoint(), ComplexMatrix::Zero(2, 2);
     const ComplexLu lu(std::move(B));
-    ComplexVector right = ComplexVector::Unit(n + 1, n);
-    ComplexVector left = right;
-    lu.solve_in_place(right);
-    lu.solve_adjoint_in_place(left);
-    v_ = right.head(n);
-    const ComplexVector w = left.head(n);
-    const ComplexVector P_mu = pencil.by_mu(mu, v_), P_h = pencil.by_h(mu, v_);
-    const auto change = [&](const ComplexVector& P_x) {
-      ComplexVector x = ComplexVector::Zero(n + 1);
-      x.head(n) = -P_x;
-      lu.solve_in_place(x);
-      return ComplexVector(x.head(n));
-    };
-    const ComplexVector v_mu = change(P_mu), v_h = change(P_h);
-    Values values;
-    values.g = right[n];
-    values.mu = -w.dot(P_mu);
-    values.h = -w.dot(P_h);
-    values.mumu = -w.dot(pencil.by_mu_twice(v_)) - 2.0 * w.dot(pencil.by_mu(mu, v_mu));
-    values.muh = -w.dot(pencil.by_both(mu, v_)) - w.dot(pencil.by_mu(mu, v_h)) - w.dot(pencil.by_h(mu, v_mu));
-    values.hh = -w.dot(pencil.by_h_twice(mu, v_)) - 2.0 * w.dot(pencil.by_h(mu, v_h));
-    if (v_.allFinite() && w.allFinite() && v_.norm() > 0.0 && w.norm() > 0.0) {
-      c_ = v_.normalized();
-      b_ = w.normalized();
+    v_.resize(n, 2);
+    ComplexMatrix w(n, 2);
+    for (int k = 0; k < 2; ++k) {
+      ComplexVector right = ComplexVector::Unit(n + 2, n + k), left = right;
+      lu.solve_in_place(right);
+      lu.solve_adjoint_in_place(left);
+      v_.col(k) = right.head(n);
+      G_.col(k) = right.tail(2);
+      w.col(k) = left.head(n);
+    }
+    const ComplexMatrix P_mu = pencil.by_mu(mu, v_), P_h = pencil.by_h(mu, v_);
+    const TwoByTwo G_mu = -w.adjoint() * P_mu, G_h = -w.adjoint() * P_h;
+    Values values{G_.determinant(), slope_of(G_, G_mu), slope_of(G_, G_h), 0.0, 0.0, 0.0};
+    if (wanted == Derivatives::second) {
+      const ComplexMatrix v_mu = change(lu, P_mu), v_h = change(lu, P_h);
+      const auto second = [&](const ComplexMatrix& P_xy, const ComplexMatrix& there) {
+        return TwoByTwo(-w.adjoint() * (P_xy + there));
+      };
+      values.mumu = mixed(G_, G_mu, G_mu, second(pencil.by_mu_twice(v_), 2.0 * pencil.by_mu(mu, v_mu)));
+      values.muh =
+          mixed(G_, G_mu, G_h, second(pencil.by_both(mu, v_), pencil.by_mu(mu, v_h) + pencil.by_h(mu, v_mu)));
+      values.hh = mixed(G_, G_h, G_h, second(pencil.by_h_twice(mu, v_), 2.0 * pencil.by_h(mu, v_h)));
+    }
+    if (v_.allFinite() && w.allFinite()) {
+      c_ = orthonormal(v_);
+      b_ = orthonormal(w);
     }
     return values;
   }
 
-  ComplexVector vector() const { return v_.normalized(); }
+  /// The right vector at an eigenvalue, of length one: V k with G k = 0.
+  ComplexVector vector() const {
+    const Eigen::Vector2cd first(G_(0, 1), -G_(0, 0)), second(G_(1, 1), -G_(1, 0));
+    return (v_ * (first.norm() >= second.norm() ? first : second)).normalized();
+  }
 
  private:
-  ComplexVector b_, c_, v_;
+  static ComplexMatrix orthonormal(const ComplexMatrix& columns) {
+    return columns.householderQr().householderQ() * ComplexMatrix::Identity(columns.rows(), columns.cols());
+  }
+
+  /// The derivative of v by x from P_x v.
+  static ComplexMatrix change(const ComplexLu& lu, const ComplexMatrix& P_x) {
+    ComplexMatrix result(P_x.rows(), 2);
+    for (int k = 0; k < 2; ++k) {
+      ComplexVector x = ComplexVector::Zero(lu.size());
+      x.head(P_x.rows()) = -P_x.col(k);
+      lu.solve_in_place(x);
+      result.col(k) = x.head(P_x.rows());
+    }
+    return result;
+  }
+
+  ComplexMatrix b_, c_, v_;  ///< n x 2
+  TwoByTwo G_ = TwoByTwo::Zero();
 };
 
 bool is_finite(Complex z) {
   return std::isfinite(z.real()) && std::isfinite(z.imag());
 }
 
-/// A root mu of g at fixed h by Newton's method; empty if it does not settle. `moved`: largest allowed way.
+/// A root mu of f at fixed h by Newton's method; empty if it does not settle. `moved`: largest allowed way.
 std::optional<Complex> root_at(const PencilAt& pencil, Complex mu, double moved, Bordered& bordered) {
   const Complex start = mu;
   for (int i = 0; i < most_iterations; ++i) {
-    const auto values = bordered.at(pencil, mu);
-    const Complex move = -values.g / values.mu;
+    const auto values = bordered.at(pencil, mu, Bordered::Derivatives::first);
+    const Complex move = -values.f / values.mu;
     if (!is_finite(move)) return std::nullopt;
     mu += move;
     if (std::abs(mu - start) > moved) return std::nullopt;
@@ -142,18 +181,20 @@ std::optional<Complex> root_at(const PencilAt& pencil, Complex mu, double moved,
   return std::nullopt;
 }
 
-/// The place between two close eigenvalues where g_mu vanishes, from a place near it. The borders come to
+/// The place between two close eigenvalues where f_mu vanishes, from a place near it. The borders come to
 /// belong to the two.
 Complex between_eigenvalues(const PencilAt& pencil, Complex mu, Bordered& bordered) {
-  constexpr int rounds = 4;         // g is about a parabola in mu, so that one would do with good borders
+  constexpr int rounds = 10;       // f is a parabola in mu once the borders belong to the two
+  constexpr double enough = 1e-9;  // relative: the last move. What is left, Newton's method for both corrects
   constexpr double farthest = 0.2;  // of mu, from the start: beyond that it is between others
   bordered.at(pencil, mu);          // with borders that belong to nothing yet
   const Complex start = mu;
   for (int i = 0; i < rounds; ++i) {
-    const auto g = bordered.at(pencil, mu);
-    const Complex next = mu - g.mu / g.mumu;
-    if (!is_finite(next) || std::abs(next - start) > farthest * std::abs(start)) return start;
-    mu = next;
+    const auto f = bordered.at(pencil, mu);
+    const Complex move = -f.mu / f.mumu;
+    if (!is_finite(move) || std::abs(mu + move - start) > farthest * std::abs(start)) return start;
+    mu += move;
+    if (std::abs(move) <= enough * std::abs(mu)) break;
   }
   return mu;
 }
@@ -167,15 +208,16 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
   const Complex start = h;
   const double size_of_mu = std::abs(mu);
   mu = between_eigenvalues(PencilAt(pencil, chart, h), mu, bordered);
+  double last_move = INFINITY;
   for (int i = 0; i < most_iterations; ++i) {
-    const auto g = bordered.at(PencilAt(pencil, chart, h), mu);
-    // [g_mu g_h; g_mumu g_muh] [dmu; dh] = -[g; g_mu]
-    const Complex determinant = g.mu * g.muh - g.h * g.mumu;
-    Complex dh = (g.mumu * g.g - g.mu * g.mu) / determinant;
+    const auto f = bordered.at(PencilAt(pencil, chart, h), mu);
+    // [f_mu f_h; f_mumu f_muh] [dmu; dh] = -[f; f_mu]
+    const Complex determinant = f.mu * f.muh - f.h * f.mumu;
+    Complex dh = (f.mumu * f.f - f.mu * f.mu) / determinant;
     Complex repelled = 0.0;
     for (const Complex other : known) repelled += 1.0 / (h - other);
     dh /= 1.0 + dh * repelled;
-    Complex dmu = (-g.mu - g.muh * dh) / g.mumu;
+    Complex dmu = (-f.mu - f.muh * dh) / f.mumu;
     if (!is_finite(dh) || !is_finite(dmu)) return std::nullopt;
     const double too_far = std::max(std::abs(dh) / (0.5 * reach), std::abs(dmu) / (0.5 * size_of_mu));
     if (too_far > 1.0) {
@@ -185,9 +227,13 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     h += dh;
     mu += dmu;
     if (std::abs(h - start) > reach) return std::nullopt;
-    if (!(std::abs(dh) <= settled * reach && std::abs(dmu) <= std::sqrt(settled) * size_of_mu)) continue;
-    const Complex curvature = g.hh - g.muh * g.muh / g.mumu;
-    return ExceptionalPoint{h, mu, -2.0 * g.h / g.mumu, h - 2.0 * g.h / curvature};
+    // The place is known to rounding over the slope of the discriminant: below that moves no longer shrink.
+    const bool at_rounding = std::abs(dh) <= loose * reach && std::abs(dh) > 0.7 * last_move;
+    last_move = std::abs(dh);
+    if (std::abs(dh) > settled * reach && !at_rounding) continue;
+    // The next root of the critical value of f over mu, by its curvature.
+    const Complex curvature = f.hh - f.muh * f.muh / f.mumu;
+    return ExceptionalPoint{h, mu, -2.0 * f.h / f.mumu, h - 2.0 * f.h / curvature};
   }
   return std::nullopt;
 }
@@ -207,15 +253,15 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
     std::array<Complex, 2> slope_there{};
     for (std::size_t k = 0; k < 2; ++k) {
       const Complex predicted = before[k] + (next - share) * slope[k];
-      bordered[k].at(here, predicted);
+      bordered[k].at(here, predicted, Bordered::Derivatives::first);
       const auto root = root_at(here, predicted, certain * std::abs(before[0] - before[1]), bordered[k]);
       if (!root) {
         mu = before;
         return false;
       }
       mu[k] = *root;
-      const auto g = bordered[k].at(here, mu[k]);
-      slope_there[k] = -g.h / g.mu * way;
+      const auto f = bordered[k].at(here, mu[k], Bordered::Derivatives::first);
+      slope_there[k] = -f.h / f.mu * way;
     }
     slope = slope_there;
     share = next;
@@ -248,7 +294,7 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
     bool followed = true;
     for (std::size_t k = 0; k < 2 && followed; ++k) {
       const double other = std::abs(mu[0] - mu[1]);
-      bordered[k].at(here, mu[k]);
+      bordered[k].at(here, mu[k], Bordered::Derivatives::first);
       const auto root = root_at(here, mu[k], (at_start ? 0.5 : certain) * other, bordered[k]);
       followed = root.has_value();
       if (followed) found[k] = *root;

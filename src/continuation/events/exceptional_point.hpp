@@ -1,12 +1,13 @@
 // An exceptional point at a complex value of the coordinate along the path, from the pencil there.
 //
-// The pencil P(s, h) is a power series in h, so that it is known at complex h as well. With borders b and c
+// The pencil P(s, h) is a power series in h, so that it is known at complex h as well. With two borders,
 //
-//   [P  b; c^H  0] [v; g] = [0; 1]
+//   [P  B; C^H  0] [V; G] = [0; I]
 //
-// g(s, h) vanishes at the eigenvalues (Govaerts, Numerical Methods for Bifurcations of Dynamical Equilibria,
-// SIAM 2000, Sect. 4.3), and with its derivative g_s at double ones. Newton's method for both converges
-// however close other exceptional points are; those that are known are divided out (Maehly).
+// f(s, h) = det G vanishes at the eigenvalues (Govaerts, Numerical Methods for Bifurcations of Dynamical
+// Equilibria, SIAM 2000, Chap. 3), and with its derivative f_s at double ones. Two borders, because modes
+// that hardly influence each other make P nearly singular twice. Newton's method for both converges however
+// close other exceptional points are; those that are known are divided out (Maehly).
 #pragma once
 
 #include <array>
@@ -24,8 +25,9 @@ struct ExceptionalPoint {
   Complex mu;  ///< the double eigenvalue in its chart
   /// ((mu_a - mu_b) / 2)^2 = slope (h - h*) + ...
   Complex slope;
-  /// The next root of that function, by its curvature. Two exceptional points are close to each other where
-  /// the two modes hardly influence each other; they are one place where the eigenvalues only coincide.
+  /// The next root of that function, by its curvature; accurate where it is close. Two exceptional points are
+  /// close to each other where the two modes hardly influence each other; they are one place where the
+  /// eigenvalues only coincide.
   Complex next;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "continuation/step/shared_basis.hpp"
@@ -351,18 +352,58 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   return roots;
 }
 
+struct RoughRoot {
+  Complex position;
+  Complex gap_below;  ///< of the parabola at the real part of its root
+};
+
 /// The roots of the parabolas that agree with the gap at either end, as distances from the left end. Where
 /// other eigenvalues are as close, no interpolant of the gap is accurate, but a parabola tells that these two
 /// come close, and about where.
-std::vector<Complex> rough_roots(const ComplexVector& left, const ComplexVector& right, double length) {
-  std::vector<Complex> roots;
+std::vector<RoughRoot> rough_roots(const ComplexVector& left, const ComplexVector& right, double length) {
+  std::vector<RoughRoot> roots;
   for (const ComplexVector* gap : {&left, &right}) {
     if (gap->size() < 3) continue;
-    for (const Complex root : polynomial_roots(gap->head(3)))
-      roots.push_back(root + (gap == &right ? length : 0.0));
+    const double end = gap == &right ? length : 0.0;
+    const ComplexVector parabola = gap->head(3);
+    for (const Complex root : polynomial_roots(parabola)) {
+      const Complex below = root.real();
+      roots.push_back({root + end, parabola[0] + below * (parabola[1] + below * parabola[2])});
+    }
   }
   return roots;
 }
+
+/// Gaps of the dense output at real places, against which hints are held.
+class GapsOnStep {
+ public:
+  GapsOnStep(const PathNode& left, const PathNode& right, double length)
+      : left_(left), right_(right), length_(length) {}
+
+  /// Whether a parabola is about the gap below its root on the real axis. Most parabolas, and their roots,
+  /// are not: the gap has changed otherwise on the way.
+  bool agree(const Strand& a, const Strand& b, const RoughRoot& root) {
+    constexpr double about = 0.15;  // a root at a wrong place costs time, a root that is left out an event
+    const double t = root.position.real() / length_;
+    if (!(t >= -behind_the_step(0.0) && t <= 1.0 + off_the_ends)) return false;
+    const Complex distance = value(a, t) - value(b, t);
+    const Complex gap = 0.25 * distance * distance;
+    return std::abs(gap - root.gap_below) <= about * std::abs(gap);
+  }
+
+ private:
+  Complex value(const Strand& strand, double t) {
+    auto known = samplers_.find(strand.track);
+    if (known == samplers_.end())
+      known = samplers_.try_emplace(strand.track, left_, right_, strand.track, length_).first;
+    return known->second(std::clamp(t, 0.0, 1.0))[strand.members.front()];
+  }
+
+  const PathNode& left_;
+  const PathNode& right_;
+  double length_;
+  std::map<std::size_t, StrandSampler> samplers_;
+};
 
 }  // namespace
 
@@ -418,6 +459,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
   }
   const std::vector<SeenStrand> seen =
       seen_from_both_ends(std::move(strands), left, right, reach_of(length, width));
+  GapsOnStep hints(left, right, length);
   for (const auto& [a, left_a, right_a] : seen) {
     for (const auto& [b, left_b, right_b] : seen) {
       if (&b == &a) break;
@@ -430,8 +472,9 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       for (const Complex root : gap_roots(at_left, at_right, length, width))
         expect(b, a, root, at_left, at_right);
       if (meetings.size() > before) continue;
-      for (const Complex root : rough_roots(at_left, at_right, length)) {
-        expect(b, a, root);
+      for (const RoughRoot& root : rough_roots(at_left, at_right, length)) {
+        if (!hints.agree(a, b, root)) continue;
+        expect(b, a, root.position);
         if (meetings.size() > before) meetings.back().is_rough = true;
       }
     }

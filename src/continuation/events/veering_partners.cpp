@@ -139,7 +139,7 @@ class PencilSearch {
     const Complex h = expected_.position - position_;
     const double reach = reach_in_widths * widest_;
     auto point = find_exceptional_point(pencil(), chart(), h, mean_there(), reach, known);
-    if (point) return point;
+    if (point || expected_.is_rough) return point;
     const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
     return mean ? find_exceptional_point(pencil(), chart(), h, *mean, reach, known) : std::nullopt;
   }
