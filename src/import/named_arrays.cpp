@@ -255,8 +255,28 @@ class ArrayReader {
     std::string list;
     for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
     fail(found.empty() ? "no values of a parameter: expected an array 'parameter' of " +
-                             std::to_string(samples_) + " numbers, one per sample"
+                             std::to_string(samples_) + " numbers, one per sample" + nearly_a_parameter()
                        : "the parameter may be any of " + list + "; name it with --parameter");
+  }
+
+  /// What hinders arrays of one number per sample from being taken for the parameter; empty if there are
+  /// none.
+  std::string nearly_a_parameter() const {
+    std::string text;
+    for (const NamedArray& array : arrays_) {
+      const auto values = numbers_per_sample(array.name);
+      if (!values || array.shape.empty()) continue;
+      std::vector<double> sorted = *values;
+      std::sort(sorted.begin(), sorted.end());
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      text += "; array " + array.name +
+              (twice != sorted.end()
+                   ? " has the value " + exact_text(*twice) + " twice: leave one of the two samples out"
+                   : " neither rises nor falls throughout: if it is the parameter, name it "
+                     "with --parameter " +
+                         array.name);
+    }
+    return text;
   }
 
   const NamedArray* texts(std::initializer_list<const char*> names) const {

@@ -41,11 +41,10 @@ void write_matrices(Hdf5File& file, const std::string& name, const std::vector<M
 void write_samples(const std::string& path, const SampledData& data) {
   check(data);
   Hdf5File file = Hdf5File::in_memory(path);
-  file.create_dataset({"parameter",
-                       ElementType::real,
-                       {data.count()},
-                       false,
-                       {{"units", data.parameter_unit.empty() ? "1" : data.parameter_unit}}});
+  DatasetSpec parameter{"parameter", ElementType::real, {data.count()}, false, {}};
+  parameter.attributes["units"] = data.parameter_unit.empty() ? "1" : data.parameter_unit;
+  if (!data.parameter_name.empty()) parameter.attributes["name"] = data.parameter_name;
+  file.create_dataset(parameter);
   file.write_rows("parameter", 0, data.values);
   for (const SampledMatrix& named : sampled_matrices()) write_matrices(file, named.name, data.*named.samples);
   write_matrices(file, "A_error", data.A_error);
@@ -104,7 +103,9 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   }
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
-  write_samples(data.string(), imported.samples);
+  SampledData samples = imported.samples;
+  samples.parameter_name = imported.parameter;
+  write_samples(data.string(), samples);
   write_durably(scene.string(), {scene_text(imported, data.filename().string())});
   return scene.string();
 }

@@ -72,26 +72,21 @@ SampledData read_data(TableReader& table, const Scene& scene) {
   const std::string path = beside_scene(scene, table);
   try {
     return read_samples(path);
-  } catch (const Hdf5Error& error) {
-    table.fail("file", error.what());
-  } catch (const std::invalid_argument& error) {
-    table.fail("file", path + ": " + error.what());
+  } catch (const std::exception& error) {
+    const std::string message = error.what();
+    const bool names_file = message.find(path) != std::string::npos;
+    table.fail("file", names_file ? message : path + ": " + message);
   }
 }
 
 void check_within(const Scene& scene, const Parameter& variable, int index, const SampledData& data,
                   const std::vector<Vector>& check_at) {
-  const double least = data.values.front();
-  const double most = data.values.back();
-  const double slack = same_value * std::max(std::abs(least), std::abs(most));
+  std::vector<double> samples = data.values;
+  for (double& value : samples) value /= variable.factor;
   for (Vector values : check_at) {
     scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
-    const double value = values[index];
-    if (value >= least - slack && value <= most + slack) continue;
-    throw InputError(scene.path + ": [trace]: " + variable.name + " = " +
-                     exact_text(value / variable.factor) + " lies outside the samples, which reach from " +
-                     exact_text(least / variable.factor) + " to " + exact_text(most / variable.factor) +
-                     "; choose from and to between them");
+    const std::string fault = outside_samples(variable.name, values[index] / variable.factor, samples);
+    if (!fault.empty()) throw InputError(scene.path + ": [trace]: " + fault);
   }
 }
 

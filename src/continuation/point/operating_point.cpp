@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/model/sample_errors.hpp"
+#include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
@@ -119,6 +122,19 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   return result;
 }
 
+/// Throws InputError for a value outside the samples of the model, if it has such.
+void check_within_samples(const TraceSetup& setup, const std::vector<double>& values) {
+  const SampleErrors* errors = setup.model->sample_errors();
+  if (errors == nullptr) return;
+  const std::string& name = setup.options.parameter;
+  std::vector<double> samples = errors->values();
+  for (double& sample : samples) sample /= setup.model->description().parameters.at(name).factor;
+  for (const double value : values) {
+    const std::string fault = outside_samples(name, value, samples);
+    if (!fault.empty()) throw InputError(setup.scene.path + ": " + fault);
+  }
+}
+
 }  // namespace
 
 double natural_frequency(const OperatingMode& mode) {
@@ -130,6 +146,7 @@ double damping_ratio(const OperatingMode& mode) {
 }
 
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {
+  check_within_samples(setup, values);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.parts = find_independent_parts(setup.model->coefficient_matrices());
   RunCounts counts;

@@ -1,0 +1,231 @@
+"""Samples of matrices as other programs write them: what is read, what is said about them, and bad input."""
+
+import json
+import unittest
+
+import h5py
+import numpy as np
+
+from command_test_case import CommandTest
+from program import each_case
+
+SPEEDS = [80.0, 125.0, 170.0, 215.0, 260.0]
+NAMES = ["plunge", "pitch", "plunge velocity", "pitch velocity"]
+
+WING = """\
+title = "Wing"
+[parameters]
+V = { value = 80, unit = "m/s" }
+[sampled_family]
+file = "samples.h5"
+[trace]
+parameter = "V"
+from = 80
+to = 260
+"""
+ONE = WING.replace("from = 80\nto = 260\n", "from = 170\n")
+
+
+def state_matrix(V):
+    return np.array([[0, 0, 1, 0], [0, 0, 0, 1], [-100 - 0.002 * V**2, 0.02 * V**2, -0.1 - 0.01 * V, 0],
+                     [0.01 * V**2 * np.sin(V / 99), -400 + 0.012 * V**2, 0, -0.2 - 0.005 * V]])
+
+
+def fill(file, speeds=SPEEDS):
+    file["parameter"] = speeds
+    file["parameter"].attrs["units"] = "m/s"
+    file["A"] = [state_matrix(V) for V in speeds]
+    file["state_names"] = NAMES
+
+
+def like_matlab(file):
+    """Rows and columns exchanged, texts of fixed length, every number a double, every list a row."""
+    file["parameter"] = np.array(SPEEDS)[None, :]
+    file["parameter"].attrs["units"] = np.bytes_("m/s")
+    file["A"] = [state_matrix(V).T for V in SPEEDS]
+    file["state_names"] = np.array(NAMES, dtype="S20")[None, :]
+    file["derivative_order"] = np.array([[2.0, 2.0, 2.0, 2.0]])
+    file.attrs["matrix_order"] = np.bytes_("columns")
+    file.attrs["digits"] = np.array([[12.0]])
+    file.attrs["source"] = np.array(["MATLAB"], dtype="S10")
+
+
+def like_julia(file):
+    """Texts padded with spaces, or in ASCII; a column of values."""
+    file["parameter"] = np.array(SPEEDS)[:, None]
+    file["parameter"].attrs["units"] = "m/s"
+    file["A"] = [state_matrix(V).T for V in SPEEDS]
+    padded = h5py.h5t.C_S1.copy()
+    padded.set_size(20)
+    padded.set_strpad(h5py.h5t.STR_SPACEPAD)
+    names = h5py.h5d.create(file.id, b"state_names", padded, h5py.h5s.create_simple((4,)))
+    names.write(h5py.h5s.ALL, h5py.h5s.ALL, np.array([n.ljust(20) for n in NAMES], dtype="S20"), mtype=padded)
+    file.attrs.create("matrix_order", "columns", dtype=h5py.string_dtype("ascii"))
+    file.attrs["digits"] = np.int64(12)
+
+
+class SamplesTest(CommandTest):
+    def samples(self, write=fill, name="samples.h5"):
+        with h5py.File(self.folder / name, "w") as file:
+            write(file)
+        return self.folder / name
+
+
+class OtherProgramsTest(SamplesTest):
+    def spectrum(self, write):
+        self.samples(write)
+        self.write("wing.toml", WING)
+        return json.loads(self.run_well("spectrum", "wing.toml", "--at", "100", "--json"))
+
+    def test_files_of_matlab_and_julia_are_read_as_those_of_python(self):
+        expected = self.spectrum(fill)
+        for write in (like_matlab, like_julia):
+            with self.subTest(write.__name__):
+                for row, other in zip(expected, self.spectrum(write), strict=True):
+                    self.assertAlmostEqual(row["imag"], other["imag"], 9)
+                    self.assertEqual(row["what_moves"], other["what_moves"])
+                    self.assertGreater(other["digits_error"], 0.0)
+
+    def test_a_single_sample_of_matlab_has_no_dimension_for_it(self):
+        def write(file):
+            file["parameter"] = np.array([[170.0]])
+            file["A"] = state_matrix(170.0)
+        self.samples(write)
+        self.write("one.toml", ONE)
+        rows = json.loads(self.run_well("spectrum", "one.toml", "--json"))
+        self.assertEqual(len(rows), 3)
+
+
+class InfoTest(SamplesTest):
+    def test_samples_are_described(self):
+        self.samples(like_matlab)
+        text = self.run_well("info", "samples.h5")
+        for part in ("5 of A, 4 x 4", "80, 125, 170, 215, 260 m/s", "plunge, pitch", "12 significant", "MATLAB"):
+            self.assertIn(part, text)
+        info = json.loads(self.run_well("info", "samples.h5", "--json"))
+        self.assertEqual((info["values"], info["state_names"], info["digits"]), (SPEEDS, NAMES, 12))
+
+    def test_faults_of_the_samples_are_told(self):
+        self.samples(lambda file: file.create_dataset("parameter", data=[1.0, 2.0]))
+        self.assert_refused(self.run_program("info", "samples.h5"), ["samples.h5: expected A"])
+
+    def test_imported_samples_keep_name_and_unit_of_the_parameter(self):
+        speeds = np.array(SPEEDS)
+        np.savez(self.folder / "wing.npz", V=speeds, A=[state_matrix(V) for V in speeds])
+        self.run_well("import", "numpy", "wing.npz", "-o", ".", "--unit", "m/s")
+        self.assertIn("80, 125, 170, 215, 260 m/s", self.run_well("info", "wing.h5"))
+        self.assertIn("V, m/s  error there", self.run_well("suggest", "wing.h5"))
+
+
+class VerifyTest(SamplesTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "scenes").mkdir()
+        self.samples(name="scenes/samples.h5")
+        self.write("scenes/wing.toml", WING)
+        self.run_well("trace", "scenes/wing.toml", "-o", "loci.h5", "--quiet")
+
+    def test_the_scene_is_found_from_the_loci_file_too(self):
+        self.run_well("verify", "loci.h5")
+        elsewhere = self.folder
+        self.folder = self.folder / "scenes"
+        self.run_well("verify", elsewhere / "loci.h5")
+        self.run_well("verify", "../loci.h5")
+
+    def test_both_may_be_beside_the_loci_file(self):
+        (self.folder / "copy").mkdir()
+        for name in ("scenes/wing.toml", "scenes/samples.h5", "loci.h5"):
+            (self.folder / name).rename(self.folder / "copy" / name.rpartition("/")[2])
+        self.run_well("verify", "copy/loci.h5")
+
+    def test_a_scene_that_is_nowhere_is_told_with_the_places_where_it_was_sought(self):
+        (self.folder / "scenes/wing.toml").unlink()
+        self.assert_refused(self.run_program("verify", "loci.h5"),
+                            ["loci.h5: ", "samples.h5 beside scenes/wing.toml", "nor beside the loci file"])
+
+    def test_changed_samples_are_told(self):
+        def write(file):
+            fill(file)
+            file["A"][:, 3, 1] += 1.0
+        self.samples(write, "scenes/samples.h5")
+        run = self.run_program("verify", "loci.h5")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("do not fit the matrices in scenes/samples.h5: has this file changed", run.stderr)
+
+
+@each_case([
+    ("values outside the samples", WING, ["spectrum", "scene.toml", "--at", "100", "300"],
+     ["scene.toml: V = 300 lies outside the samples, which reach from 80 to 260"]),
+    ("a single sample cannot be traced", ONE, ["trace", "scene.toml", "-o", "x.h5"],
+     ["to: is missing", "of a single sample, 'eigentrail spectrum'"]),
+    ("a file of samples as scene", WING, ["spectrum", "samples.h5"],
+     ["samples.h5: is an HDF5 file, no scene (TOML); 'eigentrail info' says what it holds"]),
+    ("a file of samples as scene of a trace", WING, ["trace", "samples.h5", "-o", "x.h5"],
+     ["samples.h5: is an HDF5 file, no scene"]),
+    ("import without a format", WING, ["import"], ["expected a format (", "numpy"]),
+    ("import of an ending", WING, ["import", "npz", "a.npz"], ["found 'npz'; did you mean 'numpy'?"]),
+    ("import of a file without a format", WING, ["import", "a.mat", "-o", "x"],
+     ["for this file: import matlab a.mat -o FOLDER"]),
+])
+class BadCommandsTest(SamplesTest):
+    def check(self, scene, command, fragments):
+        self.samples()
+        self.write("scene.toml", scene)
+        self.assert_refused(self.run_program(*command), fragments)
+
+
+class OneSampleTest(SamplesTest):
+    def test_a_range_beyond_one_sample_is_told_with_what_to_do(self):
+        self.samples(lambda file: fill(file, [170.0]))
+        self.write("one.toml", ONE)
+        self.assert_refused(self.run_program("trace", "one.toml", "-o", "x.h5", "--to", "180"),
+                            ["V = 180 lies outside the samples: there is one, at 170", "'eigentrail spectrum'"])
+        self.assert_refused(self.run_program("suggest", "samples.h5"), ["samples.h5: has one sample; at least two"])
+
+
+def changed(**changes):
+    """Writes good samples with other datasets, and with attributes @name."""
+    def write(file):
+        fill(file)
+        for name, value in changes.items():
+            if name in file:
+                del file[name]
+            if name.startswith("at_"):
+                file.attrs[name[3:]] = value
+            else:
+                file[name] = value
+    return write
+
+
+@each_case([
+    ("misspelt order", changed(at_matrix_order="column"),
+     ["matrix_order: expected 'rows' or 'columns'", "found 'column'"]),
+    ("digits as text", changed(at_digits="six"), ["attribute digits: expected a number"]),
+    ("digits with a fraction", changed(at_digits=6.5), ["attribute digits: expected a whole number, found 6.5"]),
+    ("value twice", changed(parameter=[80.0, 125.0, 170.0, 125.0, 260.0]),
+     ["parameter has the value 125 twice, at samples 2 and 4"]),
+    ("too few names", changed(state_names=NAMES[:3]), ["state_names has 3 entries; expected 4"]),
+    ("name twice", changed(state_names=["a", "b", "c", "b"]), ["state_names has 'b' twice, for states 2 and 4"]),
+    ("names as numbers", changed(state_names=[1, 2, 3, 4]), ["state_names", "not a text"]),
+    ("table of values", changed(parameter=np.ones((2, 5))), ["parameter: expected a list of values"]),
+])
+class BadSamplesTest(SamplesTest):
+    def check(self, write, fragments):
+        self.samples(write)
+        self.write("scene.toml", WING)
+        self.assert_refused(self.run_program("spectrum", "scene.toml"), ["samples.h5", *fragments])
+
+
+class BadArraysTest(SamplesTest):
+    def refused(self, fragments, **arrays):
+        np.savez(self.folder / "wing.npz", **arrays)
+        self.assert_refused(self.run_program("import", "numpy", "wing.npz", "-o", "x"), fragments)
+
+    def test_a_parameter_with_a_value_twice_is_named(self):
+        A = [state_matrix(V) for V in SPEEDS]
+        self.refused(["array wind has the value 5 twice"], A=A, wind=[3.0, 5.0, 5.0, 7.0, 9.0])
+        self.refused(["array wind neither rises nor falls", "--parameter wind"], A=A, wind=[3.0, 7.0, 5.0, 6.0, 9.0])
+
+
+if __name__ == "__main__":
+    unittest.main()
