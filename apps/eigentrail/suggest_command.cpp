@@ -84,6 +84,11 @@ int run_suggest(const SuggestArguments& arguments) {
   for (const Suggestion& one : first)
     rows.push_back({exact_text(one.p), rounded(one.error, 2), complex_text(one.s.real(), one.s.imag(), 6)});
   print_table(rows);
+  const auto none_wanted =
+      std::find_if(first.begin(), first.end(), [](const Suggestion& one) { return !one.note.empty(); });
+  if (none_wanted != first.end())
+    std::printf("  note  at %s = %s there is %s\n", setup.options.parameter.c_str(),
+                exact_text(none_wanted->p).c_str(), none_wanted->note.c_str());
   return done;
 }
 

@@ -12,6 +12,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/digits.hpp"
+#include "import/openfast_states.hpp"
 
 namespace eigentrail {
 namespace {
@@ -295,7 +296,9 @@ class ArrayReader {
     if (const NamedArray* names = texts({"state_names", "states", "names"})) {
       if (names->size() == n * samples_ && samples_ > 1 && names->shape.size() == 2)
         names_per_sample_ = rows_of_texts(*names, n);
-      data.state_names = names_per_sample_.empty() ? names->texts : names_per_sample_.front();
+      for (std::vector<std::string>& one : names_per_sample_) one = short_openfast_names(one);
+      data.state_names =
+          names_per_sample_.empty() ? short_openfast_names(names->texts) : names_per_sample_.front();
     }
     if (const NamedArray* units = texts({"state_units", "units"})) data.state_units = units->texts;
     for (const char* name : {"derivative_order", "order"}) {

@@ -1,6 +1,7 @@
 // Linearizations of OpenFAST (.lin): one file per operating point and azimuth. The states of the blades
 // become multiblade coordinates, the azimuths of an operating point are averaged.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -26,6 +27,11 @@ constexpr double large_periodicity = 0.05;
 
 std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 std::string rounded_text(double x) {
@@ -56,7 +62,7 @@ class States {
   /// Names, units, orders and frames in multiblade coordinates.
   void describe(SampledData& data) const {
     std::vector<std::string> names;
-    for (const OpenFastState& state : parsed_) names.push_back(name_of(state, state.blade));
+    for (const OpenFastState& state : parsed_) names.push_back(short_name(state));
     const std::vector<std::string> parts = multiblade_names(n_blades_);
     std::vector<bool> fixed(parsed_.size(), false);
     for (const BladeStates& tuple : tuples_) {
@@ -66,7 +72,8 @@ class States {
           const auto i = static_cast<std::size_t>((*list)[k]);
           OpenFastState state = parsed_[i];
           state.motion += " " + parts[k];
-          names[i] = name_of(state, 0);
+          state.blade = 0;
+          names[i] = short_name(state);
           fixed[i] = true;
         }
       }
@@ -80,11 +87,6 @@ class States {
   }
 
  private:
-  static std::string name_of(const OpenFastState& state, int blade) {
-    return state.motion + (blade > 0 ? ", blade " + std::to_string(blade) : "") +
-           (state.is_rate ? " velocity" : "");
-  }
-
   /// For each state of the first file its place in another one.
   std::vector<Eigen::Index> places_in(const LinFile& file) const {
     std::map<std::string, Eigen::Index> own;
@@ -116,7 +118,7 @@ class States {
         count += files_[f].states[static_cast<std::size_t>(places_[f][i])].rotating ? 1 : 0;
       if (count != 0 && count != files_.size()) differ.insert(parsed_[i].motion);
       const bool marked = 2 * count > files_.size();
-      if (marked != (parsed_[i].blade > 0)) blades.insert(name_of(parsed_[i], parsed_[i].blade));
+      if (marked != (parsed_[i].blade > 0)) blades.insert(short_name(parsed_[i]));
       rotating_.push_back(marked || parsed_[i].blade > 0);
     }
     const auto listed = [](const std::set<std::string>& names) {
@@ -212,7 +214,9 @@ class OpenFastImport {
     const Parameter parameter = chosen_parameter();
     std::vector<OperatingPointFiles> points = operating_points(parameter);
     Imported result;
-    result.title = std::filesystem::path(files_[0].path).stem().stem().string() + ", OpenFAST";
+    const std::filesystem::path first = files_[0].path;
+    result.title =
+        (files_.size() == 1 ? first.stem().stem().string() : common_name(request_.files)) + ", OpenFAST";
     result.parameter = parameter.name;
     SampledData& data = result.samples;
     data.parameter_unit = parameter.unit;
@@ -258,7 +262,8 @@ class OpenFastImport {
       std::vector<const LinQuantity*> found;
       for (const std::vector<LinQuantity>* table : {&file.states, &file.operating_values}) {
         for (const LinQuantity& one : *table) {
-          if (one.description.find(text) != std::string::npos) found.push_back(&one);
+          if (in_lower_case(one.description).find(in_lower_case(text)) != std::string::npos)
+            found.push_back(&one);
         }
       }
       if (found.empty())
@@ -370,10 +375,12 @@ class OpenFastImport {
                                            " blades in multiblade coordinates"));
     result.understood.push_back("entries known to " + std::to_string(digits) + " digits");
     const std::string percent = rounded_text(std::round(periodicity * 1e4) / 1e2) + " %";
-    if (fewest > 1)
-      result.understood.push_back("averaged over " + count_of(fewest, "azimuth") +
-                                  (points.size() > 1 ? " or more" : "") +
-                                  "; single azimuths differ from the average by up to " + percent);
+    std::size_t most = fewest;
+    for (const OperatingPointFiles& point : points) most = std::max(most, point.files.size());
+    if (most > 1)
+      result.understood.push_back(
+          "averaged over " + (fewest < most ? std::to_string(fewest) + " to " : std::string()) +
+          count_of(most, "azimuth") + "; single azimuths differ from the average by up to " + percent);
     if (fewest == 1 && (!states.tuples().empty() || states.rotating_states_left()) && turning(points))
       result.warnings.emplace_back(
           "an operating point has one azimuth only; an average over several, evenly spread, "

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "core/hdf5_file.hpp"
@@ -90,6 +91,23 @@ std::string scene_text(const Imported& imported, const std::string& file) {
 }
 
 }  // namespace
+
+std::string common_name(const std::vector<std::string>& files) {
+  std::string name = std::filesystem::path(files.front()).stem().string();
+  const std::string first = name;
+  for (const std::string& file : files) {
+    const std::string other = std::filesystem::path(file).stem().string();
+    const auto place =
+        std::mismatch(name.begin(), name.end(), other.begin(), other.end()).first - name.begin();
+    const auto end = static_cast<std::size_t>(place);
+    if (end < name.size()) name.erase(std::min(name.find_last_of("._-", end), end));
+  }
+  // "ws" of ws00.0.1.lin and ws03.0.1.lin, and not "ws0".
+  const bool within_number = name.size() < first.size() && !name.empty() &&
+                             std::isdigit(static_cast<unsigned char>(first[name.size()])) != 0;
+  if (within_number) name.erase(name.find_last_not_of("0123456789") + 1);
+  return name.empty() ? first : name;
+}
 
 std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,
                          bool force) {

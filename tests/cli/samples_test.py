@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 from command_test_case import CommandTest
-from program import each_case
+from program import SCENES, each_case
 
 SPEEDS = [80.0, 125.0, 170.0, 215.0, 260.0]
 NAMES = ["plunge", "pitch", "plunge velocity", "pitch velocity"]
@@ -181,6 +181,132 @@ class OneSampleTest(SamplesTest):
         self.assert_refused(self.run_program("trace", "one.toml", "-o", "x.h5", "--to", "180"),
                             ["V = 180 lies outside the samples: there is one, at 170", "'eigentrail spectrum'"])
         self.assert_refused(self.run_program("suggest", "samples.h5"), ["samples.h5: has one sample; at least two"])
+
+
+def line_samples(file):
+    """Exact for a straight interpolant: flutter at p = 0.4, and a steady real root."""
+    p = np.linspace(0.0, 1.0, 8)
+    file["parameter"] = p
+    file["A"] = [[[0.05 * (x - 0.4), 1, 0], [-1, 0.05 * (x - 0.4), 0], [0, 0, -3]] for x in p]
+    file["state_names"] = ["swing", "rate", "filter"]
+
+
+LINE = """\
+[sampled_family]
+file = "samples.h5"
+[trace]
+parameter = "p"
+from = 0
+to = 1
+"""
+
+
+class TraceOfSamplesTest(SamplesTest):
+    def trace_line(self, write=line_samples, *options):
+        self.samples(write)
+        self.write("line.toml", LINE)
+        return self.run_well("trace", "line.toml", "-o", "loci.h5", "--force", *options)
+
+    def test_exact_data_leave_nothing_undecided(self):
+        text = self.trace_line()
+        self.assertNotIn("undecided", text)
+        self.assertRegex(text, r"flutter .* unstable above\n")
+        self.assertIn("to flutter, mode 1", text)
+
+    def uncertain(self, file):
+        """The real part, -0.02 + 0.05 p, may be off by more than 0.02 and less than 0.03."""
+        line_samples(file)
+        file["A_error"] = np.broadcast_to(np.diag([0.009, 0.009, 0.0]), (8, 3, 3))
+
+    def test_intervals_cut_by_the_range_are_marked(self):
+        self.assertRegex(self.trace_line(self.uncertain), r"flutter .* between 0 and 0.8\d*, or beyond 0 \(end of the range\)")
+        self.assertIn("or beyond 0 (end of the range)", self.run_well("events", "loci.h5"))
+        (event,) = json.loads(self.run_well("events", "loci.h5", "--json"))
+        self.assertEqual(event["interval_cut"], [True, False])
+        self.assertEqual(event["interval"][0], 0.0)
+
+    def test_what_moves_is_named_by_the_states(self):
+        self.assertRegex(self.trace_line(), r"1 .* swing 50 %, rate 50 %\n")
+        self.assertIn("filter 100 %", self.run_well("info", "loci.h5"))
+        with h5py.File(self.folder / "loci.h5") as file:
+            self.assertEqual(file["mode_name"].asstr()[1], "filter 100 %")
+
+    def wavy(self, digits):
+        """A damping ratio that goes up and down by 1e-3."""
+        def write(file):
+            p = np.linspace(0.0, 1.0, 25)
+            file["parameter"] = p
+            file["A"] = [[[0, 1], [-1, -0.1 - 2e-3 * np.sin(9 * x)]] for x in p]
+            if digits:
+                file.attrs["digits"] = digits
+        return write
+
+    def test_extrema_that_are_shallower_than_the_errors_of_the_data_are_left_out(self):
+        deep = self.trace_line(self.wavy(None))
+        self.assertRegex(deep, r"extremum .* damping ratio")
+        shallow = self.trace_line(self.wavy(2))
+        self.assertNotIn("damping ratio 0.0", shallow)
+        self.assertIn("extrema of damping ratios left out: no deeper than the errors of the data", shallow)
+        self.assertIn("no special points", self.run_well("events", "loci.h5"))
+        # Events that a save has written already are taken back.
+        self.trace_line(self.wavy(2), "--save-every", "0")
+        self.assertIn("no special points", self.run_well("events", "loci.h5"))
+
+    def test_a_band_without_a_mode_has_a_note(self):
+        self.samples(line_samples)
+        self.write("line.toml", LINE)
+        band = ["--modes", "band = ['100 Hz', '200 Hz']"]
+        self.assertIn("note  none of the modes with Im s between", self.run_well("spectrum", "line.toml", *band))
+        run = self.run_program("spectrum", "line.toml", "--csv", *band)
+        self.assertEqual(run.returncode, 0)
+        self.assertIn("none of the modes", run.stderr)
+
+    def test_explain_describes_samples_and_interpolant(self):
+        self.samples(lambda file: (line_samples(file), file.attrs.__setitem__("digits", 4)))
+        self.write("line.toml", LINE.replace('samples.h5"', 'samples.h5"\nkinks = [1, 0]'))
+        text = self.run_well("explain", "line.toml")
+        for part in ("samples      8 at p = 0 to 1", "interpolant  degree 1, no poles", "kinks        none declared",
+                     "digits       4 significant"):
+            self.assertIn(part, text)
+
+    def test_zero_eigenvalues_have_no_damping_ratio(self):
+        def write(file):
+            file["parameter"] = [0.0, 0.5, 1.0]
+            file["A"] = [[[0, 1, 0], [-1 - x, -0.1, 0], [0, 0, 0]] for x in (0.0, 0.5, 1.0)]
+        self.trace_line(write)
+        self.assertNotIn("nan", self.run_well("eval", "loci.h5", "--at", "0.3"))
+
+
+class OpenFastTest(SamplesTest):
+    DATA = SCENES.parent.parent / "tests" / "import" / "data"
+
+    def load(self, *options):
+        files = sorted(self.DATA.glob("ws0*.lin"))
+        return self.run_well("import", "openfast", *files, "-o", "x", "--force", *options)
+
+    def test_title_and_name_are_the_common_part_of_the_files(self):
+        self.assertIn("averaged over 1 to 3 azimuths", self.load())
+        self.assertTrue((self.folder / "x" / "ws.toml").read_text().startswith('title = "ws, OpenFAST"'))
+
+    def test_parameter_is_found_whatever_the_case(self):
+        self.assertIn("nacelle yaw", self.load("--parameter", "NACELLE yaw"))
+
+    def test_descriptions_in_arrays_become_short_names(self):
+        names = ["ED 1st tower fore-aft bending mode DOF (internal DOF index = DOF_TFA1), m",
+                 "ED First time derivative of 1st tower fore-aft bending mode DOF (internal DOF index = DOF_TFA1), m/s"]
+        A = [[[0, 1], [-k, -0.1]] for k in (1.0, 2.0)]
+        np.savez(self.folder / "t.npz", A=A, V=[1.0, 2.0], state_names=names)
+        self.run_well("import", "numpy", "t.npz", "-o", ".")
+        self.assertIn("1st tower fore-aft velocity", self.run_well("info", "t.h5"))
+        self.assertNotIn("DOF", self.run_well("spectrum", "t.toml"))
+
+    def test_long_names_are_cut_in_tables_only(self):
+        names = ["a" * 120, "b" * 120]
+        A = [[[0, 1], [-k, -0.1]] for k in (1.0, 2.0)]
+        np.savez(self.folder / "t.npz", A=A, V=[1.0, 2.0], state_names=names)
+        self.run_well("import", "numpy", "t.npz", "-o", ".")
+        self.assertLess(max(map(len, self.run_well("spectrum", "t.toml").splitlines())), 240)
+        self.assertIn(names[0], self.run_well("spectrum", "t.toml", "--csv"))
 
 
 def changed(**changes):

@@ -128,7 +128,7 @@ class Births(ProgramTest):
         found = loci.eigentrail.sel(p=[0.5, birth, 1.4], mode="mode 2")
         self.assertEqual(np.isnan(found.eigenvalue).values.tolist(), [True, False, False])
         self.assertEqual(found.certified.values.tolist(), [-1, 1, 1])
-        self.assertNotIn("mode_name", loci.coords)  # a family of matrices: nothing that moves has a name
+        self.assertNotIn("mode_name", loci.coords)  # a family of matrices without names
 
 
 class Boundary(FileTest):
