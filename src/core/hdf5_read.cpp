@@ -68,8 +68,7 @@ double read_real_attribute(hid_t object, const std::string& name) {
   const Handle attribute = open_scalar_attribute(object, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
   const H5T_class_t kind = H5Tget_class(stored);
-  if (kind != H5T_FLOAT && kind != H5T_INTEGER)
-    throw Hdf5Error("attribute " + name + ": expected a number");
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) throw Hdf5Error("attribute " + name + ": expected a number");
   double value = 0.0;
   check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read attribute " + name);
   return value;

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 from command_test_case import CommandTest
-from program import SCENES, each_case
+from program import FAMILY, SCENES, each_case
 
 SPEEDS = [80.0, 125.0, 170.0, 215.0, 260.0]
 NAMES = ["plunge", "pitch", "plunge velocity", "pitch velocity"]
@@ -340,6 +340,13 @@ class BadSamplesTest(SamplesTest):
         self.samples(write)
         self.write("scene.toml", WING)
         self.assert_refused(self.run_program("spectrum", "scene.toml"), ["samples.h5", *fragments])
+
+
+class BadFamilyTest(SamplesTest):
+    def test_states_of_a_polynomial_family_with_the_same_name_are_refused(self):
+        family = FAMILY + 'state_names = ["a", "a"]\n'
+        self.write("scene.toml", family)
+        self.assert_refused(self.run_program("spectrum", "scene.toml"), ["state_names: has 'a' twice, for states 1 and 2"])
 
 
 class BadArraysTest(SamplesTest):
