@@ -82,7 +82,8 @@ void print_for_people(const LociFile& loci, const std::vector<Value>& values) {
   for (const Value& value : values) {
     const double size = std::abs(value.s);
     rows.push_back({exact_text(value.p), value.mode, complex_text(value.s.real(), value.s.imag(), 10),
-                    rounded(size, 8), std::isfinite(size) ? rounded(-value.s.real() / size + 0.0, 6) : "-"});
+                    rounded(size, 8),
+                    std::isfinite(size) && size > 0.0 ? rounded(-value.s.real() / size + 0.0, 6) : "-"});
     if (loci.data_errors) rows.back().push_back(rounded(value.interpolation + value.digits, 2));
   }
   print_table(rows);

@@ -50,8 +50,10 @@ void print_events_json(const LociFile& loci) {
                                {"real", event.s.real()},
                                {"imag", event.s.imag()},
                                {"modes", event.modes}};
-    if (const EventInterval* interval = interval_of(loci, number))
+    if (const EventInterval* interval = interval_of(loci, number)) {
       row["interval"] = {interval->from, interval->to};
+      row["interval_cut"] = is_cut(*interval, loci.lowest(), loci.highest());
+    }
     if (std::isfinite(event.half_width)) row["half_width"] = event.half_width;
     if (std::isfinite(event.puiseux.real())) row["puiseux"] = {event.puiseux.real(), event.puiseux.imag()};
     if (event.direction != 0) row["direction"] = event.direction;
@@ -85,8 +87,10 @@ void print_events_table(const LociFile& loci) {
   for (std::size_t i = 0; i < loci.events.size(); ++i) {
     const LociEvent& event = loci.events[i];
     std::string remark = remark_on(event);
-    if (const EventInterval* interval = interval_of(loci, i))
-      remark += (remark.empty() ? "" : ", ") + interval_text(*interval);
+    if (const EventInterval* interval = interval_of(loci, i)) {
+      const std::string text = interval_text(*interval, loci.lowest(), loci.highest());
+      remark += (remark.empty() || text.empty() ? "" : ", ") + text;
+    }
     rows.push_back({event.kind, rounded(event.parameter, 14),
                     complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark});
   }

@@ -46,6 +46,14 @@ void print_parameters(const Model& model, int traced) {
   print_table(rows);
 }
 
+/// What is known of the data of the model: samples and their interpolant.
+void print_data(const Model& model) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [label, text] : model.description().data) rows.push_back({"  " + label, printable(text)});
+  if (!rows.empty()) std::printf("data\n");
+  print_table(rows);
+}
+
 void print_effects(const Model& model) {
   std::vector<std::vector<std::string>> active;
   if (model.description().effects.size() > 1) {
@@ -233,6 +241,7 @@ int run_explain(const ExplainArguments& arguments) {
       std::printf("  %s\n", sentence.c_str());
   }
   print_parameters(*model, traced);
+  print_data(*model);
   print_effects(*model);
   print_states(*model);
   auto parts = find_independent_parts(model->coefficient_matrices());

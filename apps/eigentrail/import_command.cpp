@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -19,20 +18,6 @@ struct ImportArguments {
   bool force = false;
   std::map<std::string, std::string> options;
 };
-
-/// What the names of the files begin with, up to a separator: "ws03.0" for ws03.0.1.lin and ws03.0.13.lin.
-/// Empty if they have nothing in common.
-std::string common_name(const std::vector<std::string>& files) {
-  std::string name = std::filesystem::path(files.front()).stem().string();
-  for (const std::string& file : files) {
-    const std::string other = std::filesystem::path(file).stem().string();
-    const auto end = std::mismatch(name.begin(), name.end(), other.begin(), other.end()).first;
-    if (end != name.end())
-      name.erase(std::min(name.find_last_of("._-", static_cast<std::size_t>(end - name.begin())),
-                          static_cast<std::size_t>(end - name.begin())));
-  }
-  return name;
-}
 
 /// A title as the name of a file: other characters than letters, digits, points and dashes become
 /// underscores.

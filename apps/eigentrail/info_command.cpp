@@ -7,9 +7,11 @@
 
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 #include "ranges.hpp"
+#include "samples_info.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -113,7 +115,7 @@ void print_for_people(const LociFile& loci) {
   };
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
     const double share = loci.certified_share(i);
-    rows.push_back({loci.modes[i], printable(loci.mode_names[i]), end_value(0, i),
+    rows.push_back({loci.modes[i], cell_text(loci.mode_names[i]), end_value(0, i),
                     end_value(static_cast<Eigen::Index>(loci.n_nodes()) - 1, i),
                     std::isnan(share) ? "-" : rounded(100.0 * share, 4) + " %",
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
@@ -163,6 +165,12 @@ void print_json(const LociFile& loci) {
 }
 
 int run_info(const InfoArguments& arguments) {
+  if (holds_samples(arguments.file)) {
+    if (arguments.scene)
+      throw InputError(arguments.file + ": holds samples of matrices; --scene is for loci files");
+    print_samples(arguments.file, arguments.json);
+    return done;
+  }
   const LociFile loci = read_loci(arguments.file);
   if (arguments.scene) {
     std::fputs(attribute(loci, "scene").c_str(), stdout);
@@ -178,8 +186,9 @@ int run_info(const InfoArguments& arguments) {
 
 void add_info(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command = program.add_subcommand("info", "what a loci file holds and how it was made");
-  command->add_option("FILE", arguments->file, "loci file")->required();
+  CLI::App* command =
+      program.add_subcommand("info", "what a loci file or a file of samples holds, and how it was made");
+  command->add_option("FILE", arguments->file, "loci file, or samples of matrices (HDF5)")->required();
   auto* json = command->add_flag("--json", arguments->json, "print one JSON object");
   command->add_flag("--scene", arguments->scene, "print the scene that the file was made from")
       ->excludes(json);

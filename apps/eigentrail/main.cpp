@@ -7,6 +7,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
+#include "eigentrail/import/importer.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // defined only if LAPACK is OpenBLAS
 
@@ -30,6 +31,13 @@ void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
   const std::string given = argv[1];
   if (std::find(commands.begin(), commands.end(), given) == commands.end()) {
     throw InputError("unknown command '" + given + "'; " + suggestion(given, commands));
+  }
+  if (given == "import" && argc > 2 && argv[2][0] != '-') (void)importer(argv[2]);
+  if (given == "import" && argc == 2) {
+    std::string formats;
+    for (const Importer& one : importers()) formats += (formats.empty() ? "" : ", ") + one.format;
+    throw InputError("import: expected a format (" + formats +
+                     ") and files; eigentrail import FORMAT --help says what is read");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "eigentrail/continuation/event_kinds.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
 
@@ -33,8 +34,33 @@ std::vector<std::string> event_row(const Event& event, const std::string& parame
           remark};
 }
 
-std::string interval_text(const EventInterval& interval) {
-  return "between " + rounded(interval.from, 6) + " and " + rounded(interval.to, 6);
+std::array<bool, 2> is_cut(const EventInterval& interval, double from, double to) {
+  return {interval.from <= std::min(from, to), interval.to >= std::max(from, to)};
+}
+
+std::string interval_text(const EventInterval& interval, double from, double to) {
+  constexpr int usual_digits = 6, most_digits = 12;
+  int digits = usual_digits;
+  while (digits < most_digits && rounded(interval.from, digits) == rounded(interval.to, digits)) ++digits;
+  const std::string low = rounded(interval.from, digits), high = rounded(interval.to, digits);
+  if (low == high) return "";
+  const auto [cut_low, cut_high] = is_cut(interval, from, to);
+  const std::string between = "between " + low + " and " + high;
+  if (cut_low && cut_high) return between + ", or beyond the range";
+  if (cut_low || cut_high) return between + ", or beyond " + (cut_low ? low : high) + " (end of the range)";
+  return between;
+}
+
+std::string cell_text(const std::string& text) {
+  constexpr std::size_t most = 100, kept = 48;
+  const std::string line = printable(text);
+  if (line.size() <= most) return line;
+  // Not within a character of UTF-8.
+  const auto inside = [&line](std::size_t at) { return (line[at] & 0xC0) == 0x80; };
+  std::size_t head = kept, tail = line.size() - kept;
+  while (head > 0 && inside(head)) --head;
+  while (tail < line.size() && inside(tail)) ++tail;
+  return line.substr(0, head) + " ... " + line.substr(tail);
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows) {

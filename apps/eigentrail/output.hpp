@@ -1,6 +1,7 @@
 // Formats numbers and prints small tables.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,15 @@ std::string complex_text(double real, double imag, int digits = 6);
 /// The cells of a table row that describe an event.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 
-/// "between 16.6 and 16.7".
-std::string interval_text(const EventInterval& interval);
+/// "between 16.6 and 16.7"; an end that is one of the range `from` ... `to` of the trace is marked as such:
+/// the event may lie beyond it. Empty where the ends agree to the digits in which events are printed.
+std::string interval_text(const EventInterval& interval, double from, double to);
+
+/// Whether the interval ends where the range of the trace does: at its low end, at its high end.
+std::array<bool, 2> is_cut(const EventInterval& interval, double from, double to);
+
+/// A description for a column of a table: cut in the middle where it is long.
+std::string cell_text(const std::string& text);
 
 /// Prints rows with aligned columns, two spaces apart, indented by two.
 void print_table(const std::vector<std::vector<std::string>>& rows);

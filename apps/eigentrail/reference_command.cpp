@@ -19,7 +19,8 @@ struct ReferenceArguments {
 
 /// The heading of a table in TOML: [name] for tables that a scene may have only once, otherwise [[name]].
 std::string heading(const std::string& name) {
-  static const std::set<std::string> single = {"trace", "events", "frame", "gravity"};
+  static const std::set<std::string> single = {"trace",   "events",        "frame",
+                                               "gravity", "matrix_family", "sampled_family"};
   return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
 }
 
@@ -28,8 +29,7 @@ constexpr const char* page_heading =
     "Every table that a scene may have, with its keys. "
     "Written by `eigentrail reference --markdown` from what the program reads; "
     "[the scene reference](scene.md) explains parameters, places and directions, and families of matrices. "
-    "Every table but `[trace]`, `[events]`, `[frame]` and `[gravity]` "
-    "may stand several times and have a `name`.\n";
+    "Tables with `[[ ]]` may stand several times and have a `name`.\n";
 
 EffectHelp trace_help() {
   EffectHelp help{"trace", "what is followed, and how accurately; each key is an option of `trace`, too", {}};
@@ -56,8 +56,34 @@ EffectHelp events_help() {
   return help;
 }
 
+/// A scene has one of the families, and no elements beside it.
+EffectHelp matrix_family_help() {
+  const std::string powers = "list of matrices";
+  return {
+      "matrix_family",
+      "M x'' + C x' + K x = 0 or E x' = A x, polynomials of the parameter that [trace] names",
+      {{"M", powers, "mass, by powers of the parameter, lowest first; entries may be expressions", "none"},
+       {"C", powers, "damping and gyroscopic matrix", "none"},
+       {"K", powers, "stiffness; required with M or C", "none"},
+       {"A", powers, "beside K: constraints A x = 0; else the state matrix of E x' = A x", "none"},
+       {"E", powers, "beside A", "identity"},
+       {"state_names", "texts", "names of the rows, each once", "x1, x2, ..."},
+       {"file", "text",
+        "HDF5 file with datasets /M/0, /K/0, /K/1, ... or /E/0, /A/0, ..., in place of the keys above",
+        "none"}}};
+}
+
+EffectHelp sampled_family_help() {
+  return {"sampled_family",
+          "matrices at single values of the parameter that [trace] names, interpolated between them",
+          {{"file", "text", "HDF5 file with the samples, in the scene's folder or below it"},
+           {"kinks", "list of numbers", "values, of samples, at which the matrices have a kink", "none"},
+           {"digits", "1 to 17", "significant digits of the entries", "the file's"},
+           {"degree", "1 to 15", "degree of the interpolant; without poles", "chosen"}}};
+}
+
 std::vector<EffectHelp> whole_reference() {
-  std::vector<EffectHelp> all = {trace_help(), events_help()};
+  std::vector<EffectHelp> all = {trace_help(), events_help(), matrix_family_help(), sampled_family_help()};
   for (EffectHelp& effect : effect_reference()) all.push_back(std::move(effect));
   return all;
 }

@@ -124,7 +124,7 @@ std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
   if (point.errors) row.push_back(rounded(point.error(i), 2));
   row.insert(row.end(), {rounded(in_hertz(natural_frequency(mode)), 6), rounded(in_hertz(mode.s.imag()), 6),
                          std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
-                         rounded(mode.condition, 3), printable(mode.what_moves)});
+                         rounded(mode.condition, 3), cell_text(mode.what_moves)});
   return row;
 }
 
@@ -144,6 +144,7 @@ void print_point(const ShownPoint& point) {
     }
   }
   print_table(rows);
+  if (!point.note.empty()) std::printf("  note  %s\n", point.note.c_str());
   print_modes("modes that grow", growing);
   print_modes("modes of which the errors of the data leave undecided whether they grow", undecided);
 }
@@ -154,7 +155,7 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
   for (const ShownPoint& point : points) {
     std::printf("%s = %s%s\n", setup.options.parameter.c_str(), exact_text(point.p).c_str(),
                 (unit.empty() ? unit : " " + unit).c_str());
-    print_point(point);
+    if (point.fault.empty()) print_point(point);
   }
 }
 
@@ -173,6 +174,9 @@ int run_spectrum(const SpectrumArguments& arguments) {
   }
   int code = done;
   for (const ShownPoint& point : points) {
+    if (!point.note.empty() && (arguments.csv || arguments.json))
+      std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
+                   exact_text(point.p).c_str(), point.note.c_str());
     if (point.fault.empty()) continue;
     std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
                  exact_text(point.p).c_str(), printable(point.fault).c_str());

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,7 @@
 #include "eigentrail/accuracy/suggest.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/sampled_data.hpp"
+#include "eigentrail/scene/units.hpp"
 #include "output.hpp"
 
 namespace eigentrail::app {
@@ -31,12 +33,19 @@ Scene scene_of(const std::string& path) {
       throw InputError(path + ": " + error.what());
     }
   }();
-  const std::string name = std::filesystem::path(path).filename().string();
-  return parse_scene(
-      "[sampled_family]\nfile = \"" + name +
-          "\"\n[trace]\nparameter = \"p\"\nfrom = " + exact_text(data.values.front()) +
-          "\nto = " + exact_text(data.count() > 1 ? data.values.back() : data.values.front() + 1.0) + "\n",
-      (std::filesystem::path(path).parent_path() / "samples").string());
+  const std::string file = std::filesystem::path(path).filename().string();
+  const std::string& name = data.parameter_name;
+  const bool known_name =
+      !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  const std::string parameter = known_name ? name : "p";
+  const bool known_unit = data.parameter_unit != "1" && unit_factor(data.parameter_unit).has_value();
+  std::string text = "[parameters]\n" + parameter + " = { value = " + exact_text(data.values.front()) +
+                     (known_unit ? ", unit = \"" + data.parameter_unit + "\"" : "") + " }\n";
+  text += "[sampled_family]\nfile = \"" + file + "\"\n[trace]\nparameter = \"" + parameter +
+          "\"\nfrom = " + exact_text(data.values.front()) + "\n";
+  if (data.count() > 1) text += "to = " + exact_text(data.values.back()) + "\n";
+  return parse_scene(text, path);
 }
 
 void print_json(const std::vector<Suggestion>& suggestions) {
@@ -69,10 +78,17 @@ int run_suggest(const SuggestArguments& arguments) {
   }
   std::printf("%zu of %zu gaps miss the tolerance %s; compute next:\n", above, all.size(),
               exact_text(tolerance).c_str());
-  std::vector<std::vector<std::string>> rows{{setup.options.parameter, "error there", "of the eigenvalue"}};
+  const std::string& unit = setup.model->description().parameters.at(setup.options.parameter).unit;
+  std::vector<std::vector<std::string>> rows{
+      {setup.options.parameter + (unit.empty() ? "" : ", " + unit), "error there", "of the eigenvalue"}};
   for (const Suggestion& one : first)
     rows.push_back({exact_text(one.p), rounded(one.error, 2), complex_text(one.s.real(), one.s.imag(), 6)});
   print_table(rows);
+  const auto none_wanted =
+      std::find_if(first.begin(), first.end(), [](const Suggestion& one) { return !one.note.empty(); });
+  if (none_wanted != first.end())
+    std::printf("  note  at %s = %s there is %s\n", setup.options.parameter.c_str(),
+                exact_text(none_wanted->p).c_str(), none_wanted->note.c_str());
   return done;
 }
 

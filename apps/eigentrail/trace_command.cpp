@@ -10,6 +10,7 @@
 #include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/accuracy/data_errors.hpp"
+#include "eigentrail/accuracy/shallow_extrema.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/stability/undecided_ranges.hpp"
@@ -133,7 +134,8 @@ void print_findings(const TraceOptions& options, const TraceResult& result, cons
     rows.push_back(event_row(result.events[i], options.parameter));
     if (errors == nullptr || !std::isfinite(errors->intervals[i].from)) continue;
     std::string& remark = rows.back().back();
-    remark += (remark.empty() ? "" : ", ") + interval_text(errors->intervals[i]);
+    const std::string interval = interval_text(errors->intervals[i], options.from, result.reached);
+    remark += (remark.empty() || interval.empty() ? "" : ", ") + interval;
   }
   if (!rows.empty()) std::printf("  special points\n");
   print_table(rows);
@@ -183,7 +185,7 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
     // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
     if (path.eigenvalues.col(mode).array().isNaN().all()) continue;
     rows.push_back({std::to_string(mode + 1), text(path.eigenvalues(0, mode)),
-                    text(path.eigenvalues(last, mode)), printable(names[static_cast<std::size_t>(mode)])});
+                    text(path.eigenvalues(last, mode)), cell_text(names[static_cast<std::size_t>(mode)])});
   }
   print_table(rows);
   if (errors != nullptr) print_data_errors(*errors, path, result.s_ref);
@@ -276,7 +278,11 @@ class TraceRun {
     const RecordedPath path = recorder_.path();
     const EigenvalueAccuracy accuracy{setup_.options.tolerance, result_.s_ref};
     std::vector<StableRange> ranges = stable_ranges(path, result_.events, accuracy);
-    const std::optional<DataErrors> errors = data_errors(*setup_.model, setup_.options, path, result_.events);
+    std::optional<DataErrors> errors = data_errors(*setup_.model, setup_.options, path, result_.events);
+    const int shallow = errors ? remove_shallow_extrema(path, result_.events, *errors) : 0;
+    if (shallow > 0)
+      result_.notes.push_back(std::to_string(shallow) + (shallow == 1 ? " extremum" : " extrema") +
+                              " of damping ratios left out: no deeper than the errors of the data");
     if (errors) ranges = with_undecided(ranges, path, result_.events, *errors, accuracy);
     writer_->finish(result_, ranges, errors ? &*errors : nullptr);
     if (!arguments_.quiet) {

@@ -44,7 +44,12 @@ int run_verify(const VerifyArguments& arguments) {
                 report.missing == 1 ? "has" : "have");
   }
   if (report.passed()) return done;
-  std::fprintf(stderr, "eigentrail: %s: the check failed\n", arguments.file.c_str());
+  std::fprintf(stderr, "eigentrail: %s: the check failed%s\n", arguments.file.c_str(),
+               report.other_matrices.empty()
+                   ? ""
+                   : ("; the stored points do not fit the matrices in " + report.other_matrices +
+                      ": has this file changed since the trace? Trace again, or restore it")
+                         .c_str());
   return numbers_failed;
 }
 

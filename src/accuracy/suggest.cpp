@@ -31,7 +31,7 @@ Suggestion suggestion_at(const TraceSetup& setup, double p) {
   for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
   const Matrix errors = *data_errors_at(*setup.model, setup.options, p, s);
   const double reference = reference_of(setup.options, s);
-  Suggestion result{p, 0.0, {}};
+  Suggestion result{p, 0.0, {}, point.note};
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     const double relative = errors(i, 0) / std::max(std::abs(s[i]), reference);
     if (!(relative > result.error)) continue;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <random>
 
@@ -14,18 +17,56 @@
 namespace eigentrail {
 namespace {
 
-/// If the scene has its matrices in a separate file, that file is read again. Its place is given only by the
-/// loci file, which may come from an untrusted source. It is therefore read only if the scene file beside it
-/// exists and has the text stored in the loci file. Throws InputError otherwise.
-void check_place_of_matrices(const Scene& scene, const std::string& path) {
+/// The file with the matrices of a scene, as the scene names it; empty if they stand in the scene.
+std::string file_of_matrices(const Scene& scene) {
   const Value* family = scene.root.find("matrix_family");
   if (family == nullptr) family = scene.root.find("sampled_family");
   const auto* table = family != nullptr ? std::get_if<Table>(&family->data) : nullptr;
-  if (table == nullptr || table->find("file") == nullptr) return;
-  if (read_scene(scene.path).text != scene.text) {
-    throw InputError(path + ": was made from another scene than " + scene.path +
-                     " is now; its matrices cannot be checked");
+  const Value* file = table != nullptr ? table->find("file") : nullptr;
+  const auto* name = file != nullptr ? std::get_if<std::string>(&file->data) : nullptr;
+  return name == nullptr ? "" : *name;
+}
+
+/// Where the scene of a loci file may be: its path as it was given to the trace, seen from here, from the
+/// loci file's folder and from the folders above it; and beside the loci file.
+std::vector<std::filesystem::path> places_of_scene(const std::string& scene, const std::string& loci) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> places{scene};
+  std::error_code error;
+  const fs::path file = fs::absolute(loci, error);
+  if (error || fs::path(scene).is_absolute()) return places;
+  for (fs::path folder = file.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    places.push_back(folder / scene);
+    if (folder == folder.root_path()) break;
   }
+  places.push_back(file.parent_path() / fs::path(scene).filename());
+  return places;
+}
+
+/// If the scene has its matrices in a separate file, that file is read again. Its place is given only by the
+/// loci file, which may come from an untrusted source. It is therefore read only if the scene file beside it
+/// exists and has the text stored in the loci file. Throws InputError otherwise.
+void find_matrices(Scene& scene, const std::string& path) {
+  const std::string matrices = file_of_matrices(scene);
+  if (matrices.empty()) return;
+  const std::string given = scene.path;
+  bool changed = false;
+  for (const std::filesystem::path& place : places_of_scene(given, path)) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(place, error) || error) continue;
+    std::ifstream stream(place, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    scene.path = place.string();
+    if (text == scene.text) return;
+    changed = true;
+  }
+  if (changed)
+    throw InputError("it was made from another scene than " + given + " is now; the matrices in " + matrices +
+                     " cannot be checked");
+  throw InputError(
+      "the matrices are in " + matrices + " beside " + given +
+      ", which is neither in this folder nor beside the loci file or above it; go to the folder in "
+      "which the trace was made, or put both beside the loci file");
 }
 
 /// The scene and the options of the trace in the file.
@@ -36,7 +77,7 @@ TraceSetup rebuild(const LociFile& loci) {
     if (!key.empty() && text != "auto") options.emplace_back(key, text);
   }
   Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
-  check_place_of_matrices(scene, loci.path);
+  find_matrices(scene, loci.path);
   TraceSetup setup = prepare_trace(std::move(scene), options);
   const bool same = setup.model->n_coordinates() == loci.equilibrium.cols() &&
                     setup.model->n_constraints() == loci.multiplier.cols();
@@ -174,6 +215,21 @@ double largest_of(const LociFile& loci) {
   return largest;
 }
 
+/// Whether eigenvalues that were solved at stored points are off there already: then the matrices are others.
+bool differs_at_points(const PathProblem& problem, const LociFile& loci, double tolerance, double reference) {
+  const std::size_t last = loci.steps.size() - 1;
+  for (const std::size_t step : {std::size_t{0}, last / 2, last}) {
+    const double p = loci.p[step];
+    const auto spectrum = fresh_spectrum(problem, loci, {step, 0.0}, p);
+    if (!spectrum) continue;
+    std::vector<Complex> exact;
+    for (const StartingMode& found : spectrum->modes) exact.push_back(found.s);
+    const ComplexVector s = loci.eigenvalues_at(LociFile::Position{step, 0.0});
+    if (discrepancies(loci, {step, 0.0}, s, exact, tolerance, reference).maxCoeff() > tolerance) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
@@ -211,6 +267,10 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
       report.missing = std::max(report.missing, missing);
     }
   }
+  const std::string matrices = file_of_matrices(setup.scene);
+  if (!report.passed() && !matrices.empty() && !loci.steps.empty() &&
+      differs_at_points(problem, loci, report.tolerance, reference))
+    report.other_matrices = (std::filesystem::path(setup.scene.path).parent_path() / matrices).string();
   return report;
 }
 

@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "core/hdf5_handle.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
 namespace {
@@ -13,33 +18,75 @@ Handle open_scalar_attribute(hid_t object, const std::string& name) {
   Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
   const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of attribute " + name);
   if (H5Sget_simple_extent_npoints(space) != 1)
-    throw Hdf5Error("HDF5 attribute " + name + " is not a single value");
+    throw Hdf5Error("attribute " + name + ": expected a single value");
   return attribute;
+}
+
+/// Reads texts of fixed length, as MATLAB and NumPy write them, or of variable length, as h5py does. `read`
+/// fills memory of a given type; `shape` has the number of texts.
+std::vector<std::string> read_stored_texts(hid_t stored, hid_t shape, std::size_t count,
+                                           const std::function<herr_t(hid_t, void*)>& read,
+                                           const std::string& action) {
+  if (H5Tget_class(stored) != H5T_STRING) throw Hdf5Error("HDF5 could not " + action + ": it is not a text");
+  const htri_t variable = H5Tis_variable_str(stored);
+  check(variable, action);
+  // A memory type of another character set would not be converted; bytes are taken as UTF-8.
+  const Handle type(H5Tcopy(stored), H5Tclose, action);
+  std::vector<std::string> texts;
+  if (variable > 0) {
+    std::vector<char*> raw(count, nullptr);
+    check(read(type, raw.data()), action);
+    for (const char* text : raw) texts.emplace_back(text == nullptr ? "" : text);
+    H5Dvlen_reclaim(type, shape, H5P_DEFAULT, raw.data());
+    return texts;
+  }
+  const std::size_t size = H5Tget_size(stored);
+  const bool spaces = H5Tget_strpad(stored) == H5T_STR_SPACEPAD;
+  if (size == 0 || count > max_elements / size) throw Hdf5Error("HDF5 could not " + action + ": too large");
+  std::vector<char> raw(count * size);
+  check(read(type, raw.data()), action);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string text(raw.data() + i * size, size);
+    text.erase(std::min(text.find('\0'), text.size()));
+    if (spaces) text.erase(text.find_last_not_of(' ') + 1);
+    texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 std::string read_text_attribute(hid_t object, const std::string& name) {
   const Handle attribute = open_scalar_attribute(object, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
-  if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) <= 0) {
-    throw Hdf5Error("HDF5 attribute " + name + " is not a text");
-  }
-  const Handle type = text_type();
-  char* text = nullptr;
-  check(H5Aread(attribute, type, &text), "read attribute " + name);
-  std::string result = text == nullptr ? "" : text;
-  H5free_memory(text);
-  return result;
+  const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of attribute " + name);
+  if (H5Tget_class(stored) != H5T_STRING) throw Hdf5Error("attribute " + name + ": expected a text");
+  const auto read = [&](hid_t type, void* to) { return H5Aread(attribute, type, to); };
+  return read_stored_texts(stored, space, 1, read, "read attribute " + name)[0];
 }
 
-template <class Number>
-Number read_number_attribute(hid_t object, const std::string& name, hid_t type) {
+/// Integers are read as real numbers, too; MATLAB writes every number as a real one.
+double read_real_attribute(hid_t object, const std::string& name) {
   const Handle attribute = open_scalar_attribute(object, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
-  if (H5Tget_class(stored) != H5Tget_class(type))
-    throw Hdf5Error("HDF5 attribute " + name + " is of another type");
-  Number value{};
-  check(H5Aread(attribute, type, &value), "read attribute " + name);
+  const H5T_class_t kind = H5Tget_class(stored);
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) throw Hdf5Error("attribute " + name + ": expected a number");
+  double value = 0.0;
+  check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read attribute " + name);
   return value;
+}
+
+std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
+  const Handle attribute = open_scalar_attribute(object, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
+  if (H5Tget_class(stored) == H5T_INTEGER) {
+    std::int64_t value = 0;
+    check(H5Aread(attribute, H5T_NATIVE_INT64, &value), "read attribute " + name);
+    return value;
+  }
+  constexpr double largest = 9007199254740992.0;  // up to here every whole number is a double
+  const double value = read_real_attribute(object, name);
+  if (!(std::abs(value) <= largest) || value != std::floor(value))
+    throw Hdf5Error("attribute " + name + ": expected a whole number, found " + exact_text(value));
+  return static_cast<std::int64_t>(value);
 }
 
 }  // namespace
@@ -139,13 +186,17 @@ std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) co
 }
 
 std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
-  std::vector<char*> raw = implementation_->read<char*>(dataset, ElementType::text);
-  std::vector<std::string> texts;
-  for (char* text : raw) {
-    texts.emplace_back(text == nullptr ? "" : text);
-    H5free_memory(text);
-  }
-  return texts;
+  const std::string action = "read dataset " + dataset + " of " + implementation_->path;
+  const std::uint64_t count = element_count(shape(dataset));
+  if (count > max_elements) throw Hdf5Error("HDF5 could not " + action + ": too large");
+  if (count == 0) return {};
+  const Handle set = implementation_->dataset(dataset);
+  const Handle stored(H5Dget_type(set), H5Tclose, action);
+  const Handle space(H5Dget_space(set), H5Sclose, action);
+  const auto read = [&](hid_t type, void* to) {
+    return H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+  };
+  return read_stored_texts(stored, space, count, read, action);
 }
 
 bool Hdf5File::has_attribute(const std::string& name) const {
@@ -155,10 +206,10 @@ std::string Hdf5File::text_attribute(const std::string& name) const {
   return read_text_attribute(implementation_->file, name);
 }
 double Hdf5File::real_attribute(const std::string& name) const {
-  return read_number_attribute<double>(implementation_->file, name, H5T_NATIVE_DOUBLE);
+  return read_real_attribute(implementation_->file, name);
 }
 std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
-  return read_number_attribute<std::int64_t>(implementation_->file, name, H5T_NATIVE_INT64);
+  return read_integer_attribute(implementation_->file, name);
 }
 
 std::string Hdf5File::text_attribute(const std::string& dataset, const std::string& name) const {

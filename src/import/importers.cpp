@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cctype>
+#include <map>
+
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "import/formats.hpp"
@@ -10,13 +14,39 @@ const std::vector<Importer>& importers() {
   return all;
 }
 
+namespace {
+
+/// What users call the formats: the endings of their files, and programs that write them.
+const std::map<std::string, std::string> other_names{
+    {"npz", "numpy"},        {"npy", "numpy"},     {"python", "numpy"},      {"mat", "matlab"},
+    {"lin", "openfast"},     {"fast", "openfast"}, {"mtx", "matrix-market"}, {"csv", "matrix-market"},
+    {"mm", "matrix-market"}, {"op4", "nastran"},   {"pch", "nastran"}};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
 const Importer& importer(const std::string& format) {
   std::vector<std::string> known;
   for (const Importer& one : importers()) {
     if (one.format == format) return one;
     known.push_back(one.format);
   }
-  throw InputError("unknown format '" + format + "'; " + suggestion(format, known));
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  std::string ending = lower_case(format);
+  ending.erase(0, ending.find_last_of('.') + 1);
+  const auto other = other_names.find(ending);
+  std::string meant = other == other_names.end() ? nearest_name(ending, known) : other->second;
+  if (std::find(known.begin(), known.end(), meant) == known.end()) meant.clear();
+  const bool is_file = format.find('.') != std::string::npos;
+  const std::string remedy = meant.empty() ? ""
+                             : is_file     ? "; for this file: import " + meant + " " + format + " -o FOLDER"
+                                           : "; did you mean '" + meant + "'?";
+  throw InputError("import: expected a format (" + list + "), found '" + format + "'" + remedy);
 }
 
 }  // namespace eigentrail

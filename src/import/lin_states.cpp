@@ -8,14 +8,6 @@
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
-namespace {
-
-std::string name_of(const OpenFastState& state, int blade) {
-  return state.motion + (blade > 0 ? ", blade " + std::to_string(blade) : "") +
-         (state.is_rate ? " velocity" : "");
-}
-
-}  // namespace
 
 std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -34,7 +26,7 @@ Matrix LinStates::matrix(std::size_t file) const {
 
 void LinStates::describe(SampledData& data) const {
   std::vector<std::string> names;
-  for (const OpenFastState& state : parsed_) names.push_back(name_of(state, state.blade));
+  for (const OpenFastState& state : parsed_) names.push_back(short_name(state));
   const std::vector<std::string> parts = multiblade_names(n_blades_);
   std::vector<bool> fixed(parsed_.size(), false);
   for (const BladeStates& tuple : tuples_) {
@@ -44,7 +36,8 @@ void LinStates::describe(SampledData& data) const {
         const auto i = static_cast<std::size_t>((*list)[k]);
         OpenFastState state = parsed_[i];
         state.motion += " " + parts[k];
-        names[i] = name_of(state, 0);
+        state.blade = 0;
+        names[i] = short_name(state);
         fixed[i] = true;
       }
     }
@@ -87,7 +80,7 @@ void LinStates::find_frames() {
       count += files_[f].states[static_cast<std::size_t>(places_[f][i])].rotating ? 1 : 0;
     if (count != 0 && count != files_.size()) differ.insert(parsed_[i].motion);
     const bool marked = 2 * count > files_.size();
-    if (marked != (parsed_[i].blade > 0)) blades.insert(name_of(parsed_[i], parsed_[i].blade));
+    if (marked != (parsed_[i].blade > 0)) blades.insert(short_name(parsed_[i]));
     rotating_.push_back(marked || parsed_[i].blade > 0);
   }
   const auto listed = [](const std::set<std::string>& names) {

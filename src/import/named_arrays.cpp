@@ -10,6 +10,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/digits.hpp"
+#include "import/openfast_states.hpp"
 #include "import/text_lines.hpp"
 
 namespace eigentrail {
@@ -255,8 +256,28 @@ class ArrayReader {
     std::string list;
     for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
     fail(found.empty() ? "no values of a parameter: expected an array 'parameter' of " +
-                             std::to_string(samples_) + " numbers, one per sample"
+                             std::to_string(samples_) + " numbers, one per sample" + nearly_a_parameter()
                        : "the parameter may be any of " + list + "; name it with --parameter");
+  }
+
+  /// What hinders arrays of one number per sample from being taken for the parameter; empty if there are
+  /// none.
+  std::string nearly_a_parameter() const {
+    std::string text;
+    for (const NamedArray& array : arrays_) {
+      const auto values = numbers_per_sample(array.name);
+      if (!values || array.shape.empty()) continue;
+      std::vector<double> sorted = *values;
+      std::sort(sorted.begin(), sorted.end());
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      text += "; array " + array.name +
+              (twice != sorted.end()
+                   ? " has the value " + exact_text(*twice) + " twice: leave one of the two samples out"
+                   : " neither rises nor falls throughout: if it is the parameter, name it "
+                     "with --parameter " +
+                         array.name);
+    }
+    return text;
   }
 
   const NamedArray* texts(std::initializer_list<const char*> names) const {
@@ -275,7 +296,9 @@ class ArrayReader {
     if (const NamedArray* names = texts({"state_names", "states", "names"})) {
       if (names->size() == n * samples_ && samples_ > 1 && names->shape.size() == 2)
         names_per_sample_ = rows_of_texts(*names, n);
-      data.state_names = names_per_sample_.empty() ? names->texts : names_per_sample_.front();
+      for (std::vector<std::string>& one : names_per_sample_) one = short_openfast_names(one);
+      data.state_names =
+          names_per_sample_.empty() ? short_openfast_names(names->texts) : names_per_sample_.front();
     }
     if (const NamedArray* units = texts({"state_units", "units"})) data.state_units = units->texts;
     for (const char* name : {"derivative_order", "order"}) {

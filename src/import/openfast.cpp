@@ -1,6 +1,7 @@
 // Linearizations of OpenFAST (.lin): one file per operating point and azimuth. The states of the blades
 // become multiblade coordinates, the azimuths of an operating point are averaged.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -23,6 +24,11 @@ constexpr double same_operating_point = 0.01;
 constexpr double to_rpm = 9.549296585513721;  // 30 / pi
 /// What is left of the dependence on the azimuth is worth a warning from here.
 constexpr double large_periodicity = 0.05;
+
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 std::string rounded_text(double x) {
   constexpr double digits = 1e6;
@@ -59,7 +65,9 @@ class OpenFastImport {
     const Parameter parameter = chosen_parameter();
     std::vector<OperatingPointFiles> points = operating_points(parameter);
     Imported result;
-    result.title = std::filesystem::path(files_[0].path).stem().stem().string() + ", OpenFAST";
+    const std::string first = std::filesystem::path(files_[0].path).stem().stem().string();
+    const std::string common = files_.size() == 1 ? first : common_name(request_.files);
+    result.title = (common.empty() ? first : common) + ", OpenFAST";
     result.parameter = parameter.name;
     SampledData& data = result.samples;
     data.parameter_unit = parameter.unit;
@@ -109,7 +117,8 @@ class OpenFastImport {
       std::vector<const LinQuantity*> found;
       for (const std::vector<LinQuantity>* table : {&file.states, &file.operating_values}) {
         for (const LinQuantity& one : *table) {
-          if (one.description.find(text) != std::string::npos) found.push_back(&one);
+          if (in_lower_case(one.description).find(in_lower_case(text)) != std::string::npos)
+            found.push_back(&one);
         }
       }
       if (found.empty())
@@ -224,10 +233,12 @@ class OpenFastImport {
                                            " blades in multiblade coordinates"));
     result.understood.push_back("entries known to " + std::to_string(digits) + " digits");
     const std::string percent = rounded_text(std::round(periodicity * 1e4) / 1e2) + " %";
-    if (fewest > 1)
-      result.understood.push_back("averaged over " + count_of(fewest, "azimuth") +
-                                  (points.size() > 1 ? " or more" : "") +
-                                  "; single azimuths differ from the average by up to " + percent);
+    std::size_t most = fewest;
+    for (const OperatingPointFiles& point : points) most = std::max(most, point.files.size());
+    if (most > 1)
+      result.understood.push_back(
+          "averaged over " + (fewest < most ? std::to_string(fewest) + " to " : std::string()) +
+          count_of(most, "azimuth") + "; single azimuths differ from the average by up to " + percent);
     if (fewest == 1 && (!states.tuples().empty() || states.rotating_states_left()) && turning(points))
       result.warnings.emplace_back(
           "an operating point has one azimuth only; an average over several, evenly spread, "

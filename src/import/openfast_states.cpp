@@ -1,8 +1,11 @@
 #include "import/openfast_states.hpp"
 
+#include <algorithm>
 #include <array>
 #include <regex>
 #include <utility>
+
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
 namespace {
@@ -68,6 +71,22 @@ OpenFastState openfast_state(const std::string& description) {
   while (!text.empty() && text.front() == ' ') text.erase(0, 1);
   result.motion = text.empty() ? description : text;
   return result;
+}
+
+std::string short_name(const OpenFastState& state) {
+  return state.motion + (state.blade > 0 ? ", blade " + std::to_string(state.blade) : "") +
+         (state.is_rate ? " velocity" : "");
+}
+
+std::vector<std::string> short_openfast_names(const std::vector<std::string>& names) {
+  const auto described = [](const std::string& name) {
+    return name.find("internal DOF index") != std::string::npos ||
+           name.find("First time derivative of") != std::string::npos;
+  };
+  if (std::none_of(names.begin(), names.end(), described)) return names;
+  std::vector<std::string> result;
+  for (const std::string& name : names) result.push_back(short_name(openfast_state(name)));
+  return first_repetition(result) ? names : result;
 }
 
 }  // namespace eigentrail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace eigentrail {
 
@@ -15,5 +16,12 @@ struct OpenFastState {
 };
 
 OpenFastState openfast_state(const std::string& description);
+
+/// "1st flap, blade 2 velocity".
+std::string short_name(const OpenFastState& state);
+
+/// The short names of states with OpenFAST's descriptions; the names as they are if they are no such
+/// descriptions, or if short names would be equal.
+std::vector<std::string> short_openfast_names(const std::vector<std::string>& names);
 
 }  // namespace eigentrail

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -43,11 +44,10 @@ void write_matrices(Hdf5File& file, const std::string& name, const std::vector<M
 void write_samples(const std::string& path, const SampledData& data) {
   check(data);
   Hdf5File file = Hdf5File::in_memory(path);
-  file.create_dataset({"parameter",
-                       ElementType::real,
-                       {data.count()},
-                       false,
-                       {{"units", data.parameter_unit.empty() ? "1" : data.parameter_unit}}});
+  DatasetSpec parameter{"parameter", ElementType::real, {data.count()}, false, {}};
+  parameter.attributes["units"] = data.parameter_unit.empty() ? "1" : data.parameter_unit;
+  if (!data.parameter_name.empty()) parameter.attributes["name"] = data.parameter_name;
+  file.create_dataset(parameter);
   file.write_rows("parameter", 0, data.values);
   for (const SampledMatrix& named : sampled_matrices()) write_matrices(file, named.name, data.*named.samples);
   write_matrices(file, "A_error", data.A_error);
@@ -159,6 +159,23 @@ std::string scene_text(const Imported& imported, const std::string& file) {
 
 }  // namespace
 
+std::string common_name(const std::vector<std::string>& files) {
+  std::string name = std::filesystem::path(files.front()).stem().string();
+  const std::string first = name;
+  for (const std::string& file : files) {
+    const std::string other = std::filesystem::path(file).stem().string();
+    const auto place =
+        std::mismatch(name.begin(), name.end(), other.begin(), other.end()).first - name.begin();
+    const auto end = static_cast<std::size_t>(place);
+    if (end < name.size()) name.erase(std::min(name.find_last_of("._-", end), end));
+  }
+  // "ws" of ws00.0.1.lin and ws03.0.1.lin, and not "ws0".
+  const bool within_number = name.size() < first.size() && !name.empty() &&
+                             std::isdigit(static_cast<unsigned char>(first[name.size()])) != 0;
+  if (within_number) name.erase(name.find_last_not_of("0123456789") + 1);
+  return name;
+}
+
 std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,
                          bool force) {
   namespace fs = std::filesystem;
@@ -179,7 +196,9 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   if (imported.family) {
     write_family(data.string(), *imported.family);
   } else {
-    write_samples(data.string(), imported.samples);
+    SampledData samples = imported.samples;
+    samples.parameter_name = imported.parameter;
+    write_samples(data.string(), samples);
   }
   write_durably(scene.string(), {scene_text(imported, data.filename().string())});
   return scene.string();

@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "core/hdf5_file.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "model/beside_scene.hpp"
@@ -264,6 +265,10 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
   if (!p.state_names.empty() && static_cast<Eigen::Index>(p.state_names.size()) != n)
     reader.fail("state_names", "has " + std::to_string(p.state_names.size()) + " names for " +
                                    std::to_string(n) + " states");
+  if (const auto same = first_repetition(p.state_names))
+    reader.fail("state_names", "has '" + p.state_names[same->first] + "' twice, for states " +
+                                   std::to_string(same->first + 1) + " and " +
+                                   std::to_string(same->second + 1) + "; give every state a name of its own");
   const int variable = variable_index(scene);
   const char* damping = p.first_order ? "E" : "C";
   const char* stiffness = p.first_order ? "A" : "K";

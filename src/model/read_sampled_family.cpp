@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
@@ -72,26 +74,21 @@ SampledData read_data(TableReader& table, const Scene& scene) {
   const std::string path = beside_scene(scene, table);
   try {
     return read_samples(path);
-  } catch (const Hdf5Error& error) {
-    table.fail("file", error.what());
-  } catch (const std::invalid_argument& error) {
-    table.fail("file", path + ": " + error.what());
+  } catch (const std::exception& error) {
+    const std::string message = error.what();
+    const bool names_file = message.find(path) != std::string::npos;
+    table.fail("file", names_file ? message : path + ": " + message);
   }
 }
 
 void check_within(const Scene& scene, const Parameter& variable, int index, const SampledData& data,
                   const std::vector<Vector>& check_at) {
-  const double least = data.values.front();
-  const double most = data.values.back();
-  const double slack = same_value * std::max(std::abs(least), std::abs(most));
+  std::vector<double> samples = data.values;
+  for (double& value : samples) value /= variable.factor;
   for (Vector values : check_at) {
     scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
-    const double value = values[index];
-    if (value >= least - slack && value <= most + slack) continue;
-    throw InputError(scene.path + ": [trace]: " + variable.name + " = " +
-                     exact_text(value / variable.factor) + " lies outside the samples, which reach from " +
-                     exact_text(least / variable.factor) + " to " + exact_text(most / variable.factor) +
-                     "; choose from and to between them");
+    const std::string fault = outside_samples(variable.name, values[index] / variable.factor, samples);
+    if (!fault.empty()) throw InputError(scene.path + ": [trace]: " + fault);
   }
 }
 
@@ -105,6 +102,53 @@ ModelDescription describe(const SampledData& data, const Parameters& parameters)
   }
   description.parameters = parameters;
   return description;
+}
+
+std::string number(double x) {
+  std::ostringstream text;
+  text << std::setprecision(6) << x;
+  return text.str();
+}
+
+/// "-20, 31 + 4j": in the unit of the parameter.
+std::string poles_text(const Denominator& denominator, double factor) {
+  std::string text;
+  for (const Complex pole : denominator.poles)
+    text += (text.empty() ? "" : ", ") + number(pole.real() / factor) +
+            (pole.imag() != 0.0 ? " +- " + number(pole.imag() / factor) + "j" : "");
+  return text;
+}
+
+/// What `explain` says about the samples and their interpolant.
+std::vector<std::pair<std::string, std::string>> describe_samples(const SampledData& data,
+                                                                  const std::vector<SamplePiece>& pieces,
+                                                                  const Parameter& variable) {
+  const double factor = variable.factor;
+  const auto at = [&](double x) { return number(x / factor); };
+  std::vector<std::pair<std::string, std::string>> result{
+      {"samples", std::to_string(data.count()) + " at " + variable.name + " = " + at(data.values.front()) +
+                      (data.count() > 1 ? " to " + at(data.values.back()) : "") +
+                      (variable.unit.empty() ? "" : " " + variable.unit)}};
+  for (const SamplePiece& piece : pieces) {
+    const RationalInterpolant& interpolant = piece.interpolant;
+    const std::string poles = poles_text(interpolant.denominator(), factor);
+    const std::string where = pieces.size() == 1 ? ""
+                                                 : ", from " + at(interpolant.nodes().front()) + " to " +
+                                                       at(interpolant.nodes().back());
+    if (data.count() > 1)
+      result.emplace_back("interpolant", "degree " + std::to_string(interpolant.degree()) +
+                                             (poles.empty() ? ", no poles" : ", poles at " + poles) + where);
+  }
+  std::string kinks;
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    kinks += (i == 1 ? "" : ", ") + at(pieces[i].interpolant.nodes().front());
+  result.emplace_back("kinks", kinks.empty() ? "none declared" : kinks);
+  std::string digits =
+      data.digits ? std::to_string(*data.digits) + " significant" : "not stated: entries count as exact";
+  if (!data.A_error.empty()) digits = "errors of the entries of A are given";
+  result.emplace_back("digits", digits);
+  if (!data.source.empty()) result.emplace_back("source", data.source);
+  return result;
 }
 
 }  // namespace
@@ -131,7 +175,9 @@ std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<in
   reject_unused_parameters(scene, used);
   check_within(scene, variable, index, data, check_at);
   std::vector<SamplePiece> pieces = interpolate_samples(data, data.values, kinks, degree);
-  return std::make_unique<SampledFamily>(describe(data, scene.parameters), index, data, std::move(pieces));
+  ModelDescription description = describe(data, scene.parameters);
+  description.data = describe_samples(data, pieces, variable);
+  return std::make_unique<SampledFamily>(std::move(description), index, data, std::move(pieces));
 }
 
 }  // namespace eigentrail

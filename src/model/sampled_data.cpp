@@ -24,7 +24,13 @@ const std::vector<std::string> kept = {"B", "D", "F", "x_op", "u_op", "y_op", "x
 }
 
 std::string plural(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  const std::string many = what.ends_with('y') ? what.substr(0, what.size() - 1) + "ies" : what + "s";
+  return std::to_string(count) + " " + (count == 1 ? what : many);
+}
+
+/// Whether a dataset is a list: of one dimension, or a row or column, as MATLAB has them.
+bool is_list(const Shape& shape) {
+  return shape.size() <= 1 || (shape.size() == 2 && (shape[0] == 1 || shape[1] == 1));
 }
 
 void check_samples(const std::string& name, const std::vector<Matrix>& list, std::size_t count,
@@ -67,7 +73,20 @@ void check_values(const std::vector<double>& values) {
     if (!std::isfinite(value)) fail("parameter has a value that is not finite");
   }
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) fail("parameter has the value " + exact_text(*twice) + " twice");
+  if (twice == sorted.end()) return;
+  const auto first = std::find(values.begin(), values.end(), *twice);
+  const auto second = std::find(first + 1, values.end(), *twice);
+  fail("parameter has the value " + exact_text(*twice) + " twice, at samples " +
+       std::to_string(first - values.begin() + 1) + " and " + std::to_string(second - values.begin() + 1) +
+       "; leave one of them out");
+}
+
+/// Names tell states apart: in the loci file, and where samples have their states in different orders.
+void check_names(const std::vector<std::string>& names) {
+  const auto same = first_repetition(names);
+  if (same)
+    fail("state_names has '" + names[same->first] + "' twice, for states " + std::to_string(same->first + 1) +
+         " and " + std::to_string(same->second + 1) + "; give every state a name of its own");
 }
 
 template <class List>
@@ -104,7 +123,7 @@ class SampleReader {
     reject_unknown();
     read_values();
     const bool state_space = file_.has("/A");
-    by_columns_ = file_.has_attribute("matrix_order") && file_.text_attribute("matrix_order") == "columns";
+    read_matrix_order();
     for (const SampledMatrix& named : sampled_matrices()) {
       // Beside A, a dataset C holds the outputs of a state-space model, which are kept and not read.
       if (state_space && named.name == std::string("C")) continue;
@@ -132,17 +151,32 @@ class SampleReader {
     }
   }
 
+  void read_matrix_order() {
+    if (!file_.has_attribute("matrix_order")) return;
+    const std::string order = file_.text_attribute("matrix_order");
+    if (order != "rows" && order != "columns")
+      fail(
+          "attribute matrix_order: expected 'rows' or 'columns' (what the second index of k x n x n counts), "
+          "found '" +
+          order + "'");
+    by_columns_ = order == "columns";
+  }
+
   void read_values() {
     if (!file_.has("/parameter")) fail("no dataset /parameter with the values at which the matrices hold");
-    if (file_.shape("/parameter").size() != 1) fail("parameter: expected a list of values");
-    if (file_.shape("/parameter")[0] > limits::samples)
+    const Shape shape = file_.shape("/parameter");
+    if (!is_list(shape)) fail("parameter: expected a list of values");
+    if (element_count(shape) > limits::samples)
       fail("parameter has more than " + std::to_string(limits::samples) + " values");
     data_.values = file_.read_real("/parameter");
     data_.parameter_unit = file_.text_attribute("/parameter", "units");
+    data_.parameter_name = file_.text_attribute("/parameter", "name");
   }
 
   std::vector<Matrix> read_matrices(const std::string& name) {
-    const Shape shape = file_.shape("/" + name);
+    Shape shape = file_.shape("/" + name);
+    // MATLAB drops the last dimension of n x n x 1.
+    if (shape.size() == 2 && data_.count() == 1) shape.insert(shape.begin(), 1);
     if (shape.size() != 3 || shape[1] != shape[2] || shape[1] > limits::matrix_rows ||
         shape[0] > limits::samples)
       fail("dataset " + name + ": expected the shape samples x n x n with n up to " +
@@ -163,8 +197,11 @@ class SampleReader {
 
   void read_states() {
     if (file_.has("/state_names")) {
-      const Shape shape = file_.shape("/state_names");
+      Shape shape = file_.shape("/state_names");
       if (shape.empty() || shape.size() > 2) fail("state_names: expected n names, or n for each sample");
+      const bool of_each = shape.size() == 2 && shape[0] == data_.count() &&
+                           shape[1] == static_cast<std::uint64_t>(data_.size());
+      if (is_list(shape) && !of_each) shape = {element_count(shape)};
       const std::vector<std::string> all = file_.read_texts("/state_names");
       const auto n = static_cast<std::ptrdiff_t>(shape.back());
       if (shape.size() == 2 && shape[0] != data_.count())
@@ -240,6 +277,7 @@ void check(const SampledData& data) {
     check_samples(named.name, data.*named.samples, data.count(), n);
   check_A_error(data, n);
   check_length(data.state_names, "state_names", n);
+  check_names(data.state_names);
   check_length(data.state_units, "state_units", n);
   check_length(data.derivative_order, "derivative_order", n);
   check_length(data.state_frames, "frame", n);
@@ -254,6 +292,27 @@ void match_states(SampledData& data, const std::vector<std::vector<std::string>>
       if (!(data.*named.samples).empty()) reorder((data.*named.samples)[i], from);
     }
     if (!data.A_error.empty()) reorder(data.A_error[i], from);
+  }
+}
+
+std::string outside_samples(const std::string& name, double value, const std::vector<double>& samples) {
+  const double least = samples.front(), most = samples.back();
+  const double slack = same_value * std::max(std::abs(least), std::abs(most));
+  if (value >= least - slack && value <= most + slack) return "";
+  const std::string what = name + " = " + exact_text(value) + " lies outside the samples";
+  if (samples.size() == 1)
+    return what + ": there is one, at " + exact_text(least) +
+           "; 'eigentrail spectrum' shows its eigenvalues, a trace needs at least two samples";
+  return what + ", which reach from " + exact_text(least) + " to " + exact_text(most) +
+         "; choose values between them";
+}
+
+bool holds_samples(const std::string& path) {
+  try {
+    const Hdf5File file = Hdf5File::open(path);
+    return file.has("/parameter") && !file.has_attribute("format");
+  } catch (const Hdf5Error&) {
+    return false;
   }
 }
 

@@ -11,9 +11,6 @@
 
 namespace eigentrail {
 
-/// Values of the parameter that differ by this share of the largest are the same.
-inline constexpr double same_value = 1e-12;
-
 class SampledFamily final : public Model {
  public:
   /// `variable`: index of the parameter of the samples. `data`: samples in ascending order, checked; their

@@ -31,6 +31,14 @@ Json uncertified(const LociFile& loci, int mode) {
   return list;
 }
 
+/// Bounds of the errors of the data of a mode, 1/s, per step; not finite where they are not known.
+std::vector<double> errors_of(const DataErrors& errors, std::size_t mode) {
+  std::vector<double> list;
+  for (Eigen::Index step = 0; step < errors.interpolation.rows(); ++step)
+    list.push_back(errors.on_step(static_cast<std::size_t>(step), static_cast<Eigen::Index>(mode)));
+  return list;
+}
+
 Json modes_data(const LociFile& loci) {
   Json list = Json::array();
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
@@ -38,6 +46,7 @@ Json modes_data(const LociFile& loci) {
                     {"name", loci.mode_names[i]},
                     {"certified", loci.certified_share(i)},
                     {"uncertified", uncertified(loci, static_cast<int>(i))}});
+    if (loci.data_errors) list.back()["errors"] = base64(errors_of(*loci.data_errors, i));
   }
   return list;
 }
@@ -72,6 +81,10 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
               {"imag", event.s.imag()},
               {"modes", mode_numbers(event.modes, loci.modes.size())},
               {"node", i < nodes.size() ? nodes[i] : -1}};
+    if (loci.data_errors && std::isfinite(loci.data_errors->intervals[i].from)) {
+      const EventInterval& interval = loci.data_errors->intervals[i];
+      item["interval"] = {interval.from, interval.to};
+    }
     list.push_back(std::move(item));
   }
   return list;

@@ -1,9 +1,6 @@
 #include "eigentrail/scene/scene.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -167,20 +164,6 @@ Scene parse_scene(std::string text, const std::string& path) {
   scene.parameters = ParameterReader(scene, *table).read(implied);
   if (implied && table->find(implied->name) == nullptr) set_start_of_trace(scene, implied->name);
   return scene;
-}
-
-Scene read_scene(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(path + ": cannot be read (" + error.message() + ")");
-  if (size > limits::scene_bytes) {
-    throw InputError(path + ": is " + std::to_string(size) + " bytes; a scene has at most " +
-                     std::to_string(limits::scene_bytes) + "; put large matrices into HDF5");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(path + ": cannot be read");
-  return parse_scene(std::move(text), path);
 }
 
 TableReader::TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used)

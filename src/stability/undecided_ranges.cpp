@@ -45,8 +45,10 @@ class Sampler {
     for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
       if (permanence_[static_cast<std::size_t>(mode)] == Permanence::zero || !std::isfinite(s[mode].real()))
         continue;
-      const double error = errors_.at(here.step, mode, path_.parameter_at(here)) +
-                           accuracy_.tolerance * std::max(std::abs(s[mode]), accuracy_.reference);
+      // Where the data are as good as exact, the tolerance of the trace alone leaves nothing undecided.
+      const double promised = accuracy_.tolerance * std::max(std::abs(s[mode]), accuracy_.reference);
+      const double data = errors_.at(here.step, mode, path_.parameter_at(here));
+      const double error = data > promised ? data + promised : 0.0;
       lowest = std::max(lowest, s[mode].real() - error);
       highest = std::max(highest, s[mode].real() + error);
       if (s[mode].real() <= fastest) continue;
@@ -54,7 +56,7 @@ class Sampler {
       sample.critical = static_cast<int>(mode);
     }
     sample.margin = -fastest;
-    if (highest < 0.0) sample.verdict = Stability::stable;
+    if (highest <= 0.0) sample.verdict = Stability::stable;
     if (lowest > 0.0) sample.verdict = Stability::unstable;
     return sample;
   }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "store/labelled_datasets.hpp"
+#include "store/mode_motions.hpp"
 
 namespace eigentrail {
 namespace {
@@ -190,8 +191,6 @@ void add_motions(std::vector<GrowingDataset>& list) {
                   {"end", "mode", "motion"},
                   "1",
                   "share of the mode's kinetic energy, where the mode first (left) and last (right) exists"});
-  list.push_back(
-      {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
 }
 
 }  // namespace
@@ -203,7 +202,11 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
   add_points(list, model, parameter, unit);
   add_dense_output(list, parameter, unit);
   add_events(list, parameter, unit);
-  if (!model.description().masses.empty()) add_motions(list);
+  const ModelDescription& description = model.description();
+  if (!description.masses.empty()) add_motions(list);
+  if (!description.masses.empty() || named_by_coordinates(description))
+    list.push_back(
+        {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
   return list;
 }
 

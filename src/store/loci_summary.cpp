@@ -6,6 +6,13 @@
 
 namespace eigentrail {
 
+void clear_events(Hdf5File& file) {
+  for (const char* name :
+       {"event", "events", "event_parameter", "event_eigenvalue", "event_half_width", "event_puiseux",
+        "event_node", "event_direction", "event_value", "event_shape", "event_sensitivity", "event_shift"})
+    file.extend(name, 0, 0);
+}
+
 void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first) {
   if (first >= events.size()) return;
   std::vector<std::string> lines;

@@ -6,6 +6,9 @@
 
 namespace eigentrail {
 
+/// Removes all events.
+void clear_events(Hdf5File& file);
+
 /// Writes the events from number `first` on to the datasets along the dimension `event`; those before have
 /// been written already.
 void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first);

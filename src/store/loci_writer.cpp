@@ -262,6 +262,11 @@ std::vector<std::string> LociWriter::mode_names() const {
 void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges,
                         const DataErrors* errors) {
   Implementation& self = *implementation_;
+  // With errors of the data, events that were written may have been taken back.
+  if (errors != nullptr && self.events > 0) {
+    clear_events(self.tables.file());
+    self.events = 0;
+  }
   self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early");
   write_stable_ranges(self.tables.file(), self.parameter, ranges);
   if (errors != nullptr) write_data_errors(self.tables.file(), self.parameter, *errors);

@@ -1,12 +1,34 @@
 #include "store/mode_motions.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
+
+#include "eigentrail/modes/participation.hpp"
 
 namespace eigentrail {
 
+namespace {
+
+/// Each name costs an LU; larger families go without.
+constexpr std::size_t most_coordinates = 400;
+/// Magnitude below which an eigenvalue counts as zero, as a share of the largest one.
+constexpr double zero_share = 1e-9;
+
+}  // namespace
+
+bool named_by_coordinates(const ModelDescription& description) {
+  return description.masses.empty() && description.constraint_names.empty() &&
+         description.coordinate_names.size() <= most_coordinates &&
+         has_own_names(description.coordinate_names);
+}
+
 ModeMotions::ModeMotions(const ModelDescription& description, const TracePoint& first)
-    : shares_(description, first.node.linearization.M[0], first.node.path.x.col(0)) {}
+    : shares_(description, first.node.linearization.M[0], first.node.path.x.col(0)) {
+  if (named_by_coordinates(description)) coordinates_ = description.coordinate_names;
+}
 
 std::vector<std::string> ModeMotions::labels() const {
   std::vector<std::string> labels;
@@ -19,10 +41,31 @@ bool ModeMotions::fits(const ModelDescription& description) const {
   for (const auto& [mode, ends] : modes_) {
     if (ends.first.size() != size || ends.last.size() != size) return false;
   }
-  return shares_.fits(description);
+  const bool by_coordinates = named_by_coordinates(description);
+  return coordinates_ == (by_coordinates ? description.coordinate_names : std::vector<std::string>()) &&
+         shares_.fits(description);
+}
+
+void ModeMotions::name_by_coordinates(const TracePoint& point) {
+  double largest = 0.0;
+  for (const ModeState& mode : point.modes) {
+    if (std::isfinite(std::abs(mode.s))) largest = std::max(largest, std::abs(mode.s));
+  }
+  const Linearization& at = point.node.linearization;
+  std::optional<std::array<Matrix, 3>> dense;
+  for (const ModeState& mode : point.modes) {
+    const auto number = static_cast<std::size_t>(mode.mode);
+    const bool usable = std::isfinite(std::abs(mode.s)) && mode.shape.allFinite();
+    if (by_participation_.contains(number) || !usable) continue;
+    if (!dense) dense = {at.M[0].dense(), at.C[0].dense(), at.K[0].dense()};
+    const auto& [M, C, K] = *dense;
+    by_participation_[number] =
+        name_by_participation(M, C, K, mode.s, mode.shape, zero_share * largest, coordinates_);
+  }
 }
 
 void ModeMotions::append(const TracePoint& point) {
+  if (!coordinates_.empty()) name_by_coordinates(point);
   if (shares_.motions().empty() || point.modes.empty()) return;
   const SystemMatrix& M = point.node.linearization.M[0];
   const Vector x = point.node.path.x.col(0);
@@ -40,6 +83,9 @@ void ModeMotions::append(const TracePoint& point) {
 
 std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
   std::vector<std::string> result(n_modes);
+  for (const auto& [mode, name] : by_participation_) {
+    if (mode < n_modes) result[mode] = name;
+  }
   if (shares_.motions().empty()) return result;
   std::vector<std::size_t> ascending;
   for (const auto& [mode, ends] : modes_) ascending.push_back(mode);
@@ -59,7 +105,7 @@ std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
 
 void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
   const std::size_t motions = shares_.motions().size();
-  if (motions == 0) return;
+  if (motions == 0 && coordinates_.empty()) return;
   std::vector<double> values;
   for (const bool first : {true, false}) {
     for (std::size_t mode = 0; mode < n_modes; ++mode) {
@@ -72,7 +118,7 @@ void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
       }
     }
   }
-  file.write_rows("kinetic_energy_share", 0, values);
+  if (motions > 0) file.write_rows("kinetic_energy_share", 0, values);
   std::vector<std::string> now = names(n_modes);
   if (now != written_names_) file.write_rows("mode_name", 0, now);
   written_names_ = std::move(now);

@@ -12,6 +12,10 @@
 
 namespace eigentrail {
 
+/// Whether the modes of a model without masses are named by the participation of its coordinates: a family of
+/// matrices without constraints, with names of its own, and not too large.
+bool named_by_coordinates(const ModelDescription& description);
+
 /// Collects the shares of kinetic energy of every mode at the first and the last point where it exists.
 class ModeMotions {
  public:
@@ -30,20 +34,23 @@ class ModeMotions {
   /// unknown.
   std::vector<std::string> names(std::size_t n_modes) const;
 
-  /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses. Names are written
+  /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses, or only names for one
+  /// whose coordinates have names. Names are written
   /// only if they have changed, because HDF5 does not reuse the space of overwritten texts.
   void write(Hdf5File& file, std::size_t n_modes);
 
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.shares_, self.modes_);
+    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_);
   }
 
   /// Whether a state that was read fits this model.
   bool fits(const ModelDescription& description) const;
 
  private:
+  void name_by_coordinates(const TracePoint& point);
+
   struct Ends {
     Vector first, last;      ///< by motion
     double frequency = 0.0;  ///< abs(s) where the mode first exists; equal names are numbered in its order
@@ -56,6 +63,8 @@ class ModeMotions {
 
   EnergyShares shares_;
   std::map<std::size_t, Ends> modes_;
+  std::vector<std::string> coordinates_;  ///< names; empty unless modes are named by participation
+  std::map<std::size_t, std::string> by_participation_;
   std::vector<std::string> written_names_;
 };
 

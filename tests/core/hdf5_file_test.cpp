@@ -68,6 +68,33 @@ TEST_F(Hdf5FileTest, RealNumbersSurviveARoundTripBitForBit) {
   EXPECT_EQ(file.read_real("x"), data);
 }
 
+/// MATLAB and NumPy write texts of fixed length, and MATLAB every number as a real one.
+TEST_F(Hdf5FileTest, TextsOfFixedLengthAndWholeRealNumbersAreRead) {
+  (void)Hdf5File::create(path);
+  with_hdf5(path, [](hid_t file) {
+    const hid_t padded = H5Tcopy(H5T_C_S1);
+    H5Tset_size(padded, 6);
+    H5Tset_strpad(padded, H5T_STR_SPACEPAD);
+    const hsize_t two = 2;
+    const hid_t space = H5Screate_simple(1, &two, nullptr);
+    const hid_t names = H5Dcreate2(file, "names", padded, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(names, padded, H5S_ALL, H5S_ALL, H5P_DEFAULT, "a b   sixsix");
+    H5Dclose(names);
+    H5Sclose(space);
+    H5Tclose(padded);
+    H5LTset_attribute_string(file, "/", "order", "columns");
+    const std::array<double, 2> numbers{4.0, 4.5};
+    H5LTset_attribute_double(file, "/", "digits", numbers.data(), 1);
+    H5LTset_attribute_double(file, "/", "half", numbers.data() + 1, 1);
+  });
+  const Hdf5File file = Hdf5File::open(path);
+  EXPECT_EQ(file.read_texts("names"), (std::vector<std::string>{"a b", "sixsix"}));
+  EXPECT_EQ(file.text_attribute("order"), "columns");
+  EXPECT_EQ(file.integer_attribute("digits"), 4);
+  EXPECT_TRUE(contains(hdf5_error([&] { (void)file.integer_attribute("half"); }),
+                       "half: expected a whole number, found 4.5"));
+}
+
 TEST_F(Hdf5FileTest, FileInMemoryGoesOnFromItsImage) {
   Hdf5File first = Hdf5File::in_memory("same name");
   Hdf5File second = Hdf5File::in_memory("same name");

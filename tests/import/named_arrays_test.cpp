@@ -136,7 +136,7 @@ TEST(NamedArrays, FaultsNameTheArray) {
   EXPECT_TRUE(test::contains(message({A, speed, numbers("names", {2}, {2, 3})}),
                              "names: expected texts, found numbers"));
   EXPECT_TRUE(
-      test::contains(message({A, speed, texts("names", {3}, {"a", "b", "c"})}), "state_names has 3 entrys"));
+      test::contains(message({A, speed, texts("names", {3}, {"a", "b", "c"})}), "state_names has 3 entries"));
   EXPECT_TRUE(test::contains(message({A, speed}, {{"digits", "x"}}), "--digits: expected"));
   EXPECT_TRUE(
       test::contains(message({numbers("A", {2, 0, 0}, {})}), "array A is 2 x 0 x 0, without entries"));

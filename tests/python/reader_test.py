@@ -128,7 +128,35 @@ class Births(ProgramTest):
         found = loci.eigentrail.sel(p=[0.5, birth, 1.4], mode="mode 2")
         self.assertEqual(np.isnan(found.eigenvalue).values.tolist(), [True, False, False])
         self.assertEqual(found.certified.values.tolist(), [-1, 1, 1])
-        self.assertNotIn("mode_name", loci.coords)  # a family of matrices: nothing that moves has a name
+        self.assertNotIn("mode_name", loci.coords)  # a family of matrices without names
+
+
+class Samples(ProgramTest):
+    """A sampled family: errors that come from the data, and intervals of events."""
+
+    def setUp(self):
+        super().setUp()
+        p = np.linspace(0.0, 1.0, 8)
+        with h5py.File(self.folder / "samples.h5", "w") as file:
+            file["parameter"] = p
+            file["A"] = [[[0.05 * (x - 0.4), 1, 0], [-1, 0.05 * (x - 0.4), 0], [0, 0, -3]] for x in p]
+            file["A_error"] = np.broadcast_to(np.diag([0.002, 0.002, 0.0]), (8, 3, 3))
+            file["state_names"] = ["swing", "rate", "filter"]
+        self.write("scene.toml", '[sampled_family]\nfile = "samples.h5"\n[trace]\nparameter = "p"\nfrom = 0\nto = 1\n')
+        self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
+        self.loci = eigentrail.open(self.folder / "loci.h5")
+
+    def test_selected_values_have_the_errors_of_the_data(self):
+        found = self.loci.eigentrail.sel(p=[0.1, 0.7], mode="mode 1")
+        self.assertTrue((found.digits_error > 0.001).all())
+        self.assertEqual(found.digits_error.attrs["units"], "1/s")
+        step = np.searchsorted(self.loci.p, [0.1, 0.7]) - 1
+        np.testing.assert_array_equal(found.digits_error, self.loci.digits_error.sel(mode="mode 1")[step])
+        np.testing.assert_array_equal(found.interpolation_error, self.loci.interpolation_error.sel(mode="mode 1")[step])
+
+    def test_events_have_their_intervals(self):
+        (event,) = self.loci.eigentrail.events.itertuples()
+        self.assertTrue(0.0 < event.interval_from < 0.4 < event.interval_to < 1.0)
 
 
 class Boundary(FileTest):

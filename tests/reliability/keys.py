@@ -43,6 +43,10 @@ DEPENDENT = {"torsional_spring about", "torsional_damper about", "torsional_maxw
              "body x_axis", "body y_axis", "body z_axis"}
 
 
+# Tables that are tried elsewhere: options, and families, which stand in scenes without elements.
+APART = {"[trace]", "[events]", "[matrix_family]", "[sampled_family]"}
+
+
 def kind_of(unit):
     return next(kind for kind in KINDS if re.fullmatch(kind[0], unit) or kind[0] == "")
 
@@ -57,7 +61,7 @@ def reference():
             keys = tables.setdefault(heading[1], [])
         elif row := re.match(r"\| `(\w+)` \| (.*?) \| .* \| (.*?) \|$", line):
             keys.append((row[1], row[2], row[3] == "required"))
-    return {heading: keys for heading, keys in tables.items() if heading not in ("[trace]", "[events]")}
+    return {heading: keys for heading, keys in tables.items() if heading not in APART}
 
 
 def good_lines(heading):

@@ -71,6 +71,31 @@ class Page(CommandTest):
         self.blade(picture="blade_desktop")
         self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').map((entry) => entry.name)"), [])
 
+    def test_errors_of_samples_are_drawn_with_a_key(self):
+        p = np.linspace(0.0, 1.0, 8)
+        with h5py.File(self.folder / "samples.h5", "w") as file:
+            file["parameter"] = p
+            file["A"] = [[[0.05 * (x - 0.4), 1, 0], [-1, 0.05 * (x - 0.4), 0], [0, 0, -3]] for x in p]
+            file["A_error"] = np.broadcast_to(np.diag([0.002, 0.002, 0.0]), (8, 3, 3))
+            file["state_names"] = ["swing", "rate", "filter"]
+        self.trace('[sampled_family]\nfile = "samples.h5"\n[trace]\nparameter = "p"\nfrom = 0\nto = 1\n')
+        self.show("loci.h5", picture="errors_of_samples")
+        with h5py.File(self.folder / "loci.h5") as file:
+            low, high = file["event_interval"][0]
+            error = (file["interpolation_error"][0, 0] + file["digits_error"][0, 0])
+        drawn = """const data = document.querySelector('.campbell').data, axis = arguments[0];
+            const bars = data.find((t) => t.meta && t.meta.intervals && t.yaxis === axis);
+            const band = data.find((t) => t.meta && t.meta.band === 0 && t.yaxis === axis);
+            return [bars.x.slice(0, 2), Math.max(...band.y), Math.min(...band.y)];"""
+        bar, top, bottom = self.driver.execute_script(drawn, "y")
+        np.testing.assert_allclose(bar, [low, high])
+        self.assertAlmostEqual(top - 1.0, error, 3)
+        self.assertAlmostEqual(1.0 - bottom, error, 3)
+        key = self.driver.find_element(By.CSS_SELECTOR, ".key").text
+        self.assertIn("undecided: the errors of the data leave it open", key)
+        self.assertIn("bands and bars: errors of the data", key)
+        self.assertIn("mode 1, swing", self.driver.page_source)
+
     def test_lines_are_where_eval_says(self):
         self.blade()
         for mode in range(2):

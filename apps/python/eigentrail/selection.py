@@ -5,6 +5,9 @@ import xarray
 
 from .dense_output import DenseOutput
 
+# Bounds of the errors of eigenvalues that come from the data, per step and mode; only for sampled families.
+DATA_ERRORS = ("interpolation_error", "digits_error")
+
 
 class Selection:
     """Evaluates the dense output of a loci file at parameter values."""
@@ -28,7 +31,11 @@ class Selection:
         certified = np.full(shape, -1)
         s[which, passage] = self._dense_output.at(step, t)
         certified[which, passage] = self._dense_output.certified_at(step, t)
-        found = self._dataset(s, certified, dimension or "place", values)
+        errors = {name: np.full(shape, np.nan) for name in DATA_ERRORS if name in self._loci}
+        for name, column in errors.items():
+            column[which, passage] = self._loci[name].values[step]
+            column[np.isnan(s)] = np.nan
+        found = self._dataset(s, certified, errors, dimension or "place", values)
         if not self._dense_output.path.turns_back:
             found = found.isel(passage=0, drop=True)
         return found if dimension else found.isel(place=0)
@@ -52,11 +59,11 @@ class Selection:
             raise ValueError(f"{name} = {values[missing[0]]:.15g} lies outside the traced range "
                              f"{path.min():.15g} ... {path.max():.15g}{'' if unit == '1' else ' ' + unit}")
 
-    def _dataset(self, s, certified, dimension, values):
+    def _dataset(self, s, certified, errors, dimension, values):
         loci = self._loci
         with np.errstate(invalid="ignore"):
             columns = {"eigenvalue": s, "frequency": np.abs(s), "damping_ratio": -s.real / np.abs(s),
-                       "certified": certified}
+                       "certified": certified, **errors}
         dims = (dimension, "passage", "mode")
         labels = {name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}
         return xarray.Dataset(

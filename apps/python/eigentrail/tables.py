@@ -4,9 +4,12 @@ import pandas
 
 
 def events(loci):
-    """One row per special point, in the order of the trace."""
+    """One row per special point, in the order of the trace.
+
+    For a sampled family, `interval_from` and `interval_to` are the parameter values between which it lies as far as the
+    errors of the data tell; NaN for kinds that have no interval."""
     parameter = loci.attrs["parameter"]
-    return pandas.DataFrame({
+    table = pandas.DataFrame({
         "kind": loci.event_kind.values,
         parameter: loci.event_parameter.values,
         "eigenvalue": loci.event_eigenvalue.values,
@@ -16,6 +19,9 @@ def events(loci):
         "half_width": loci.event_half_width.values,
         "node": loci.event_node.values,
     }, index=pandas.Index(loci.event.values, name="event"))
+    if "event_interval" in loci:  # of a sampled family
+        table["interval_from"], table["interval_to"] = loci.event_interval.values.reshape(-1, 2).T
+    return table
 
 
 def stable_ranges(loci):

@@ -1,6 +1,7 @@
 // Which values of the parameter to sample next.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "eigentrail/continuation/trace_options.hpp"
@@ -12,6 +13,7 @@ struct Suggestion {
   double p = 0.0;      ///< in the parameter's unit, between two samples
   double error = 0.0;  ///< stated error of the eigenvalue there, relative to max(|s|, reference)
   Complex s;           ///< the eigenvalue with that error, of the followed modes
+  std::string note;    ///< that no mode is as wanted; empty else
 };
 
 /// One suggestion for each gap between samples within the range of the trace, the largest error first.

@@ -32,6 +32,8 @@ struct [[nodiscard]] VerifyReport {
   int missing = 0;          ///< largest number of eigenvalues that no mode has, where all modes are followed
   double missing_at = 0.0;  ///< the parameter there
   double tolerance = 0.0;   ///< of the file
+  /// The file with the model's matrices, if the check failed and already the stored points do not fit them.
+  std::string other_matrices;
 
   /// Every sample was solved, no value is further off than the tolerance, and no eigenvalue is missing.
   bool passed() const { return unsolved == 0 && samples > 0 && worst.relative <= tolerance && missing == 0; }

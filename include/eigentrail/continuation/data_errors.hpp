@@ -38,6 +38,13 @@ struct DataErrors {
     const double sum = there + digits(row, mode);
     return std::isnan(sum) ? INFINITY : sum;
   }
+
+  /// The same for the whole step.
+  double on_step(std::size_t step, Eigen::Index mode) const {
+    const auto row = static_cast<Eigen::Index>(step);
+    const double sum = interpolation(row, mode) + digits(row, mode);
+    return std::isnan(sum) ? INFINITY : sum;
+  }
 };
 
 }  // namespace eigentrail

@@ -25,6 +25,7 @@ struct OperatingPoint {
   double p = 0.0;
   std::string fault = {};                 ///< why there is no spectrum; empty if there is one
   std::vector<OperatingMode> modes = {};  ///< by increasing |s|
+  std::string note = {};                  ///< that no mode is as wanted; empty else
 };
 
 /// The chosen modes (`modes` of the options) at values of the traced parameter, in its unit. Each equilibrium

@@ -1,7 +1,10 @@
 // Text for numbers, and text that is safe to print.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace eigentrail {
 
@@ -11,5 +14,8 @@ std::string exact_text(double value);
 /// Replaces control characters, line breaks included, by spaces. For text from scenes that is quoted in
 /// messages and titles on a terminal.
 std::string printable(std::string text);
+
+/// Places, from 0, of the first two equal texts of a list; empty if all differ.
+std::optional<std::pair<std::size_t, std::size_t>> first_repetition(const std::vector<std::string>& texts);
 
 }  // namespace eigentrail

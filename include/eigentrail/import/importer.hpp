@@ -62,6 +62,11 @@ const std::vector<Importer>& importers();
 /// The importer of a format; throws InputError that names the known ones.
 const Importer& importer(const std::string& format);
 
+/// What the names of files begin with, up to a separator or a number: "ws03.0" for ws03.0.1.lin and
+/// ws03.0.13.lin, "ws" for ws00.0.1.lin and ws03.0.1.lin; empty if they have nothing in common. At least one
+/// file.
+std::string common_name(const std::vector<std::string>& files);
+
 /// Writes `name`.toml and `name`.h5 to `folder`, which is made if it does not exist. Existing files are
 /// replaced only if `force` is set. Returns the path of the scene. Throws InputError or std::runtime_error.
 std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigentrail/core/extended.hpp"
@@ -73,6 +74,8 @@ struct ModelDescription {
   std::vector<MassCarrier> masses;               ///< only of a multibody model
   std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector; empty if the frame does not rotate
   Parameters parameters;
+  /// What is known of the model's data, for users: a label and a text each ("digits", "4 significant").
+  std::vector<std::pair<std::string, std::string>> data = {};
 };
 
 /// Residual of the steady equations A^T lambda - f(x, 0, p) = 0 and c(x, p) = 0 as power series (Eqs. 14a,

@@ -17,8 +17,9 @@ enum class StateFrame { fixed, rotating };
 /// Either A and optionally E are given (E x' = A x), or K with M, C or both (M x'' + C x' + K x = 0). Each
 /// list is empty or has one n x n matrix per value.
 struct SampledData {
-  std::vector<double> values;  ///< of the parameter, in `parameter_unit`; distinct, in any order
-  std::string parameter_unit;  ///< empty: none, or not known
+  std::vector<double> values;       ///< of the parameter, in `parameter_unit`; distinct, in any order
+  std::string parameter_unit;       ///< empty: none, or not known
+  std::string parameter_name = {};  ///< empty: not known; scenes give their own
   std::vector<Matrix> M, C, K, E, A;
 
   std::vector<std::string> state_names;  ///< n, or empty
@@ -56,5 +57,16 @@ const std::array<SampledMatrix, 5>& sampled_matrices();
 /// of the first sample of the file. Throws Hdf5Error or std::invalid_argument with a message that names the
 /// dataset.
 SampledData read_samples(const std::string& path);
+
+/// Values of the parameter that differ by this share of the largest are the same.
+inline constexpr double same_value = 1e-12;
+
+/// Why a value of the parameter `name` cannot be looked at, and what to do; empty if it lies within the
+/// samples. `samples`: values of the samples, ascending, at least one, in the unit of `value`.
+std::string outside_samples(const std::string& name, double value, const std::vector<double>& samples);
+
+/// Whether a file is such a file, as far as a look at it tells: HDF5 with a dataset `parameter`, and not one
+/// of this program's results.
+bool holds_samples(const std::string& path);
 
 }  // namespace eigentrail

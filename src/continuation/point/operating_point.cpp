@@ -5,8 +5,11 @@
 #include <limits>
 
 #include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/model/sample_errors.hpp"
+#include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
-#include "eigentrail/modes/motion_names.hpp"
+#include "eigentrail/modes/participation.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 
@@ -15,9 +18,6 @@ namespace {
 
 /// Magnitude below which an eigenvalue counts as zero, as a share of the scale of the pencil.
 constexpr double zero_share = 1e-9;
-/// Coordinates are named down to this share of the participation, and at most so many.
-constexpr double least_share = 0.15;
-constexpr std::size_t most_named = 3;
 
 /// An eigenvalue s with its right vector, and what follows from the left one.
 class ModeAtPoint {
@@ -42,14 +42,8 @@ class ModeAtPoint {
 
   OperatingMode mode() const { return {s_, condition_, backward_error_, {}, {}}; }
 
-  /// |y_i (P'(s) z)_i|, as shares: by how much an equation and its coordinate take part in the mode. Where
-  /// the eigenvalue is defective, |z_i|^2.
-  Vector participation() const {
-    const Vector product = left_.cwiseProduct(slope_).cwiseAbs();
-    const double sum = product.sum();
-    return std::isfinite(condition_) && sum > 0.0 && std::isfinite(sum) ? Vector(product / sum)
-                                                                        : Vector(z_.cwiseAbs2());
-  }
+  /// By how much each equation and its coordinate take part in the mode, as shares.
+  Vector shares() const { return participation(left_, slope_, z_, std::isfinite(condition_)); }
 
  private:
   ComplexVector force() const { return s_ * (s_ * (M_ * z_) + C_ * z_) + K_ * z_; }
@@ -59,19 +53,6 @@ class ModeAtPoint {
   ComplexVector z_, left_, slope_;
   double condition_ = 0.0, backward_error_ = 0.0;
 };
-
-/// "1st flap progressive 71 %, drivetrain torsion 24 %".
-std::string largest_names(const Vector& shares, const ComplexVector& shape,
-                          const std::vector<std::string>& names) {
-  std::string text;
-  std::size_t named = 0;
-  for (const MotionShare& one : motion_shares(names, shares, shape)) {
-    if (named == most_named || (named > 0 && one.share < least_share)) break;
-    text +=
-        (named++ > 0 ? ", " : "") + one.name + " " + std::to_string(std::lround(100.0 * one.share)) + " %";
-  }
-  return text;
-}
 
 /// Names the modes by their kinetic energy, where the masses are known.
 void name_by_energy(const ModelDescription& description, const PathPoint& point,
@@ -97,7 +78,10 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
                        : "LAPACK's QZ did not converge";
     return result;
   }
-  spectrum.modes.resize(static_cast<std::size_t>(choose_modes(setup.options.modes, spectrum.modes)));
+  const ModeChoice& choice = setup.options.modes;
+  spectrum.modes.resize(static_cast<std::size_t>(choose_modes(choice, spectrum.modes)));
+  if (spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s))
+    result.note = "none of " + in_words(choice) + "; the mode that misses this least is shown";
   const ModelDescription& description = setup.model->description();
   const bool unconstrained = point.basis.is_identity || point.basis.parts;
   const Linearization& physical = point.equilibrium.linearization;
@@ -110,11 +94,23 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();
-    if (unconstrained)
-      mode.what_moves = largest_names(at.participation(), shape, description.coordinate_names);
+    if (unconstrained) mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);
   }
   name_by_energy(description, point, result.modes);
   return result;
+}
+
+/// Throws InputError for a value outside the samples of the model, if it has such.
+void check_within_samples(const TraceSetup& setup, const std::vector<double>& values) {
+  const SampleErrors* errors = setup.model->sample_errors();
+  if (errors == nullptr) return;
+  const std::string& name = setup.options.parameter;
+  std::vector<double> samples = errors->values();
+  for (double& sample : samples) sample /= setup.model->description().parameters.at(name).factor;
+  for (const double value : values) {
+    const std::string fault = outside_samples(name, value, samples);
+    if (!fault.empty()) throw InputError(setup.scene.path + ": " + fault);
+  }
 }
 
 }  // namespace
@@ -128,6 +124,7 @@ double damping_ratio(const OperatingMode& mode) {
 }
 
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {
+  check_within_samples(setup, values);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.parts = find_independent_parts(setup.model->coefficient_matrices());
   RunCounts counts;

@@ -266,8 +266,10 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   const bool range = purpose != Purpose::operating_point;
   if (!range && !table.has("to")) options.to = options.from;
   for (const char* key : {"from", "to"}) {
-    if (!table.has(key) && (range || key == std::string("from")))
-      table.fail(key, "is missing; expected a number, here or as --" + std::string(key));
+    if (table.has(key) || (!range && key == std::string("to"))) continue;
+    const bool samples = scene.root.find("sampled_family") != nullptr;
+    table.fail(key, "is missing; expected a number, here or as --" + std::string(key) +
+                        (samples ? "; of a single sample, 'eigentrail spectrum' shows the eigenvalues" : ""));
   }
   table.finish();
   std::vector<OptionFault> faults = find_faults(options, scene.parameters);

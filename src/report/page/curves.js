@@ -100,6 +100,16 @@ class Path {
     return found;
   }
 
+  /** Number of the step of the trace that holds a place. */
+  stepOf(place) {
+    let low = 0, high = this.places.length - 2;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.places[middle] <= place) low = middle; else high = middle - 1;
+    }
+    return low;
+  }
+
   nearestNode(place) {
     let best = 0;
     for (let i = 1; i < this.places.length; ++i)

@@ -25,6 +25,12 @@ function dampingRatio(re, im) {
   return Math.abs(ratio) < SAME_AS_ZERO ? 0 : ratio;
 }
 
+/** How much a coordinate of a chart changes at most per change of s. */
+function errorScale(chart, settings) {
+  if (chart === "frequency") return () => settings.unitFactor;
+  return settings.damping === "real" ? () => 1 : (s) => 1 / Math.max(Math.hypot(...s), Number.MIN_VALUE);
+}
+
 /** Lines of all modes in one chart: { file, mode, points, outside (certified), inside (not certified) }. */
 function chartLines(files, chart, settings, view, spacing) {
   const lines = [];
@@ -68,6 +74,49 @@ function modeTraces(lines, isActive, style, axes) {
     if (uncertified.length) traces.push(lineTrace(uncertified, { color: colour, width, dash: "6px,4px" }, { ...axes, meta }));
   }
   return traces;
+}
+
+/** Bands in which the eigenvalues lie as far as the errors of the data tell, one trace per mode. `scale` turns an error of s into one of the chart. */
+function bandTraces(lines, isActive, style, axes, scale) {
+  const traces = [];
+  for (const line of lines.filter(isActive)) {
+    const errors = line.file.errors(line.mode);
+    if (!errors || line.points.length < 2) continue;
+    const above = [], below = [];
+    const add = ({ x, y, place }, step) => {
+      const error = errors[step] * scale(line.file.path.eigenvalue(line.mode, place));
+      if (!Number.isFinite(error)) return;
+      above.push([x, y + error]);
+      below.push([x, y - error]);
+    };
+    for (let i = 0; i + 1 < line.points.length; ++i) {
+      const step = line.file.path.stepOf(0.5 * (line.points[i].place + line.points[i + 1].place));
+      add(line.points[i], step);
+      add(line.points[i + 1], step);
+    }
+    const outline = above.concat(below.reverse());
+    if (!outline.length) continue;
+    traces.push({ x: outline.map(([x]) => x), y: outline.map(([, y]) => y), type: "scatter", mode: "lines", fill: "toself", line: { width: 0 },
+      fillcolor: faded(style(line.file, line.mode).colour), hoverinfo: "skip", showlegend: false, meta: { band: line.mode }, ...axes });
+  }
+  return traces;
+}
+
+const faded = (colour) => `rgba(${[1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16)).join(",")},0.15)`;
+
+/** Bars from end to end of the intervals in which events lie as far as the errors of the data tell. */
+function intervalTrace(files, chart, settings, isActive, axes) {
+  const x = [], y = [];
+  for (const file of files) {
+    for (const event of file.data.events) {
+      if (!event.interval || event.real === null || (event.modes.length && !event.modes.some((mode) => isActive({ file, mode })))) continue;
+      const height = eventPoint(event, chart, settings)[1];
+      x.push(event.interval[0], event.interval[1], null);
+      y.push(height, height, null);
+    }
+  }
+  return x.length ? [{ x, y, type: "scatter", mode: "lines+markers", line: { color: INK, width: 1.4 }, marker: { symbol: "line-ns-open", size: 9, color: INK },
+    hoverinfo: "skip", showlegend: false, meta: { intervals: true }, ...axes }] : [];
 }
 
 /** A few marks on every line, by which lines can be distinguished without colours. */
@@ -172,14 +221,17 @@ function placeNames(marks, view) {
   }
 }
 
+const RANGE_COLOURS = { stable: "rgba(0,158,115,0.13)", marginal: "rgba(230,159,0,0.16)", undecided: "rgba(110,110,110,0.16)" };
+const STRIP_OPACITY = { stable: 1, marginal: 0.4, undecided: 0.15 };
+
 /** Shaded stable ranges of the parameter: of the whole height for one file, a strip at the top for each of several files. */
 function rangeShapes(files) {
   const shapes = [];
   files.forEach((file, row) => {
     for (const range of file.data.ranges || []) {
-      const colour = range.kind === "stable" ? "rgba(0,158,115,0.13)" : "rgba(230,159,0,0.16)";
+      const colour = RANGE_COLOURS[range.kind];
       const several = files.length > 1;
-      const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: range.kind === "stable" ? 1 : 0.4 }
+      const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: STRIP_OPACITY[range.kind] }
         : { y0: 0, y1: 1, fillcolor: colour };
       for (const axis of several ? ["y"] : ["y", "y2"])
         shapes.push({ type: "rect", xref: "x", yref: `${axis} domain`, x0: range.from.parameter, x1: range.to.parameter, line: { width: 0 }, layer: "below", ...strip });

@@ -89,9 +89,11 @@ class LociView {
     const item = (kind, text) => element("span", {}, element("i", { class: kind }), text);
     const several = this.files.length > 1;
     return element("div", { class: "key" }, ...files,
-      ...(several && (ranges("stable") || ranges("marginal")) ? [element("span", { text: "strips above: no mode grows (pale: marginal)" })] : []),
+      ...(several && (ranges("stable") || ranges("marginal") || ranges("undecided")) ? [element("span", { text: "strips above: no mode grows (pale: marginal; palest: undecided)" })] : []),
       ...(!several && ranges("stable") ? [item("stable", "stable: all modes decay")] : []),
       ...(!several && ranges("marginal") ? [item("marginal", "marginal: none grows, some stay on the imaginary axis")] : []),
+      ...(!several && ranges("undecided") ? [item("undecided", "undecided: the errors of the data leave it open")] : []),
+      ...(has((file) => file.data.modes.some((mode) => mode.errors)) ? [item("band", "bands and bars: errors of the data")] : []),
       ...((ranges("stable") || ranges("marginal")) && has((file) => file.path.turnsBack) ? [element("span", { text: "the path turns back: shaded where one passage is so" })] : []),
       ...(has((file) => file.data.modes.some((mode) => mode.uncertified.length)) ? [item("dashed", "identity of the mode not certified")] : []),
       ...(this.settings.hasRays ? [element("span", { text: "dotted n×: harmonics of the excitation" })] : []),
@@ -254,7 +256,7 @@ class LociView {
   eventTexts({ file, event }) {
     return [`${file.eventNumber(event)} ${event.kind}`, this.files.length > 1 ? file.data.name : "",
       `${this.parameter.name} = ${withUnit(number(event.parameter, 10), this.parameter.unit)}`, `s = ${complexText(event.real, event.imag, 8)} 1/s`,
-      event.modes.map((mode) => file.modeText(mode)).join(" and "), event.remark];
+      event.modes.map((mode) => file.modeText(mode)).join(" and "), event.remark, intervalText(event)];
   }
 
   lineTexts({ line, place }) {
@@ -267,7 +269,12 @@ class LociView {
       `${this.parameter.name} = ${withUnit(number(file.path.parameterAt(place), 8), this.parameter.unit)}`,
       `s = ${complexText(...s, 8)} 1/s`,
       `${settings.frequency === "abs" ? "abs(s)" : "Im s"} = ${number(frequency, 8)} ${settings.unit}`,
-      `damping ratio ${number(dampingRatio(...s), 6)}`, doubtful ? "identity not certified here" : ""];
+      `damping ratio ${number(dampingRatio(...s), 6)}`, this.errorText(file, mode, place), doubtful ? "identity not certified here" : ""];
+  }
+
+  errorText(file, mode, place) {
+    const errors = file.errors(mode), error = errors ? errors[file.path.stepOf(place)] : NaN;
+    return Number.isFinite(error) ? `error of the data up to ${number(error, 2)} 1/s` : "";
   }
 
   // Drawing.
@@ -335,7 +342,8 @@ class LociView {
     const traces = [...rayTraces(files, settings, views.frequency)];
     for (const [chart, plot] of [["frequency", { xaxis: "x", yaxis: "y" }], ["damping", { xaxis: "x", yaxis: "y2" }]]) {
       this.lines[chart] = chartLines(files, chart, settings, views[chart], this.spacing());
-      traces.push(...modeTraces(this.lines[chart], isActive, this.style, plot));
+      traces.push(...bandTraces(this.lines[chart], isActive, this.style, plot, errorScale(chart, settings)));
+      traces.push(...modeTraces(this.lines[chart], isActive, this.style, plot), ...intervalTrace(files, chart, settings, isActive, plot));
       if (named) traces.push(markTrace(this.lines[chart], isActive, this.style, { chart, settings, plot }));
       traces.push(...this.eventTraces(chart, plot, views[chart]));
     }

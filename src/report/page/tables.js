@@ -9,6 +9,9 @@ function table(heads, rows, caption) {
 
 const cell = (content, kind) => element("td", kind ? { class: kind } : {}, content);
 
+/** "between 12.2 and 24"; empty for events without an interval. */
+const intervalText = ({ interval }) => (interval && interval[0] < interval[1] ? `between ${number(interval[0], 6)} and ${number(interval[1], 6)}` : "");
+
 /** Table of the events of all files; selecting one moves the view to it. */
 function eventTable(files, choose) {
   const several = files.length > 1;
@@ -18,7 +21,7 @@ function eventTable(files, choose) {
       cell(element("button", { type: "button", text: file.eventNumber(event), click: () => choose(file, event), title: "show it" })),
       ...(several ? [cell(file.data.name)] : []),
       cell(event.kind), cell(number(event.parameter, 12), "value"),
-      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell(event.remark));
+      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell([event.remark, intervalText(event)].filter(Boolean).join(", ")));
   }));
   if (!rows.length) return element("p", { class: "note", text: "No special points on the traced range." });
   const { name, unit } = files[0].data.parameter;
