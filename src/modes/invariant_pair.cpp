@@ -1,5 +1,6 @@
 #include "eigentrail/modes/invariant_pair.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -12,6 +13,18 @@ namespace {
 ComplexMatrix normalization(const ComplexMatrix& W, const ComplexMatrix& Z, const ComplexMatrix& Lambda) {
   if (Z.cols() == 1) return W.topRows(Z.rows()).adjoint() * Z;  // W1 = 0
   return W.topRows(Z.rows()).adjoint() * Z + (W.bottomRows(Z.rows()).adjoint() * Z) * Lambda;
+}
+
+/// Scale of the slopes Z Lambda against Z: the root of the sum of |mu|^2 over the eigenvalues. |Lambda| is
+/// that in a basis of eigenvectors and larger in others. Two real eigenvalues of one freedom have one vector,
+/// so that [Z; Z Lambda / gamma] is orthonormal where Lambda has an entry of the size of gamma; with |Lambda|
+/// for gamma it would grow from point to point, and rounding with it. Eigenvalues that count as zero have no
+/// scale of their own. They keep that of Lambda, which has at most k / 2 such entries.
+double scale_of_slopes(const ComplexMatrix& Lambda, double reference) {
+  if (!Lambda.allFinite()) return reference;
+  const double size = Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues().norm();
+  if (size > reference) return size;
+  return std::max(reference, Lambda.norm() / std::sqrt(0.5 * static_cast<double>(Lambda.rows())));
 }
 
 }  // namespace
@@ -37,8 +50,7 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
     W.topRows(n) = Z;
     return;
   }
-  const double size = Lambda.norm();
-  const double gamma = std::max(size > 0.0 ? size : 1.0, reference);
+  const double gamma = scale_of_slopes(Lambda, reference);
   ComplexMatrix both(2 * n, k);
   both << Z, Z * Lambda / gamma;
   const Eigen::HouseholderQR<ComplexMatrix> qr(both);
