@@ -1,6 +1,5 @@
 #include "eigentrail/modes/invariant_pair.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -15,15 +14,12 @@ ComplexMatrix normalization(const ComplexMatrix& W, const ComplexMatrix& Z, cons
   return W.topRows(Z.rows()).adjoint() * Z + (W.bottomRows(Z.rows()).adjoint() * Z) * Lambda;
 }
 
-/// Scale of the slopes Z Lambda against Z: the root of the sum of |mu|^2 over the eigenvalues. |Lambda| is
-/// that in a basis of eigenvectors and larger in others. Two real eigenvalues of one freedom have one vector,
-/// so that [Z; Z Lambda / gamma] is orthonormal where Lambda has an entry of the size of gamma; with |Lambda|
-/// for gamma it would grow from point to point, and rounding with it. Eigenvalues that count as zero have no
-/// scale of their own. They keep that of Lambda, which has at most k / 2 such entries.
+/// Scale of the slopes Z Lambda against Z. Two real eigenvalues of one freedom have one vector, so that
+/// [Z; Z Lambda / gamma] is orthonormal where Lambda has an entry of the size of gamma; there are at most k /
+/// 2 such entries. With |Lambda| itself for gamma it would grow by a factor from point to point where there
+/// are several, and rounding with it.
 double scale_of_slopes(const ComplexMatrix& Lambda, double reference) {
   if (!Lambda.allFinite()) return reference;
-  const double size = Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues().norm();
-  if (size > reference) return size;
   return std::max(reference, Lambda.norm() / std::sqrt(0.5 * static_cast<double>(Lambda.rows())));
 }
 

@@ -103,6 +103,21 @@ TEST(Land, EndsAStepOnTheFirstOfTwoCollisionsCloseToEachOther) {
   }
 }
 
+/// The step ends between two exceptional points, nearer to the one that it does not pass.
+TEST(Land, EndsAStepOnACollisionInFrontOfOneThatIsJustBeyondTheEnd) {
+  constexpr double half = 5e-5;
+  const auto product = [&](double p) { return p * p - half * half; };
+  const Complex root = std::sqrt(Complex(product(-0.25)));
+  for (const double beyond : {0.1 * half, 0.6 * half}) {
+    From from(Planted::frequencies({Matrix{{2.0, 1.0}, {product(0.0), 2.0}}, Matrix::Zero(2, 2),
+                                    Matrix{{0.0, 0.0}, {1.0, 0.0}}}),
+              -0.25, {{{j * (2.0 + root), j * (2.0 - root)}}});
+    const LandedStep landed = from.land(0.25 + half - beyond);
+    EXPECT_NEAR(landed.step.h, 0.25 - half, 1e-9) << beyond;
+    EXPECT_EQ(landed.meetings.size(), 1U) << beyond;
+  }
+}
+
 /// Two narrow veerings of one pair at 0 and 0.04, the first at the left end of the step. From the second one
 /// the series show the first inaccurately; it is no earlier meeting of the step.
 TEST(Land, TheKnownMeetingAtTheLeftEndHidesNone) {

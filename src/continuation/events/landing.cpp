@@ -237,6 +237,11 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     distance = found.position;
     if (found.end == WalkEnd::absent) return no_other();
     if (found.end == WalkEnd::outside && later && distance / h <= 0.0) return no_other();
+    const double in_front = distance - found.move + earlier;
+    if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
+      distance = in_front;  // the step passes another one in front of that beyond its end
+      continue;
+    }
     if (found.end == WalkEnd::outside)
       return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
                                                                                 : Approach::failed;
