@@ -14,6 +14,15 @@ ComplexMatrix normalization(const ComplexMatrix& W, const ComplexMatrix& Z, cons
   return W.topRows(Z.rows()).adjoint() * Z + (W.bottomRows(Z.rows()).adjoint() * Z) * Lambda;
 }
 
+/// Scale of the slopes Z Lambda against Z. Two real eigenvalues of one freedom have one vector, so that
+/// [Z; Z Lambda / gamma] is orthonormal where Lambda has an entry of the size of gamma; there are at most k /
+/// 2 such entries. With |Lambda| itself for gamma it would grow by a factor from point to point where there
+/// are several, and rounding with it.
+double scale_of_slopes(const ComplexMatrix& Lambda, double reference) {
+  if (!Lambda.allFinite()) return reference;
+  return std::max(reference, Lambda.norm() / std::sqrt(0.5 * static_cast<double>(Lambda.rows())));
+}
+
 }  // namespace
 
 ModeCounts& ModeCounts::operator+=(const ModeCounts& other) {
@@ -37,8 +46,7 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
     W.topRows(n) = Z;
     return;
   }
-  const double size = Lambda.norm();
-  const double gamma = std::max(size > 0.0 ? size : 1.0, reference);
+  const double gamma = scale_of_slopes(Lambda, reference);
   ComplexMatrix both(2 * n, k);
   both << Z, Z * Lambda / gamma;
   const Eigen::HouseholderQR<ComplexMatrix> qr(both);

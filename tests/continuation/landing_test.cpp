@@ -87,6 +87,58 @@ TEST(Land, EndsAStepOnTheFirstOfSeveral) {
   }
 }
 
+/// Two exceptional points so close that rounding moves each of them by more than what counts as on a point.
+TEST(Land, EndsAStepOnTheFirstOfTwoCollisionsCloseToEachOther) {
+  constexpr double curvature = 1e-4;
+  for (const double half : {3e-4, 1e-4}) {
+    const auto product = [&](double p) { return curvature * (p * p - half * half); };
+    Planted family = Planted::frequencies(
+        {Matrix{{2.0, 1.0}, {product(0.0), 2.0}}, Matrix::Zero(2, 2), Matrix{{0.0, 0.0}, {curvature, 0.0}}});
+    const Complex root = std::sqrt(Complex(product(-0.1)));
+    From from(std::move(family), -0.1, {{{j * (2.0 + root), j * (2.0 - root)}}});
+    const LandedStep landed = from.land(0.25);
+    ASSERT_EQ(landed.meetings.size(), 1U) << half;
+    EXPECT_EQ(landed.meetings[0].meeting.kind, EventKind::collision) << half;
+    EXPECT_NEAR(landed.step.h, 0.1 - half, 1e-4 * half);
+  }
+}
+
+/// The step ends between two exceptional points, nearer to the one that it does not pass.
+TEST(Land, EndsAStepOnACollisionInFrontOfOneThatIsJustBeyondTheEnd) {
+  constexpr double half = 5e-5;
+  const auto product = [&](double p) { return p * p - half * half; };
+  const Complex root = std::sqrt(Complex(product(-0.25)));
+  for (const double beyond : {0.1 * half, 0.6 * half}) {
+    From from(Planted::frequencies({Matrix{{2.0, 1.0}, {product(0.0), 2.0}}, Matrix::Zero(2, 2),
+                                    Matrix{{0.0, 0.0}, {1.0, 0.0}}}),
+              -0.25, {{{j * (2.0 + root), j * (2.0 - root)}}});
+    const LandedStep landed = from.land(0.25 + half - beyond);
+    EXPECT_NEAR(landed.step.h, 0.25 - half, 1e-9) << beyond;
+    EXPECT_EQ(landed.meetings.size(), 1U) << beyond;
+  }
+}
+
+/// Two narrow veerings of one pair at 0 and 0.04, the first at the left end of the step. From the second one
+/// the series show the first inaccurately; it is no earlier meeting of the step.
+TEST(Land, TheKnownMeetingAtTheLeftEndHidesNone) {
+  constexpr double eps = 1e-9;
+  constexpr double second = 0.04;
+  // 2 +- sqrt(f(p)^2 + eps^2) with f = p (p - second) (1 + p)^6.
+  std::vector<Matrix> W{Matrix{{2.0, eps}, {eps, 2.0}}};
+  std::vector<double> f{0.0, -second, 1.0};
+  for (int i = 0; i < 6; ++i) {
+    f.push_back(0.0);
+    for (std::size_t k = f.size() - 1; k > 0; --k) f[k] += f[k - 1];
+  }
+  for (std::size_t k = 1; k < f.size(); ++k) W.push_back(Matrix{{f[k], 0.0}, {0.0, -f[k]}});
+  From from(Planted::frequencies(W), 0.0, {{{(2.0 - eps) * j, (2.0 + eps) * j}}});
+  from.origin.node.tracks[0].met = {0, 1};
+  const LandedStep landed = from.land(0.2);
+  EXPECT_NEAR(landed.step.h, second, 1e-10);
+  ASSERT_EQ(landed.meetings.size(), 1U);
+  EXPECT_EQ(landed.meetings[0].meeting.kind, EventKind::veering);
+}
+
 /// Two of one block meet where two others do.
 TEST(Land, RecordsAllMeetingsOfOnePlace) {
   From from(Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 1.0}, {5.6, -1.0}})), 0.0,

@@ -246,6 +246,27 @@ TEST(NearestMeeting, OfTwoExceptionalPointsIsTheNearer) {
   }
 }
 
+/// Between two exceptional points that are some ten times farther apart than rounding would split one double
+/// root, the nearer one is found, and not a single one in the middle; its place is known less well than
+/// others.
+TEST(NearestMeeting, OfTwoExceptionalPointsJustAboveRoundingIsTheNearer) {
+  constexpr double curvature = 1e-4;
+  constexpr double half = 1e-4;
+  Planted family = branching({-curvature * half * half, 0.0, curvature});
+  for (const double p : {0.4 * half, -0.9 * half, half}) {
+    const PathNode node = branching_point(family, p, curvature * (p * p - half * half));
+    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, 0.1);
+    ASSERT_TRUE(meeting.found) << p;
+    EXPECT_EQ(meeting.kind, EventKind::collision) << p;
+    EXPECT_NEAR(p + meeting.offset, std::copysign(half, p), meeting.rounding) << p;
+    EXPECT_LT(meeting.rounding, 0.3 * half) << p;
+    // Of a single exceptional point of the same family the place is known to all digits.
+    Planted single = branching({0.0, 1.0});
+    const Meeting one = nearest_meeting(branching_point(single, 0.01, 0.01).tracks[0], {0}, {1}, 0.1);
+    EXPECT_LT(one.rounding, 1e-5 * meeting.rounding);
+  }
+}
+
 /// s^2 + 2 d s + 1 - p: the pair meets the real axis at p = 1 - d^2.
 TEST(NearestMeeting, OfAPairWithItsConjugateIsACollision) {
   constexpr double d = 0.4;

@@ -350,6 +350,37 @@ TEST(InvariantPair, NormalizationKeepsTheEigenvaluesAndBalancesTheHalves) {
   }
 }
 
+/// Four real eigenvalues of two freedoms, with one vector for each two. From point to point a trace
+/// normalizes what it has normalized before; with |Lambda| as the scale of the slopes it would grow by a
+/// factor of 1.4 each time.
+TEST(InvariantPair, NormalizationAgainAndAgainDoesNotLetLambdaGrow) {
+  constexpr int points = 20;
+  const ComplexMatrix start_Z{{1.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 1.0}};
+  const ComplexMatrix start_Lambda = ComplexVector{{-0.7, -0.8, -1.0, -1.1}}.asDiagonal();
+  const auto norm_after = [&](int times, bool by_norm) {
+    ComplexMatrix Z = start_Z, Lambda = start_Lambda, W;
+    for (int i = 0; i < times; ++i) normalize_pair(Z, Lambda, W, by_norm ? Lambda.norm() : 1e-3);
+    return Lambda.norm();
+  };
+  const double once = norm_after(1, false);
+  EXPECT_LT(once, 3.0 * start_Lambda.norm());
+  // The entries of one freedom add up in squares: with the root of the number of points.
+  EXPECT_LT(norm_after(points, false), once * std::sqrt(1.0 + points));
+  EXPECT_GT(norm_after(points, true), 100.0 * once);
+}
+
+/// The same for two rigid-body motions, whose eigenvalues have no scale.
+TEST(InvariantPair, NormalizationKeepsTheScaleOfZeroEigenvalues) {
+  ComplexMatrix Z{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}, W;
+  ComplexMatrix Lambda = ComplexMatrix::Zero(4, 4);
+  Lambda(0, 1) = Lambda(2, 3) = 5.0;
+  Z(0, 1) = Z(1, 3) = 0.3;
+  for (int i = 0; i < 20; ++i) {
+    normalize_pair(Z, Lambda, W, 1e-3);
+    EXPECT_NEAR(Lambda.norm(), std::sqrt(50.0), 0.5) << i;
+  }
+}
+
 TEST(InvariantPair, FarGuessIsReportedNotReturnedAsConverged) {
   const ReducedPencil start = at(random_family(6, 1), 0.0);
   ModeCounts counts;

@@ -120,7 +120,7 @@ class MeetingLanding {
   Approach land_as_told(const ExpectedMeeting& expected);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
   RealSight look_from(double distance, const ExpectedMeeting& expected, bool trusting, StrandSampler& strands,
-                      double& earlier);
+                      double& earlier, double& rounding);
   std::optional<Meeting> meeting_at_end(const ExpectedMeeting& expected) const;
   bool attempt(double distance);
   void record(const ExpectedMeeting& expected, int looks);
@@ -148,7 +148,7 @@ std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& exp
   const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
   const Meeting meeting =
       nearest_meeting(track, expected.a.members, expected.b.members, step_.h, thresholds_);
-  if (!meeting.found || std::abs(meeting.offset) > at_point_ ||
+  if (!meeting.found || std::abs(meeting.offset) > std::max(at_point_, meeting.rounding) ||
       meeting.half_width > thresholds_.narrow * std::abs(step_.h))
     return std::nullopt;
   return meeting;
@@ -168,10 +168,11 @@ MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& exp
 }
 
 /// Estimates the offset of the meeting from the point at a distance from the left end. `earlier` is set to
-/// the offset of another meeting that the step passes before it, or to zero. `trusting`: ends the walk as
-/// soon as the series there give the place to all digits.
+/// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
+/// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
+/// digits.
 RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                    StrandSampler& strands, double& earlier) {
+                                    StrandSampler& strands, double& earlier, double& rounding) {
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -185,6 +186,7 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
   there.roots = in_order_of(strands(distance / h), there.roots);
   const Meeting meeting = nearest_meeting(there, expected.a.members, expected.b.members, h, thresholds_);
   if (!meeting.found) return {RealSight::Kind::absent};
+  rounding = meeting.rounding;
   const double move = std::abs(meeting.offset);
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
@@ -198,7 +200,8 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
 }
 
 /// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
-/// look_from. If another meeting lies before the result, goes back to it once.
+/// look_from. If another meeting lies before the result, goes back to it once; not if that turns out to be
+/// the known one at the left end, which from far away is seen inaccurately.
 MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected, bool trusting,
                                                 double& distance, int& looks) {
   const PathFrame& frame = solver_.points().frame();
@@ -206,15 +209,23 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
   const double resolution =
       frame.plane ? settled : settled * std::max(frame.range.length(), std::abs(step_.left->p));
   StrandSampler strands(*step_.left, step_.right, expected.a.track, h);
+  std::optional<double> later;  // a meeting that was located before one in front of it was looked for
+  const auto no_other = [&] {
+    if (!later) return Approach::nothing;
+    distance = *later;
+    return Approach::reached;
+  };
   for (const bool may_go_back : {true, false}) {
     double earlier = 0.0;
     bool own_end = false;
+    WalkRules rules;
     const auto look = [&](double at) {
-      const RealSight sight = look_from(at, expected, trusting, strands, earlier);
+      double rounding = 0.0;
+      const RealSight sight = look_from(at, expected, trusting, strands, earlier, rounding);
+      rules.rounding = std::max(at_point_, rounding);
       own_end = sight.kind == RealSight::Kind::settled;
       return sight;
     };
-    WalkRules rules;
     rules.resolution = resolution;
     rules.rounding = at_point_;
     rules.begin = 0.0;
@@ -224,7 +235,13 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     const Walk<double> found = walk(distance, rules, look);
     looks += found.looks;
     distance = found.position;
-    if (found.end == WalkEnd::absent) return Approach::nothing;
+    if (found.end == WalkEnd::absent) return no_other();
+    if (found.end == WalkEnd::outside && later && distance / h <= 0.0) return no_other();
+    const double in_front = distance - found.move + earlier;
+    if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
+      distance = in_front;  // the step passes another one in front of that beyond its end
+      continue;
+    }
     if (found.end == WalkEnd::outside)
       return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
                                                                                 : Approach::failed;
@@ -236,15 +253,22 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     // The walk may have converged to a later meeting than the first.
     const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
     // A meeting at the left end of the step is known already.
-    if (!goes_back) return std::abs(distance) > at_point_ ? Approach::reached : Approach::nothing;
+    if (!goes_back) return std::abs(distance) > at_point_ ? Approach::reached : no_other();
+    later = distance;
     distance += earlier;
   }
   return Approach::failed;
 }
 
-/// Adds the meeting to the list if it is at the end of the step.
+/// Adds the meeting to the list if it is at the end of the step; once where several are predicted close to
+/// it.
 void MeetingLanding::record(const ExpectedMeeting& expected, int looks) {
-  if (const std::optional<Meeting> meeting = meeting_at_end(expected))
+  const std::optional<Meeting> meeting = meeting_at_end(expected);
+  if (!meeting) return;
+  const auto is_it = [&](const MeetingOnEnd& other) {
+    return other.track == expected.a.track && other.meeting.members == meeting->members;
+  };
+  if (std::none_of(meetings_.begin(), meetings_.end(), is_it))
     meetings_.push_back({expected.a.track, *meeting, looks});
 }
 

@@ -121,9 +121,10 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
 /// Sets kind, offset and half-width of a meeting from the roots of the discriminant nearest to the point. A
 /// root is an exceptional point: a collision on the real axis, a veering beside it. A double root on the axis
 /// is a crossing, or a collision where the block is defective. `resolution`: error of a root; `noise`: error
-/// of the imaginary part of a single root; `defective`: whether the block is defective at a double root.
+/// of the imaginary part of a single root; `defective`: whether the block is defective at a double root;
+/// `bounded`: whether twice the resolution bounds the distance of two roots into which rounding splits one.
 void classify(const std::vector<Complex>& roots, double reach, double resolution, double noise,
-              bool defective, const MeetingThresholds& thresholds, Meeting& meeting) {
+              bool defective, bool bounded, const MeetingThresholds& thresholds, Meeting& meeting) {
   // A second root so many times farther away than the first one belongs to another meeting.
   constexpr double much_farther = 1e3;
   // In units of the resolution: half the distance of two roots that form a double root, and the sum of their
@@ -138,7 +139,9 @@ void classify(const std::vector<Complex>& roots, double reach, double resolution
   // The slope of the discriminant, by which `noise` is divided, vanishes halfway between two roots.
   const double on_axis = has_second ? resolution : std::max(noise, thresholds.on_axis * reach);
   meeting.offset = first.real();
-  if (has_second && separation <= of_double_root * resolution) {
+  const bool two_collisions = bounded && separation > resolution && std::abs(first.imag()) <= resolution &&
+                              std::abs(second.imag()) <= resolution;
+  if (has_second && separation <= of_double_root * resolution && !two_collisions) {
     // At a crossing at a complex parameter nothing happens on the real axis.
     meeting.found = std::abs((first + second).imag()) <= sum_on_axis * std::max(resolution, noise);
     meeting.kind = defective ? EventKind::collision : EventKind::crossing;
@@ -364,7 +367,16 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   } else if (rounding.slope > 0.0) {
     resolution = std::max(resolution, rounding.lambda / rounding.slope);
   }
-  classify(roots, std::abs(reach), resolution, noise, defective, thresholds, meeting);
+  // At a zero eigenvalue the stiffness cancels, so that its rounding is not known from the pencil.
+  constexpr double zero = 1e-3;  // of the norm of the block, which is at least the reference
+  Complex mean = 0.0;
+  for (const int i : members) mean += track.roots[i] / static_cast<double>(members.size());
+  const bool bounded = defective && std::abs(mean) > zero * track.pair.Lambda.norm();
+  classify(roots, std::abs(reach), resolution, noise, defective, bounded, thresholds, meeting);
+  const double slope = std::abs(jet(discriminant, roots[0])[1]);
+  const bool is_double = roots.size() > 1 && !(0.5 * std::abs(roots[0] - roots[1]) > resolution);
+  if (defective && slope > 0.0 && !is_double)
+    meeting.rounding = error_factor * rounding.lambda * distance / slope;
   return meeting;
 }
 

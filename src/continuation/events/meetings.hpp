@@ -27,6 +27,9 @@ struct Meeting {
   /// Of a collision: how many eigenvalues follow one from another around it; they vary like this root of the
   /// distance. Fewer than the members where several such groups meet at one place, as in equal parts.
   int cycle = 2;
+  /// Error of the offset of a single root by rounding. Two collisions close to each other are known less well
+  /// than others, because the discriminant has little slope there.
+  double rounding = 0.0;
 };
 
 /// The meeting of two strands of a block (indices of their roots) that is nearest to the point. Other
