@@ -13,6 +13,10 @@ constexpr int most_iterations = 30;
 /// As a share of the reach: the last move, and moves that may be rounding.
 constexpr double settled = 1e-12;
 constexpr double loose = 1e-6;
+/// As a share of the move before: a longer move no longer shrinks. Beside a double root each is half as long.
+constexpr double still_shrinking = 0.7;
+/// As a share of the reach, and of mu: longer moves are shortened.
+constexpr double longest_move = 0.5;
 /// Steps of the way down to the real axis: first share of it, and least one.
 constexpr double first_share = 0.02;
 constexpr double least_share = 1e-4;
@@ -219,7 +223,7 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     dh /= 1.0 + dh * repelled;
     Complex dmu = (-f.mu - f.muh * dh) / f.mumu;
     if (!is_finite(dh) || !is_finite(dmu)) return std::nullopt;
-    const double too_far = std::max(std::abs(dh) / (0.5 * reach), std::abs(dmu) / (0.5 * size_of_mu));
+    const double too_far = std::max(std::abs(dh) / reach, std::abs(dmu) / size_of_mu) / longest_move;
     if (too_far > 1.0) {
       dh /= too_far;
       dmu /= too_far;
@@ -228,7 +232,7 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     mu += dmu;
     if (std::abs(h - start) > reach) return std::nullopt;
     // The place is known to rounding over the slope of the discriminant: below that moves no longer shrink.
-    const bool at_rounding = std::abs(dh) <= loose * reach && std::abs(dh) > 0.7 * last_move;
+    const bool at_rounding = std::abs(dh) <= loose * reach && std::abs(dh) > still_shrinking * last_move;
     last_move = std::abs(dh);
     if (std::abs(dh) > settled * reach && !at_rounding) continue;
     // The next root of the critical value of f over mu, by its curvature.
@@ -317,7 +321,7 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
       at_start = false;
       before = found;
       before_share = share;
-      step = std::max(step, growth * step);
+      step *= growth;
       share = std::min(1.0, share + step);
     }
     // The distance from the double eigenvalue grows like the square root of the way, at first.

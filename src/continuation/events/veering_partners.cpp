@@ -36,9 +36,7 @@ class PencilSearch {
 
   FoundEvents run() {
     FoundEvents found;
-    position_ = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0) * step_.h;
-    node_ = node_at(position_);
-    if (!node_) return found;
+    if (!go_to(expected_.position.real())) return found;
     std::vector<Complex> known = known_roots();
     std::optional<ExceptionalPoint> point;
     for (int i = 0; i < most_of_one_prediction; ++i) {
@@ -52,17 +50,11 @@ class PencilSearch {
 
   /// Whether Newton's method leads from a veering that was located otherwise to another place.
   bool contradicts(const Event& event) {
-    position_ =
-        std::clamp((event.p - step_.left->p) / search_.frame().speed(*step_.left) / step_.h, 0.0, 1.0) *
-        step_.h;
-    node_ = node_at(position_);
-    if (!node_) return false;
+    if (!go_to((event.p - step_.left->p) / search_.frame().speed(*step_.left))) return false;
     const double speed = search_.frame().speed(*node_);
     const double sign = std::signbit(expected_.position.imag()) ? -1.0 : 1.0;
     const Complex h((event.p - node_->p) / speed, sign * event.half_width / speed);
-    const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
-    if (!mean) return false;
-    const auto point = find_exceptional_point(pencil(), chart(), h, *mean, reach_in_widths * widest_, {});
+    const auto point = from_followed(h, {});
     const double same = search_.log.thresholds.event.same_veering * search_.frame().range.length();
     return point && std::abs(point->h - h) * std::abs(speed) > same;
   }
@@ -71,6 +63,14 @@ class PencilSearch {
   const Track& track() const { return step_.left->tracks[expected_.a.track]; }
   Chart chart() const { return track().pair.chart; }
   const ReducedPencil& pencil() const { return node_->pencil.of(track().pair.part); }
+
+  /// Computes the point at a distance from the left end, or at the nearer end of the step. False if that
+  /// fails.
+  bool go_to(double distance) {
+    position_ = std::clamp(distance / step_.h, 0.0, 1.0) * step_.h;
+    node_ = node_at(position_);
+    return node_.has_value();
+  }
 
   /// Equilibrium and pencil, as series, at a distance from the left end; without modes.
   std::optional<PathNode> node_at(double position) const {
@@ -127,21 +127,26 @@ class PencilSearch {
   /// Another one beside one that was found, or from the prediction once more.
   std::optional<ExceptionalPoint> next_to(const ExceptionalPoint& point,
                                           const std::vector<Complex>& known) const {
-    const double reach = reach_in_widths * widest_;
-    if (std::abs(point.next - point.h) < reach) {
-      auto beside = find_exceptional_point(pencil(), chart(), point.next, point.mu, reach, known);
-      if (beside) return beside;
+    if (std::abs(point.next - point.h) < reach_in_widths * widest_) {
+      if (auto beside = found_from(point.next, point.mu, known)) return beside;
     }
     return from_prediction(known);
   }
 
   std::optional<ExceptionalPoint> from_prediction(const std::vector<Complex>& known) const {
     const Complex h = expected_.position - position_;
-    const double reach = reach_in_widths * widest_;
-    auto point = find_exceptional_point(pencil(), chart(), h, mean_there(), reach, known);
-    if (point || expected_.is_rough) return point;
+    auto point = found_from(h, mean_there(), known);
+    return point || expected_.is_rough ? point : from_followed(h, known);
+  }
+
+  /// From h, with both eigenvalues followed there from the real axis.
+  std::optional<ExceptionalPoint> from_followed(Complex h, const std::vector<Complex>& known) const {
     const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
-    return mean ? find_exceptional_point(pencil(), chart(), h, *mean, reach, known) : std::nullopt;
+    return mean ? found_from(h, *mean, known) : std::nullopt;
+  }
+
+  std::optional<ExceptionalPoint> found_from(Complex h, Complex mu, const std::vector<Complex>& known) const {
+    return find_exceptional_point(pencil(), chart(), h, mu, reach_in_widths * widest_, known);
   }
 
   std::optional<Event> event_at(const ExceptionalPoint& point) {
