@@ -30,21 +30,21 @@ struct DataErrors {
   /// model.
   std::function<double(double)> shape = {};
 
-  /// The sum of both at the value p of the parameter on a step; infinite where it is not known.
-  double at(std::size_t step, Eigen::Index mode, double p) const {
-    const auto row = static_cast<Eigen::Index>(step);
-    const double there =
-        shape ? std::max(shape(p) * interpolation(row, mode), rough(row, mode)) : interpolation(row, mode);
-    const double sum = there + digits(row, mode);
-    return std::isnan(sum) ? INFINITY : sum;
-  }
-
-  /// The same for the whole step.
+  /// The sum of both on a step; infinite where it is not known.
   double on_step(std::size_t step, Eigen::Index mode) const {
     const auto row = static_cast<Eigen::Index>(step);
-    const double sum = interpolation(row, mode) + digits(row, mode);
-    return std::isnan(sum) ? INFINITY : sum;
+    return known_or_infinite(interpolation(row, mode) + digits(row, mode));
   }
+
+  /// The same at the value p of the parameter on the step.
+  double at(std::size_t step, Eigen::Index mode, double p) const {
+    if (!shape) return on_step(step, mode);
+    const auto row = static_cast<Eigen::Index>(step);
+    const double there = std::max(shape(p) * interpolation(row, mode), rough(row, mode));
+    return known_or_infinite(there + digits(row, mode));
+  }
+
+  static double known_or_infinite(double error) { return std::isnan(error) ? INFINITY : error; }
 };
 
 }  // namespace eigentrail
