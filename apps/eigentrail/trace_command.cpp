@@ -14,9 +14,11 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/stability/undecided_ranges.hpp"
+#include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
+#include "projection_info.hpp"
 #include "progress_bar.hpp"
 #include "ranges.hpp"
 
@@ -169,6 +171,7 @@ void print_summary(const Scene& scene, const Model& model, const TraceOptions& o
               (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),
               order_text(result.order, !options.order).c_str(), result.n_modes, result.n_available,
               static_cast<long long>(result.n_independent));
+  if (const Projection* projection = model.projection()) print_projection(*projection, options.parameter);
   if (result.n_infinite > 0) {
     std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n",
                 result.n_infinite);
@@ -314,6 +317,7 @@ int run_trace(const TraceArguments& arguments) {
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+  project_if_large(setup);
   setup.options.threads = arguments.threads > 0
                               ? arguments.threads
                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -7,6 +7,7 @@
 #include "eigentrail/scene/limits.hpp"
 #include "model/beside_scene.hpp"
 #include "model/matrix_family.hpp"
+#include "model/read_sparse_family.hpp"
 
 namespace eigentrail {
 namespace {
@@ -212,6 +213,22 @@ Polynomials read_file(FamilyReader& reader) {
   return p;
 }
 
+/// The family, if its file has sparse matrices or the scene gives factors of matrices; null otherwise.
+std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, const std::set<int>& used) {
+  const bool has_factors = reader.table.has("factors");
+  if (!reader.table.has("file")) {
+    if (has_factors) reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
+    return nullptr;
+  }
+  try {
+    const Hdf5File file = Hdf5File::open(beside_scene(reader.scene, reader.table));
+    if (!has_factors && !has_sparse_matrices(file)) return nullptr;
+    return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene), used);
+  } catch (const Hdf5Error& error) {
+    reader.fail("file", error.what());
+  }
+}
+
 Polynomials read_table(FamilyReader& reader) {
   TableReader& table = reader.table;
   Polynomials p;
@@ -253,6 +270,7 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
   }
   std::set<int> used = used_elsewhere;
   FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}, 0};
+  if (auto sparse = read_if_sparse(reader, used)) return sparse;
   Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
   if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
   reader.table.finish();

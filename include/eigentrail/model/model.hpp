@@ -118,6 +118,7 @@ struct EvaluationFault {
 };
 
 class SampleErrors;
+struct Projection;
 
 /// Models are immutable. Const functions may be called from several threads, each with its own `counts`.
 class Model {
@@ -163,6 +164,9 @@ class Model {
 
   /// Errors of the eigenvalues that come from the data of the model; null if it has none of its own.
   virtual const SampleErrors* sample_errors() const { return nullptr; }
+
+  /// The large model that this one is a projection of; null if it is none.
+  virtual const Projection* projection() const { return nullptr; }
 
   /// residual and linearize at a point (order 0) with 113 bits, for reference solutions. A model that does
   /// not support them returns a fault.

@@ -41,6 +41,7 @@ inline constexpr std::size_t scene_operations = 4'000'000;
 /// Matrix families: rows of the matrices, which are solved densely; powers of the parameter, beyond which the
 /// series would lose all digits; numbers of all matrices together (1.6 GB).
 inline constexpr int matrix_rows = 5000;
+inline constexpr std::size_t sparse_rows = 5'000'000;  ///< of sparse matrices
 inline constexpr int matrix_power = 16;
 inline constexpr std::size_t matrix_numbers = 200'000'000;
 

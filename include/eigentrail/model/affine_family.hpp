@@ -1,0 +1,65 @@
+// A model whose matrices are sums of constant matrices with factors that depend on the parameters,
+//
+//   M(p) = sum_i f_i(p) M_i,  and so for C and K;  (M s^2 + C s + K) z = 0,
+//
+// with sparse constant matrices (a large model as another program made it) or dense ones (its projection).
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/model/model.hpp"
+
+namespace eigentrail {
+
+/// One summand: a constant matrix, n x n, and its factor, a function of the parameters' SI values.
+template <class Storage>
+struct AffineTerm {
+  Expression factor = 1.0;
+  Storage matrix;
+};
+
+/// The summands of M, C and K; an empty list is a zero matrix.
+template <class Storage>
+struct AffinePencil {
+  std::vector<AffineTerm<Storage>> M, C, K;
+};
+
+/// Storage is SparseMatrix or Matrix. The equilibrium is x = 0 for all parameters; there are no constraints.
+template <class Storage>
+class AffineFamily : public Model {
+ public:
+  /// The description gives n; its effects are set here. The caller must have checked the sizes.
+  AffineFamily(ModelDescription description, AffinePencil<Storage> pencil);
+
+  const AffinePencil<Storage>& pencil() const { return pencil_; }
+  /// The matrices at one place; `parameters` in declared units.
+  AffinePencil<Storage> at(const Vector& parameters) const;
+
+  Vector initial_guess(const Vector& parameters) const override;
+  Structure structure(int traced_parameter) const override;
+  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
+                           EvaluationCounts& counts) const override;
+  EvaluationFault linearize(const Path& path, int order, Linearization& result,
+                            EvaluationCounts& counts) const override;
+  /// None for sparse matrices: looking for common structure takes work and memory of dense ones.
+  CoefficientMatrices coefficient_matrices() const override;
+  std::vector<Expression> expressions() const override;
+  EvaluationFault extended_residual(const BasicPath<Extended>& path,
+                                    BasicSteadyResidual<Extended>& result) const override;
+  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
+                                         BasicLinearization<Extended>& result) const override;
+
+ private:
+  template <class Real, int Q>
+  EvaluationFault evaluate_all(const BasicPath<Real>& path, int order,
+                               BasicLinearization<Real>& result) const;
+
+  AffinePencil<Storage> pencil_;
+};
+
+using SparseFamily = AffineFamily<SparseMatrix>;
+
+extern template class AffineFamily<SparseMatrix>;
+extern template class AffineFamily<Matrix>;
+
+}  // namespace eigentrail

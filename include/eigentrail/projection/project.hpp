@@ -1,0 +1,62 @@
+// Large models: a sparse family is projected onto the space of its followed modes' vectors at few values of
+// the parameter. The projected family is a model like others, which the engine traces as it is.
+//
+// Each value costs one sparse factorization (shift-invert Arnoldi, right and left vectors). A trace of the
+// projected family follows the modes; residuals of the large pencil along it, right and left ones, show where
+// the projection is worst, and there the next value is taken, until its exact eigenvalues agree with those of
+// the projection. With both vectors in the space the error of an eigenvalue is of second order in the
+// distance of the vectors from the space.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/model/affine_family.hpp"
+#include "eigentrail/model/projection.hpp"
+
+namespace eigentrail {
+
+/// Thrown if a large model cannot be projected; the message says why and what to do.
+class NotProjected : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ProjectionOptions {
+  /// Largest error of an eigenvalue by the projection, relative to max(|s|, reference), as a share of the
+  /// tolerance of the trace: what is left is for the trace itself, and places of events follow from it.
+  double share_of_tolerance = 0.01;
+  int first_samples = 4;       ///< values of the parameter before the first trace, ends included; >= 2
+  int max_factorizations = 40;  ///< the projection ends there and says what error is left
+  int spare_modes = 3;          ///< modes beyond the followed ones whose vectors are kept as well; >= 0
+  /// Whether left vectors are kept where the pencil is not symmetric. Without them the error of an eigenvalue
+  /// is of first order; only for comparisons.
+  bool left_vectors = true;
+};
+
+/// A family that was projected.
+class ProjectedFamily final : public AffineFamily<Matrix> {
+ public:
+  ProjectedFamily(ModelDescription description, AffinePencil<Matrix> pencil, Projection projection);
+
+  const Projection* projection() const override { return &projection_; }
+
+ private:
+  Projection projection_;
+};
+
+/// Projects `family` for the trace that `trace` describes, at the parameters that the description and
+/// `trace.values` give. Throws NotProjected if modes cannot be found, or if the options ask for all modes.
+std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
+                                         const ProjectionOptions& options = {});
+
+/// Replaces the model of a trace by its projection where that takes less work: a sparse family of which some
+/// modes are followed, with more freedoms than `largest_dense_size`. Nothing otherwise.
+void project_if_large(TraceSetup& setup);
+
+/// Up to this size the dense engine takes less work for a few modes than the projection (docs,
+/// performance.md).
+inline constexpr Eigen::Index largest_dense_size = 150;
+
+}  // namespace eigentrail

@@ -1,0 +1,224 @@
+#include "eigentrail/model/affine_family.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace eigentrail {
+namespace {
+
+template <class Real, class Storage>
+struct StorageOf {
+  using Type = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  static Type zero(Eigen::Index n) { return Type::Zero(n, n); }
+};
+template <class Real>
+struct StorageOf<Real, SparseMatrix> {
+  using Type = Eigen::SparseMatrix<Real>;
+  static Type zero(Eigen::Index n) { return Type(n, n); }
+};
+
+template <class Real, int Q>
+std::vector<Series<Real, Q>> si_series(const Parameters& parameters, const BasicPath<Real>& path) {
+  std::vector<Series<Real, Q>> si(parameters.size());
+  for (std::size_t i = 0; i < si.size(); ++i) {
+    for (int k = 0; k <= Q; ++k) si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
+  }
+  parameters.to_si(std::span<Series<Real, Q>>(si));
+  return si;
+}
+
+/// Coefficients of a sum along the path up to h^order, without trailing zeros. All sparse coefficients have
+/// the pattern of the whole sum.
+template <class Real, int Q, class Storage>
+auto evaluate_sum(const std::vector<AffineTerm<Storage>>& terms, Eigen::Index n,
+                  const std::vector<Series<Real, Q>>& si, int order, bool& finite) {
+  using std::isfinite;
+  using Kind = StorageOf<Real, Storage>;
+  using Scalar = Series<Real, Q>;
+  std::vector<Scalar> factors;
+  std::size_t count = 1;
+  for (const AffineTerm<Storage>& term : terms) {
+    const Scalar& factor = factors.emplace_back(term.factor.evaluate(std::span<const Scalar>(si)));
+    for (int k = 0; k <= order; ++k) {
+      finite = finite && isfinite(factor[k]);
+      if (factor[k] != Real(0.0)) count = std::max(count, static_cast<std::size_t>(k) + 1);
+    }
+  }
+  typename BasicLinearization<Real>::Coefficients result;
+  for (std::size_t k = 0; k < count; ++k) {
+    typename Kind::Type sum = Kind::zero(n);
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const Real factor = factors[i][static_cast<int>(k)];
+      if (factor != Real(0.0)) sum += factor * terms[i].matrix.template cast<Real>();
+    }
+    result.emplace_back(std::move(sum));
+  }
+  return result;
+}
+
+enum class TermSymmetry { symmetric, skew, none };
+
+template <class Storage>
+TermSymmetry term_symmetry(const std::vector<AffineTerm<Storage>>& terms) {
+  bool symmetric = true, skew = true;
+  for (const AffineTerm<Storage>& term : terms) {
+    const Storage transposed = term.matrix.transpose();
+    symmetric = symmetric && (term.matrix - transposed).norm() == 0.0;
+    skew = skew && (term.matrix + transposed).norm() == 0.0;
+  }
+  return symmetric ? TermSymmetry::symmetric : skew ? TermSymmetry::skew : TermSymmetry::none;
+}
+
+template <class Storage>
+std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
+  const auto count = [](const auto& terms) { return static_cast<int>(terms.size()); };
+  const TermSymmetry c = term_symmetry(pencil.C);
+  const bool damped = !pencil.C.empty();
+  return {{"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
+          {"C",
+           "damping and gyroscopic matrix",
+           count(pencil.C),
+           {.dissipative = damped && c != TermSymmetry::skew, .gyroscopic = damped && c != TermSymmetry::symmetric}},
+          {"K",
+           "stiffness matrix",
+           count(pencil.K),
+           {.conservative = true, .circulatory = term_symmetry(pencil.K) != TermSymmetry::symmetric}}};
+}
+
+template <class Storage>
+bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameters& parameters, int traced) {
+  return std::none_of(terms.begin(), terms.end(), [&](const AffineTerm<Storage>& term) {
+    return parameters.depends_on(term.factor, traced);
+  });
+}
+
+}  // namespace
+
+template <class Storage>
+AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<Storage> pencil)
+    : Model([&] {
+        description.effects = effects_of(pencil);
+        return std::move(description);
+      }()),
+      pencil_(std::move(pencil)) {}
+
+template <class Storage>
+AffinePencil<Storage> AffineFamily<Storage>::at(const Vector& parameters) const {
+  const auto si = si_series<double, 0>(description().parameters, {parameters, {}, {}});
+  AffinePencil<Storage> result;
+  const auto sum = [&](const std::vector<AffineTerm<Storage>>& terms) -> std::vector<AffineTerm<Storage>> {
+    Storage total = StorageOf<double, Storage>::zero(n_coordinates());
+    for (const AffineTerm<Storage>& term : terms)
+      total += term.factor.evaluate(std::span<const Series<double, 0>>(si))[0] * term.matrix;
+    return {{1.0, std::move(total)}};
+  };
+  return {sum(pencil_.M), sum(pencil_.C), sum(pencil_.K)};
+}
+
+template <class Storage>
+Vector AffineFamily<Storage>::initial_guess(const Vector&) const {
+  return Vector::Zero(n_coordinates());
+}
+
+template <class Storage>
+Structure AffineFamily<Storage>::structure(int traced_parameter) const {
+  Structure result;
+  for (const Effect& effect : description().effects) {
+    result.damped = result.damped || effect.contribution.dissipative;
+    result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
+    result.circulatory = result.circulatory || effect.contribution.circulatory;
+  }
+  const Parameters& parameters = description().parameters;
+  result.symmetric_mass = term_symmetry(pencil_.M) == TermSymmetry::symmetric;
+  result.constant_mass = are_constant(pencil_.M, parameters, traced_parameter);
+  result.constant_damping = are_constant(pencil_.C, parameters, traced_parameter);
+  result.constant_stiffness = are_constant(pencil_.K, parameters, traced_parameter);
+  result.constant_constraints = true;
+  result.fixed_equilibrium = true;
+  result.known_equilibrium = true;
+  return result;
+}
+
+template <class Storage>
+EvaluationFault AffineFamily<Storage>::residual(const Path& path, int order, SteadyResidual& result,
+                                                EvaluationCounts&) const {
+  if (!path.x.isZero(0.0)) throw std::invalid_argument("AffineFamily: expected the equilibrium x = 0");
+  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
+  result.constraint = VectorSeries::Zero(0, order + 1);
+  return {};
+}
+
+template <class Storage>
+template <class Real, int Q>
+EvaluationFault AffineFamily<Storage>::evaluate_all(const BasicPath<Real>& path, int order,
+                                                    BasicLinearization<Real>& result) const {
+  const auto si = si_series<Real, Q>(description().parameters, path);
+  EvaluationFault fault;
+  const auto evaluate = [&](const std::vector<AffineTerm<Storage>>& terms, const char* name) {
+    bool finite = true;
+    auto series = evaluate_sum<Real, Q>(terms, n_coordinates(), si, order, finite);
+    if (!finite && !fault) fault.source = name;
+    return series;
+  };
+  result.M = evaluate(pencil_.M, "matrix M");
+  result.C = evaluate(pencil_.C, "matrix C");
+  result.K = evaluate(pencil_.K, "matrix K");
+  result.A = {typename BasicSystemMatrix<Real>::Dense(0, n_coordinates())};
+  return fault;
+}
+
+template <class Storage>
+EvaluationFault AffineFamily<Storage>::linearize(const Path& path, int order, Linearization& result,
+                                                 EvaluationCounts& counts) const {
+  for (std::size_t i = 0; i < counts.linearization.size(); ++i) {
+    if (description().effects[i].count > 0) ++counts.linearization[i];
+  }
+  return evaluate_all<double, max_order>(path, order, result);
+}
+
+template <class Storage>
+CoefficientMatrices AffineFamily<Storage>::coefficient_matrices() const {
+  CoefficientMatrices result;
+  if constexpr (std::is_same_v<Storage, Matrix>) {
+    const auto take = [](const std::vector<AffineTerm<Matrix>>& terms, std::vector<Matrix>& matrices) {
+      for (const AffineTerm<Matrix>& term : terms) matrices.push_back(term.matrix);
+    };
+    take(pencil_.M, result.M);
+    take(pencil_.C, result.C);
+    take(pencil_.K, result.K);
+  }
+  return result;
+}
+
+template <class Storage>
+std::vector<Expression> AffineFamily<Storage>::expressions() const {
+  std::vector<Expression> all;
+  for (const auto* terms : {&pencil_.M, &pencil_.C, &pencil_.K}) {
+    for (const AffineTerm<Storage>& term : *terms) {
+      const bool known = std::find(all.begin(), all.end(), term.factor) != all.end();
+      if (!term.factor.is_constant() && !known) all.push_back(term.factor);
+    }
+  }
+  return all;
+}
+
+template <class Storage>
+EvaluationFault AffineFamily<Storage>::extended_residual(const BasicPath<Extended>&,
+                                                         BasicSteadyResidual<Extended>& result) const {
+  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
+  result.constraint = ExtendedMatrix::Zero(0, 1);
+  return {};
+}
+
+template <class Storage>
+EvaluationFault AffineFamily<Storage>::extended_linearization(const BasicPath<Extended>& path,
+                                                              BasicLinearization<Extended>& result) const {
+  return evaluate_all<Extended, 0>(path, 0, result);
+}
+
+template class AffineFamily<SparseMatrix>;
+template class AffineFamily<Matrix>;
+
+}  // namespace eigentrail

@@ -1,0 +1,310 @@
+#include "projection/nearest_modes.hpp"
+
+#include <Spectra/GenEigsSolver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace eigentrail {
+namespace {
+
+/// Relative accuracy of the eigenvalues of the inverse, and so of the vectors.
+constexpr double krylov_tolerance = 1e-12;
+
+/// Two eigenvalues closer than this share of the shift's distance to the next ones: the shift lies on an
+/// eigenvalue, and the solutions lose as many digits of the others.
+constexpr double on_an_eigenvalue = 1e-5;
+
+SparseMatrix sum(const std::vector<AffineTerm<SparseMatrix>>& terms) {
+  return terms.front().matrix;
+}
+
+bool is_symmetric(const SparseMatrix& A, double sign) {
+  const SparseMatrix transposed = A.transpose();
+  return (A - sign * transposed).norm() == 0.0;
+}
+
+/// The inverse of the shifted pencil, in the form that Spectra's solvers use. Three linearizations:
+/// - without C: the square of s is the eigenvalue, size n;
+/// - without M: first order, size n;
+/// - else the positions and the velocities divided by `scale`, size 2 n.
+class Inverse {
+ public:
+  using Scalar = double;
+  enum class Form { undamped, first_order, quadratic };
+
+  Inverse(const SparsePencil& pencil, const SparseFactors& factors, const Shift& shift, bool transposed,
+          double scale, long& solutions)
+      : pencil_(pencil),
+        factors_(factors),
+        shift_(shift.value()),
+        transposed_(transposed),
+        scale_(scale),
+        solutions_(solutions) {}
+
+  static Form form_of(const SparsePencil& pencil) {
+    if (pencil.C.norm() == 0.0) return Form::undamped;
+    return pencil.M.norm() == 0.0 ? Form::first_order : Form::quadratic;
+  }
+
+  Eigen::Index rows() const {
+    return form_of(pencil_) == Form::quadratic ? 2 * pencil_.size() : pencil_.size();
+  }
+  Eigen::Index cols() const { return rows(); }
+
+  void perform_op(const double* in, double* out) const {
+    ++solutions_;
+    const Eigen::Index n = pencil_.size();
+    const Eigen::Map<const Vector> x(in, n);
+    Eigen::Map<Vector> result(out, n);
+    switch (form_) {
+      case Form::undamped:
+        result = solve(times(pencil_.M, x));
+        return;
+      case Form::first_order:
+        result = real_part_of_solution(times(pencil_.C, x).cast<Complex>()).real();
+        return;
+      case Form::quadratic: {
+        const Eigen::Map<const Vector> v(in + n, n);
+        const ComplexVector right =
+            (scale_ * times(pencil_.M, v) + times(pencil_.C, x)).cast<Complex>() + shift_ * times(pencil_.M, x);
+        const ComplexVector a = real_part_of_solution(right);
+        result = a.real();
+        Eigen::Map<Vector>(out + n, n) = (x.cast<Complex>() + shift_ * a).real() / scale_;
+        return;
+      }
+    }
+  }
+
+ private:
+  Vector times(const SparseMatrix& A, const Vector& x) const {
+    if (transposed_) return A.transpose() * x;
+    return A * x;
+  }
+  Vector solve(const Vector& b) const {
+    return transposed_ ? factors_.solve_transposed(Matrix(b)) : factors_.solve(Matrix(b));
+  }
+  /// -P(shift)^-1 b; only its real part where the shift is real.
+  ComplexVector real_part_of_solution(const ComplexVector& b) const {
+    if (shift_.imag() == 0.0) return -solve(b.real()).cast<Complex>();
+    return -(transposed_ ? factors_.solve_transposed(b) : factors_.solve(b));
+  }
+
+  const SparsePencil& pencil_;
+  const SparseFactors& factors_;
+  Complex shift_;
+  bool transposed_;
+  double scale_;
+  long& solutions_;
+  Form form_ = form_of(pencil_);
+};
+
+/// Eigenvalues s, Im s >= 0, with vectors, of the pencil.
+struct Found {
+  std::vector<Complex> s;
+  std::vector<ComplexVector> vectors;
+  double least = 0.0;  ///< smallest magnitude of an eigenvalue of the inverse that was asked for
+};
+
+void keep(Found& found, Complex s, const ComplexVector& x) {
+  if (!std::isfinite(s.real()) || !std::isfinite(s.imag()) || s.imag() < 0.0) return;
+  found.s.push_back(s);
+  found.vectors.push_back(x.normalized());
+}
+
+/// s from an eigenvalue of the inverse and its vector.
+Complex eigenvalue(Complex nu, const Shift& shift, Inverse::Form form, const SparsePencil& pencil,
+                   const ComplexVector& vector, double scale) {
+  if (shift.frequency == 0.0) return shift.real + 1.0 / nu;
+  // nu = s / (s^2 + w^2): of the two roots the one that fits the vector.
+  const Eigen::Index n = pencil.size();
+  const auto x = vector.head(n);
+  const Complex rough = form == Inverse::Form::quadratic
+                            ? scale * x.dot(vector.tail(n)) / x.squaredNorm()
+                            : -x.dot(pencil.K * x) / x.dot(pencil.C * x);
+  const Complex half = 0.5 / nu;
+  const Complex root = std::sqrt(half * half - shift.frequency * shift.frequency);
+  const Complex large = std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
+  const Complex other = shift.frequency * shift.frequency / large;
+  return std::abs(large - rough) < std::abs(other - rough) ? large : other;
+}
+
+std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const Shift& shift, int wanted,
+                             double scale) {
+  const auto size = static_cast<int>(inverse.rows());
+  const int nev = std::min(wanted, size - 2);
+  const int ncv = std::min(size, std::max(2 * nev + 1, nev + 12));
+  Spectra::GenEigsSolver<Inverse> solver(inverse, nev, ncv);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, 300, krylov_tolerance, Spectra::SortRule::LargestMagn);
+  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  const ComplexVector nus = solver.eigenvalues();
+  const ComplexMatrix vectors = solver.eigenvectors();
+  const Inverse::Form form = Inverse::form_of(pencil);
+  Found found;
+  found.least = nus.cwiseAbs().minCoeff();
+  for (Eigen::Index i = 0; i < nus.size(); ++i) {
+    const Complex nu = nus[i];
+    const ComplexVector x = vectors.col(i).head(pencil.size());
+    if (form != Inverse::Form::undamped) {
+      keep(found, eigenvalue(nu, shift, form, pencil, vectors.col(i), scale), x);
+      continue;
+    }
+    const double square = shift.real * shift.real - shift.frequency * shift.frequency;
+    Complex mu = square - 1.0 / nu;  // s^2
+    if (pencil.symmetric) mu = mu.real();
+    const Complex s = std::sqrt(mu);
+    keep(found, s, x);
+    if (s != 0.0) keep(found, -s, x);
+  }
+  return found;
+}
+
+/// Distance from the shift within which every eigenvalue belongs to an eigenvalue of the inverse of at least
+/// the magnitude `least`.
+double complete_radius(const Shift& shift, Inverse::Form form, double least) {
+  if (form == Inverse::Form::undamped) {
+    // |s^2 - shift^2| = |s - shift| |s + shift| <= 1 / least
+    const double w = std::abs(shift.value());
+    return std::sqrt(w * w + 1.0 / least) - w;
+  }
+  if (shift.frequency == 0.0) return 1.0 / least;
+  // |nu| >= (1/d - 1/(2 w - d)) / 2 for a distance d below w
+  const double w = shift.frequency;
+  const double a = 1.0 / (2.0 * least);
+  return w + a - std::sqrt(w * w + a * a);
+}
+
+/// Frequency (rad/s) of the lowest modes, roughly: one step of inverse iteration.
+double frequency_scale(const SparsePencil& pencil, const SparseFactors& factors) {
+  const Vector start = Vector::Ones(pencil.size());
+  const ComplexVector x = factors.solve(ComplexVector((pencil.M * start).cast<Complex>()));
+  const double inertia = std::abs(x.dot(pencil.M * x)), stiffness = std::abs(x.dot(pencil.K * x));
+  const double scale = std::sqrt(stiffness / inertia);
+  return std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+}
+
+/// A shift beside zero, for a pencil whose K is singular: far below the frequencies, far above rounding.
+Shift beside_zero(const SparsePencil& pencil) {
+  const double mass = pencil.M.norm();
+  const double scale = mass > 0.0 ? std::sqrt(pencil.K.norm() / mass) : pencil.K.norm() / pencil.C.norm();
+  return {1e-6 * scale, 0.0};
+}
+
+/// If the shift lies on an eigenvalue that was found: the distance of the nearest of the others. Zero if not.
+double gap_beside(const Found& found, const Shift& shift) {
+  std::vector<double> distances;
+  for (const Complex s : found.s) distances.push_back(std::abs(s - shift.value()));
+  std::sort(distances.begin(), distances.end());
+  const auto other = std::find_if(distances.begin(), distances.end(), [&](double d) {
+    return d > on_an_eigenvalue * distances.back();
+  });
+  return other == distances.begin() ? 0.0 : *other;
+}
+
+ComplexMatrix columns(const std::vector<ComplexVector>& vectors, Eigen::Index n) {
+  ComplexMatrix result(n, static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = vectors[i];
+  return result;
+}
+
+/// The modes by their distance from the shift.
+NearestModes sorted(const Found& found, const Shift& shift, Eigen::Index n) {
+  std::vector<std::size_t> order(found.s.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(found.s[a] - shift.value()) < std::abs(found.s[b] - shift.value());
+  });
+  NearestModes modes;
+  modes.s.resize(static_cast<Eigen::Index>(order.size()));
+  std::vector<ComplexVector> vectors;
+  for (const std::size_t i : order) {
+    modes.s[static_cast<Eigen::Index>(vectors.size())] = found.s[i];
+    vectors.push_back(found.vectors[i]);
+  }
+  modes.right = columns(vectors, n);
+  return modes;
+}
+
+}  // namespace
+
+ComplexMatrix SparsePencil::times(Complex s, const ComplexMatrix& Z) const {
+  return s * s * (M * Z) + s * (C * Z) + K * Z;
+}
+
+ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) const {
+  return s * s * (M.transpose() * Z) + s * (C.transpose() * Z) + K.transpose() * Z;
+}
+
+SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters) {
+  const AffinePencil<SparseMatrix> at = family.at(parameters);
+  SparsePencil pencil{sum(at.M), sum(at.C), sum(at.K)};
+  const bool conservative = is_symmetric(pencil.M, 1.0) && is_symmetric(pencil.K, 1.0);
+  const bool symmetric_C = is_symmetric(pencil.C, 1.0);
+  pencil.symmetric = conservative && symmetric_C;
+  pencil.one_sided = pencil.symmetric || (conservative && is_symmetric(pencil.C, -1.0));
+  return pencil;
+}
+
+bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
+  ++factorizations_;
+  const bool undamped = Inverse::form_of(pencil) == Inverse::Form::undamped;
+  bool regular = false;
+  if (undamped || shift.frequency == 0.0) {
+    const double square = shift.real * shift.real - shift.frequency * shift.frequency;
+    // Zero factors keep the pattern of the sum, so that it is analyzed once.
+    SparseMatrix shifted = square * pencil.M + shift.real * pencil.C + pencil.K;
+    shifted.makeCompressed();
+    const bool symmetric = pencil.symmetric || (pencil.one_sided && shift.real == 0.0);
+    regular = factors_.factor(shifted, symmetric ? SparseKind::symmetric : SparseKind::general);
+  } else {
+    const Complex s = shift.value();
+    ComplexSparseMatrix shifted = s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() +
+                                  pencil.K.cast<Complex>();
+    shifted.makeCompressed();
+    regular = factors_.factor(shifted);
+  }
+  peak_bytes_ = std::max(peak_bytes_, factors_.bytes());
+  return regular;
+}
+
+std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const ModeRequest& request) {
+  const Inverse::Form form = Inverse::form_of(pencil);
+  const int per_mode = form == Inverse::Form::undamped ? 1 : 2;
+  Shift shift = request.shift;
+  int count = request.count;
+  bool moved = false;
+  while (true) {
+    if (!factor(pencil, shift)) {
+      if (moved) return std::nullopt;
+      shift = beside_zero(pencil);
+      moved = true;
+      continue;
+    }
+    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, factors_) : 1.0;
+    Inverse inverse(pencil, factors_, shift, false, scale, solutions_);
+    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, scale);
+    if (!right || right->s.empty()) return std::nullopt;
+    if (const double gap = moved ? 0.0 : gap_beside(*right, shift)) {
+      shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap} : Shift{shift.real + 0.3 * gap, 0.0};
+      moved = true;
+      continue;
+    }
+    while (complete_radius(shift, form, right->least) < request.cover && count < request.most) {
+      count = std::min(request.most, count + std::max(2, count / 2));
+      right = arnoldi(inverse, pencil, shift, per_mode * count, scale);
+      if (!right) return std::nullopt;
+    }
+    NearestModes modes = sorted(*right, shift, pencil.size());
+    modes.radius = complete_radius(shift, form, right->least);
+    if (pencil.one_sided) return modes;
+    Inverse transposed(pencil, factors_, shift, true, scale, solutions_);
+    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, scale);
+    if (!left) return std::nullopt;
+    modes.left = columns(left->vectors, pencil.size());
+    return modes;
+  }
+}
+
+}  // namespace eigentrail

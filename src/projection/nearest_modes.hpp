@@ -1,0 +1,72 @@
+// The eigenvalues of a large sparse pencil that are nearest to a shift, with right and left vectors: Arnoldi's
+// method with implicit restarts (Spectra) on the inverse of the shifted pencil, which is factored once.
+#pragma once
+
+#include <optional>
+
+#include "core/sparse_factors.hpp"
+#include "eigentrail/model/affine_family.hpp"
+
+namespace eigentrail {
+
+/// (M s^2 + C s + K) z = 0 at one place.
+struct SparsePencil {
+  SparseMatrix M, C, K;  ///< n x n
+  bool symmetric = false;  ///< M, C and K are symmetric
+  /// Left vectors span the same real space as right ones: M and K are symmetric, C is symmetric or skew.
+  bool one_sided = false;
+
+  Eigen::Index size() const { return K.rows(); }
+  /// M s^2 + C s + K times Z, n x k.
+  ComplexMatrix times(Complex s, const ComplexMatrix& Z) const;
+  ComplexMatrix transposed_times(Complex s, const ComplexMatrix& Z) const;
+};
+
+/// The pencil of a family at given parameters (declared units).
+SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters);
+
+/// A shift on the real axis or on the imaginary one.
+struct Shift {
+  double real = 0.0;       ///< 1/s
+  double frequency = 0.0;  ///< rad/s, >= 0; if positive, `real` is zero
+
+  Complex value() const { return {real, frequency}; }
+};
+
+/// Which modes are looked for.
+struct ModeRequest {
+  Shift shift;
+  int count = 1;       ///< about that many, nearest to the shift; a conjugate pair is one mode
+  double cover = 0.0;  ///< all within this distance of the shift, as far as `most` modes reach
+  int most = 0;        ///< a limit for `cover`
+};
+
+struct NearestModes {
+  ComplexVector s;      ///< one of each conjugate pair, Im s >= 0; by distance from the shift
+  ComplexMatrix right;  ///< n x k, unit columns
+  ComplexMatrix left;   ///< n x k': unit vectors y with y^T P(s) = 0, in any order; empty if one-sided
+  double radius = 0.0;  ///< all eigenvalues (Im s >= 0) closer to the shift than this are there
+};
+
+/// Finds modes near a shift, place by place; the symbolic analysis of the factorization is kept.
+class ModeFinder {
+ public:
+  /// The modes that a request asks for, possibly a few more. Factors the pencil once; a shift on an
+  /// eigenvalue is moved, which takes a second factorization. Empty if the iteration does not converge.
+  std::optional<NearestModes> find(const SparsePencil& pencil, const ModeRequest& request);
+
+  int factorizations() const { return factorizations_; }
+  long solutions() const { return solutions_; }
+  std::size_t peak_bytes() const { return peak_bytes_; }  ///< of the factors
+  const char* method() const { return factors_.method(); }
+
+ private:
+  bool factor(const SparsePencil& pencil, const Shift& shift);
+
+  SparseFactors factors_;
+  int factorizations_ = 0;
+  long solutions_ = 0;
+  std::size_t peak_bytes_ = 0;
+};
+
+}  // namespace eigentrail

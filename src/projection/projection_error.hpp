@@ -1,0 +1,24 @@
+// How far an eigenvalue of a projected family is from one of the large family.
+#pragma once
+
+#include "projection/nearest_modes.hpp"
+
+namespace eigentrail {
+
+/// An eigenvalue of the projected pencil with its vectors in the coordinates of the large pencil.
+struct ProjectedMode {
+  Complex s;
+  ComplexVector right;  ///< n, unit length
+  ComplexVector left;   ///< n, unit length: y^T P(s) = 0 on the space
+};
+
+/// Left vector of the eigenvalue s of the small pencil (M s^2 + C s + K): unit length, y^T P(s) = 0. Two
+/// steps of inverse iteration.
+ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s);
+
+/// An indicator of |s - s_large|, 1/s: |P(s) z| |y^T P(s)| / |y^T P'(s) z|, with both residuals measured by the
+/// diagonal of the pencil's terms. It is of the order of the error in its dependence on the vectors; its
+/// factor is found where exact eigenvalues are known.
+double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode);
+
+}  // namespace eigentrail

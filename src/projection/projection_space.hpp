@@ -1,0 +1,33 @@
+// The space onto which a large family is projected: an orthonormal basis of the vectors of its modes.
+#pragma once
+
+#include "eigentrail/model/affine_family.hpp"
+
+namespace eigentrail {
+
+class ProjectionSpace {
+ public:
+  explicit ProjectionSpace(Eigen::Index n) : basis_(n, 0), vectors_(0, 0) {}
+
+  const Matrix& basis() const { return basis_; }  ///< n x k, orthonormal
+
+  /// Adds the real and imaginary parts of unit vectors (columns), as far as they are not in the space.
+  void add(const ComplexMatrix& vectors);
+
+  /// The part of the space that the vectors need up to a relative error `accuracy` in the norm of the
+  /// symmetric positive semidefinite `energy` (k x k, in this basis): by their principal components in this
+  /// norm. Returns its basis, k x r with orthonormal columns.
+  Matrix principal(const Matrix& energy, double accuracy) const;
+
+ private:
+  Matrix basis_;
+  Matrix vectors_;  ///< k x N: the vectors that were added, in this basis
+};
+
+/// The family on the space of the orthonormal columns of `basis`, n x k: basis^T A basis for each of its
+/// matrices; symmetric ones stay so exactly.
+AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<SparseMatrix>& pencil);
+/// The same for a family that is projected already.
+AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<Matrix>& pencil);
+
+}  // namespace eigentrail
