@@ -8,6 +8,7 @@
 #include "accuracy_report.hpp"
 #include "check_output.hpp"
 #include "commands.hpp"
+#include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "progress_bar.hpp"
@@ -62,6 +63,7 @@ int run_accuracy(AccuracyArguments& arguments) {
   check_options(options);
   TraceSetup setup = prepare_trace(read_scene(arguments.scene),
                                    {arguments.trace_options.begin(), arguments.trace_options.end()});
+  project_if_large(setup.model, setup.options);
   if (arguments.output) {
     check_output(*arguments.output, arguments.force, {accuracy_format, "work-precision study"});
     check_can_create(*arguments.output);

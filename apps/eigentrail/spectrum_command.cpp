@@ -11,6 +11,7 @@
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/projection/project.hpp"
 #include "output.hpp"
 
 namespace eigentrail::app {
@@ -160,10 +161,12 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
 }
 
 int run_spectrum(const SpectrumArguments& arguments) {
-  const TraceSetup setup =
+  TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()},
                     Purpose::operating_point);
   const std::vector<double> values = arguments.at.empty() ? std::vector{setup.options.from} : arguments.at;
+  if (const SparseFamily* large = large_family(*setup.model))
+    setup.model = project_at(*large, setup.options, values);
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   if (arguments.csv) {
     print_csv(points);

@@ -317,7 +317,7 @@ int run_trace(const TraceArguments& arguments) {
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
-  project_if_large(setup);
+  project_if_large(setup.model, setup.options);
   setup.options.threads = arguments.threads > 0
                               ? arguments.threads
                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -13,6 +13,7 @@
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/projection/project.hpp"
 
 namespace eigentrail {
 namespace {
@@ -79,6 +80,7 @@ TraceSetup rebuild(const LociFile& loci) {
   Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
   find_matrices(scene, loci.path);
   TraceSetup setup = prepare_trace(std::move(scene), options);
+  project_if_large(setup.model, setup.options);
   const bool same = setup.model->n_coordinates() == loci.equilibrium.cols() &&
                     setup.model->n_constraints() == loci.multiplier.cols();
   if (!same) {

@@ -214,7 +214,7 @@ Polynomials read_file(FamilyReader& reader) {
 }
 
 /// The family, if its file has sparse matrices or the scene gives factors of matrices; null otherwise.
-std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, const std::set<int>& used) {
+std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used) {
   const bool has_factors = reader.table.has("factors");
   if (!reader.table.has("file")) {
     if (has_factors) reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");

@@ -216,7 +216,7 @@ bool has_sparse_matrices(const Hdf5File& file) {
 }
 
 std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table, const Hdf5File& file,
-                                          int variable, std::set<int> used) {
+                                          int variable, std::set<int>& used) {
   SparseReader reader(table, file, variable, used);
   reader.reject_unknown_groups();
   Terms M = reader.terms("M"), C = reader.terms("C"), K = reader.terms("K");

@@ -9,9 +9,6 @@
 namespace eigentrail {
 namespace {
 
-/// Relative accuracy of the eigenvalues of the inverse, and so of the vectors.
-constexpr double krylov_tolerance = 1e-12;
-
 /// Two eigenvalues closer than this share of the shift's distance to the next ones: the shift lies on an
 /// eigenvalue, and the solutions lose as many digits of the others.
 constexpr double on_an_eigenvalue = 1e-5;
@@ -131,13 +128,13 @@ Complex eigenvalue(Complex nu, const Shift& shift, Inverse::Form form, const Spa
 }
 
 std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const Shift& shift, int wanted,
-                             double scale) {
+                             double scale, double tolerance) {
   const auto size = static_cast<int>(inverse.rows());
   const int nev = std::min(wanted, size - 2);
   const int ncv = std::min(size, std::max(2 * nev + 1, nev + 12));
   Spectra::GenEigsSolver<Inverse> solver(inverse, nev, ncv);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 300, krylov_tolerance, Spectra::SortRule::LargestMagn);
+  solver.compute(Spectra::SortRule::LargestMagn, 300, tolerance, Spectra::SortRule::LargestMagn);
   if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
   const ComplexVector nus = solver.eigenvalues();
   const ComplexMatrix vectors = solver.eigenvectors();
@@ -284,7 +281,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, factors_) : 1.0;
     Inverse inverse(pencil, factors_, shift, false, scale, solutions_);
-    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, scale);
+    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, scale, tolerance_);
     if (!right || right->s.empty()) return std::nullopt;
     if (const double gap = moved ? 0.0 : gap_beside(*right, shift)) {
       shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap} : Shift{shift.real + 0.3 * gap, 0.0};
@@ -293,14 +290,14 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     while (complete_radius(shift, form, right->least) < request.cover && count < request.most) {
       count = std::min(request.most, count + std::max(2, count / 2));
-      right = arnoldi(inverse, pencil, shift, per_mode * count, scale);
+      right = arnoldi(inverse, pencil, shift, per_mode * count, scale, tolerance_);
       if (!right) return std::nullopt;
     }
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
     if (pencil.one_sided) return modes;
     Inverse transposed(pencil, factors_, shift, true, scale, solutions_);
-    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, scale);
+    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, scale, tolerance_);
     if (!left) return std::nullopt;
     modes.left = columns(left->vectors, pencil.size());
     return modes;

@@ -51,6 +51,9 @@ struct NearestModes {
 /// Finds modes near a shift, place by place; the symbolic analysis of the factorization is kept.
 class ModeFinder {
  public:
+  /// `tolerance`: relative accuracy of the eigenvalues of the inverse.
+  explicit ModeFinder(double tolerance) : tolerance_(tolerance) {}
+
   /// The modes that a request asks for, possibly a few more. Factors the pencil once; a shift on an
   /// eigenvalue is moved, which takes a second factorization. Empty if the iteration does not converge.
   std::optional<NearestModes> find(const SparsePencil& pencil, const ModeRequest& request);
@@ -63,6 +66,7 @@ class ModeFinder {
  private:
   bool factor(const SparsePencil& pencil, const Shift& shift);
 
+  double tolerance_;
   SparseFactors factors_;
   int factorizations_ = 0;
   long solutions_ = 0;

@@ -15,6 +15,13 @@
 namespace eigentrail {
 namespace {
 
+/// Vectors are kept to this share of the square root of the target: with a larger one what is left out, and
+/// not the distance from the samples, is most of the error, of which the indicator knows little.
+constexpr double share_of_vectors = 0.02;
+
+/// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
+constexpr double accuracy_of_samples = 0.01;
+
 /// Tolerance of the traces that only look for the worst place.
 constexpr double scout_tolerance = 1e-3;
 
@@ -46,28 +53,38 @@ struct Worst {
 
 class Projector {
  public:
-  Projector(const SparseFamily& family, const TraceOptions& trace, const ProjectionOptions& options)
-      : family_(family), trace_(trace), options_(options), space_(family.n_coordinates()) {
-    target_ = options.share_of_tolerance * trace.tolerance;
+  Projector(const SparseFamily& family, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
+            const ProjectionOptions& options)
+      : family_(family), trace_(trace), lines_(lines), options_(options), space_(family.n_coordinates()),
+        target_(options.share_of_tolerance * trace.tolerance),
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9)) {
+    if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
 
-  std::unique_ptr<ProjectedFamily> run() {
-    first_samples();
+  std::unique_ptr<ProjectedFamily> along_the_lines() {
+    first_samples(lines_.front());
+    if (lines_.size() > 1) first_samples(lines_.back());
     while (true) {
       const std::unique_ptr<ProjectedFamily> model = reduced();
-      const std::vector<Place> places = scout(*model);
+      std::vector<Place> places;
+      for (const ParameterValues& line : lines_) scout(*model, line, places);
       const Worst worst = find_worst(places);
       if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
       // Exact eigenvalues at the worst place show the true error of the space as it was.
       const double error = error_at(*worst.place);
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
-      if (std::getenv("EPSV")) std::fprintf(stderr, "k %d of %d, places %zu, worst %g at %g, error %g, LU %d\n", (int)basis_.cols(), (int)space_.basis().cols(), places.size(), worst.indicator, worst.place->p, error, projection_.factorizations);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->p;
       if (error <= target_ && projection_.error <= safety * target_) return reduced();
     }
+  }
+
+  /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
+  std::unique_ptr<ProjectedFamily> at(const std::vector<double>& values) {
+    for (const double p : values) add(find_chosen(pencil_at(family_, parameters_at(p, lines_.front()))), p);
+    return reduced();
   }
 
  private:
@@ -80,15 +97,15 @@ class Projector {
 
   void check_choice() const {
     if (trace_.modes.count || trace_.modes.band) return;
-    throw NotProjected("a large model with " + std::to_string(family_.n_coordinates()) +
-                       " freedoms: follow some of its modes, such as modes = 6, or modes = { band = [\"0 Hz\", "
-                       "\"50 Hz\"] }");
+    throw InputError("a large model with " + std::to_string(family_.n_coordinates()) +
+                     " freedoms, of which all modes are asked for: follow some of them, with modes = 6 or modes = "
+                     "{ band = [\"0 Hz\", \"50 Hz\"] } in [trace], or --modes 6");
   }
 
-  Vector parameters_at(double p) const {
+  Vector parameters_at(double p, const ParameterValues& line) const {
     const Parameters& parameters = family_.description().parameters;
     Vector values = parameters.declared_values();
-    for (const auto& [name, value] : trace_.values) values[parameters.index(name).value()] = value;
+    for (const auto& [name, value] : line) values[parameters.index(name).value()] = value;
     values[parameters.index(trace_.parameter).value()] = p;
     return values;
   }
@@ -144,14 +161,14 @@ class Projector {
     projection_.sampled_at.push_back(p);
   }
 
-  void first_samples() {
+  void first_samples(const ParameterValues& line) {
     const int n = options_.first_samples;
     for (int i = 0; i < n; ++i) {
       // Chebyshev places with the ends: dense where interpolation is worst.
       const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
       const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
-      const SparsePencil pencil = pencil_at(family_, parameters_at(p));
-      add(i == 0 ? find_chosen(pencil) : find(pencil, {usual_shift(), count_}, p), p);
+      const SparsePencil pencil = pencil_at(family_, parameters_at(p, line));
+      add(count_ == 0 ? find_chosen(pencil) : find(pencil, {usual_shift(), count_}, p), p);
     }
   }
 
@@ -175,8 +192,7 @@ class Projector {
 
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const {
-    const char* e = std::getenv("EPSV");
-    return (e ? atof(e) : 0.1) * std::sqrt(target_);
+    return share_of_vectors * std::sqrt(target_);
   }
 
   /// Energy of motion at the middle of the range: K and M weighted by a frequency that was found.
@@ -184,21 +200,21 @@ class Projector {
     ModelDescription description = family_.description();
     description.coordinate_names.assign(static_cast<std::size_t>(space_.basis().cols()), "");
     const AffinePencil<Matrix> at =
-        AffineFamily<Matrix>(std::move(description), pencil).at(parameters_at(0.5 * (trace_.from + trace_.to)));
+        AffineFamily<Matrix>(std::move(description), pencil).at(parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()));
     const Matrix sum = at.K.front().matrix + frequency_ * frequency_ * at.M.front().matrix;
     return 0.5 * (sum + sum.transpose());
   }
 
-  /// A rough trace of the projected family.
-  std::vector<Place> scout(const ProjectedFamily& model) {
+  /// A rough trace of the projected family along a line; its points are added to `places`.
+  void scout(const ProjectedFamily& model, const ParameterValues& line, std::vector<Place>& places) {
     TraceOptions options = trace_;
+    options.values = line;
     options.tolerance = std::max(trace_.tolerance, scout_tolerance);
     options.certify = false;
     options.events = {};
     options.events.extrema = false;
     options.order.reset();
     options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
-    std::vector<Place> places;
     TraceObserver observer;
     observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
     observer.point = [&](const TracePoint& point) {
@@ -207,7 +223,6 @@ class Projector {
     };
     const TraceResult result = trace(model, options, observer);
     if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
-    return places;
   }
 
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
@@ -257,19 +272,37 @@ class Projector {
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
     // More modes cost less than a second shift with its factorization.
-    const NearestModes exact = find(pencil, {usual_shift(), count_, 1.01 * farthest, 3 * count_}, place.p);
+    const NearestModes exact = find(pencil, {usual_shift(), count_, 1.01 * farthest, 3 * count_ / 2}, place.p);
     add(exact, place.p);
+    std::vector<Complex> known(exact.s.begin(), exact.s.end());
+    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.p)) known.push_back(s);
     double largest = 0.0;
     for (const Complex s : followed) {
-      double distance = (exact.s.array() - s).abs().minCoeff();
-      if (exact.radius < std::abs(s - centre) && distance > target_ * size(s)) {
-        const NearestModes near = find(pencil, {{0.0, std::abs(s.imag())}, 1 + options_.spare_modes}, place.p);
-        add(near, place.p);
-        distance = (near.s.array() - s).abs().minCoeff();
-      }
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Complex other : known) distance = std::min(distance, std::abs(other - s));
       largest = std::max(largest, distance / size(s));
     }
     return largest;
+  }
+
+  /// Followed modes that have left the neighbourhood of the usual shift are looked for with one of their own.
+  ComplexVector find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& followed, double radius,
+                              double p) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+    int count = 0;
+    for (const Complex s : followed) {
+      if (std::abs(s - usual_shift().value()) <= radius) continue;
+      lowest = std::min(lowest, s.imag());
+      highest = std::max(highest, std::abs(s));
+      ++count;
+    }
+    if (count == 0) return {};
+    const double middle = 0.5 * (lowest + highest);
+    const double cover = 1.01 * std::max(highest - middle, 1e-3 * highest);
+    const int most = 3 * (count + options_.spare_modes);
+    const NearestModes modes = find(pencil, {{0.0, middle}, count + options_.spare_modes, cover, most}, p);
+    add(modes, p);
+    return modes.s;
   }
 
   std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
@@ -284,12 +317,13 @@ class Projector {
 
   const SparseFamily& family_;
   const TraceOptions& trace_;
+  std::vector<ParameterValues> lines_;
   const ProjectionOptions& options_;
   ProjectionSpace space_;
   Matrix basis_;  ///< of the projected family, n x r
+  double target_;  ///< error of the eigenvalues by the projection, relative to their size
   ModeFinder finder_;
   Projection projection_;
-  double target_ = 0.0;
   double frequency_ = 0.0;  ///< largest |s| that was found
   double reference_ = 0.0;  ///< of the scout's eigenvalues
   double factor_ = 1.0;     ///< error over indicator, the largest that was seen
@@ -302,15 +336,37 @@ ProjectedFamily::ProjectedFamily(ModelDescription description, AffinePencil<Matr
                                  Projection projection)
     : AffineFamily<Matrix>(std::move(description), std::move(pencil)), projection_(std::move(projection)) {}
 
-std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
-                                         const ProjectionOptions& options) {
-  return Projector(family, trace, options).run();
+std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::string& second, double from,
+                                        double to) {
+  constexpr int count = 5;
+  std::vector<ParameterValues> lines(count, trace.values);
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    lines[static_cast<std::size_t>(i)][second] = (1.0 - share) * from + share * to;
+  }
+  return lines;
 }
 
-void project_if_large(TraceSetup& setup) {
-  const auto* family = dynamic_cast<const SparseFamily*>(setup.model.get());
-  if (family == nullptr || family->n_coordinates() <= largest_dense_size) return;
-  setup.model = project(*family, setup.options);
+std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
+                                         const std::vector<ParameterValues>& lines,
+                                         const ProjectionOptions& options) {
+  return Projector(family, trace, lines, options).along_the_lines();
+}
+
+std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
+                                            const std::vector<double>& values) {
+  const ProjectionOptions options;
+  return Projector(family, trace, {}, options).at(values);
+}
+
+const SparseFamily* large_family(const Model& model) {
+  const auto* family = dynamic_cast<const SparseFamily*>(&model);
+  return family != nullptr && family->n_coordinates() > largest_dense_size ? family : nullptr;
+}
+
+void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
+                      const std::vector<ParameterValues>& lines) {
+  if (const SparseFamily* family = large_family(*model)) model = project(*family, trace, lines);
 }
 
 }  // namespace eigentrail

@@ -1,3 +1,4 @@
+#include "eigentrail/projection/project.hpp"
 #include "eigentrail/stability/boundary_options.hpp"
 
 #include <cmath>
@@ -109,6 +110,7 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   used.erase(setup.scene.parameters.index(options.second).value());
   setup.model =
       build_model(setup.scene, {places_to_check(setup.scene, options), used, options.trace.without});
+  project_if_large(setup.model, options.trace, lines_over(options.trace, options.second, options.second_from, options.second_to));
   return setup;
 }
 

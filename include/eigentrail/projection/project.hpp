@@ -46,17 +46,36 @@ class ProjectedFamily final : public AffineFamily<Matrix> {
   Projection projection_;
 };
 
-/// Projects `family` for the trace that `trace` describes, at the parameters that the description and
-/// `trace.values` give. Throws NotProjected if modes cannot be found, or if the options ask for all modes.
+/// Values of parameters that replace the declared ones, in their units.
+using ParameterValues = std::map<std::string, double>;
+
+/// Lines evenly over a range of a second parameter; what lies between two of them is as close to the space as
+/// they are, where the modes change smoothly.
+std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::string& second, double from,
+                                        double to);
+
+/// Projects `family` for traces with the options `trace`, along each of the lines; without lines, along the
+/// one that `trace.values` gives. Throws InputError if the options ask for all modes, and NotProjected if
+/// modes cannot be found.
 std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
+                                         const std::vector<ParameterValues>& lines = {},
                                          const ProjectionOptions& options = {});
 
-/// Replaces the model of a trace by its projection where that takes less work: a sparse family of which some
-/// modes are followed, with more freedoms than `largest_dense_size`. Nothing otherwise.
-void project_if_large(TraceSetup& setup);
+/// Projects `family` for single values of the traced parameter: the chosen modes are exact at each of them.
+/// One factorization for each value. Throws as `project`.
+std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
+                                            const std::vector<double>& values);
 
 /// Up to this size the dense engine takes less work for a few modes than the projection (docs,
 /// performance.md).
 inline constexpr Eigen::Index largest_dense_size = 150;
+
+/// The model as a sparse family that is to be projected; null if it is none, or has at most
+/// `largest_dense_size` freedoms.
+const SparseFamily* large_family(const Model& model);
+
+/// Replaces a large model by its projection; leaves others as they are.
+void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
+                      const std::vector<ParameterValues>& lines = {});
 
 }  // namespace eigentrail
