@@ -17,6 +17,7 @@
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
+#include "projection_info.hpp"
 #include "scene_in_words.hpp"
 
 namespace eigentrail::app {
@@ -230,6 +231,12 @@ int run_explain(const ExplainArguments& arguments) {
   const Structure structure = model->structure(traced);
 
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
+  if (const SparseFamily* large = large_family(*model)) {
+    print_parameters(*model, traced);
+    print_effects(*model);
+    print_route(estimate_projection(*large, options), options);
+    return done;
+  }
   const PathProblem problem = problem_along(*model, options.parameter);
   RunCounts counts;
   const Vector guess = model->initial_guess(parameters_at(problem, options.from));

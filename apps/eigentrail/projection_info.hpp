@@ -1,12 +1,16 @@
-// What the summary of a trace says of a projected model.
+// What the program says of large models and their projections.
 #pragma once
 
 #include <string>
 
-#include "eigentrail/model/projection.hpp"
+#include "eigentrail/projection/project.hpp"
 
 namespace eigentrail::app {
 
+/// What the summary of a trace says.
 void print_projection(const Projection& projection, const std::string& parameter);
+
+/// What `explain` says before anything is factored.
+void print_route(const ProjectionEstimate& estimate, const TraceOptions& options);
 
 }  // namespace eigentrail::app

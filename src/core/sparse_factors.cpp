@@ -57,20 +57,24 @@ class Lu {
 
   bool is_complex() const { return complex_; }
 
+  /// Symbolic analysis; upper bounds of the bytes of the factors and of the operations.
+  std::pair<double, double> analyze(const Pattern& pattern, const double* values) {
+    free_symbolic();
+    const Index n = pattern.size();
+    const Index *starts = pattern.starts.data(), *rows = pattern.rows.data();
+    const Index code =
+        complex_ ? umfpack_zl_symbolic(n, n, starts, rows, values, nullptr, &symbolic_, control_, info_)
+                 : umfpack_dl_symbolic(n, n, starts, rows, values, &symbolic_, control_, info_);
+    check_umfpack("symbolic analysis", code);
+    return {info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT], info_[UMFPACK_FLOPS_ESTIMATE]};
+  }
+
   /// `values`: real numbers, or pairs of real and imaginary part.
   bool factor(const Pattern& pattern, bool analyzed, std::vector<double> values) {
     free_numeric();
     values_ = std::move(values);
-    const Index n = pattern.size();
     const Index *starts = pattern.starts.data(), *rows = pattern.rows.data();
-    if (!analyzed || symbolic_ == nullptr) {
-      free_symbolic();
-      const Index code = complex_ ? umfpack_zl_symbolic(n, n, starts, rows, values_.data(), nullptr,
-                                                        &symbolic_, control_, info_)
-                                  : umfpack_dl_symbolic(n, n, starts, rows, values_.data(), &symbolic_,
-                                                        control_, info_);
-      check_umfpack("symbolic analysis", code);
-    }
+    if (!analyzed || symbolic_ == nullptr) analyze(pattern, values_.data());
     const Index code = complex_ ? umfpack_zl_numeric(starts, rows, values_.data(), nullptr, symbolic_,
                                                      &numeric_, control_, info_)
                                 : umfpack_dl_numeric(starts, rows, values_.data(), symbolic_, &numeric_,
@@ -132,27 +136,21 @@ class Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
+  /// Symbolic analysis; entries of the factor and operations.
+  std::pair<double, double> analyze(Pattern& pattern, const SparseMatrix& A) {
+    cholmod_sparse matrix = view(pattern, A);
+    if (factor_ != nullptr) cholmod_l_free_factor(&factor_, &common_);
+    factor_ = cholmod_l_analyze(&matrix, &common_);
+    check_status("symbolic analysis");
+    return {common_.lnz, common_.fl};
+  }
+
   /// Whether the matrix is positive definite and could be factored.
   bool factor(Pattern& pattern, bool analyzed, const SparseMatrix& A) {
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(A.cols());
-    view.nzmax = pattern.rows.size();
-    view.p = pattern.starts.data();
-    view.i = pattern.rows.data();
-    view.x = const_cast<double*>(A.valuePtr());  // NOLINT: CHOLMOD does not write to it
-    view.stype = -1;
-    view.itype = CHOLMOD_LONG;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    if (!analyzed || factor_ == nullptr) {
-      if (factor_ != nullptr) cholmod_l_free_factor(&factor_, &common_);
-      factor_ = cholmod_l_analyze(&view, &common_);
-    }
-    if (factor_ != nullptr) cholmod_l_factorize(&view, factor_, &common_);
-    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (factor_ == nullptr || common_.status < 0) fail("CHOLMOD", "factorization", common_.status);
+    if (!analyzed || factor_ == nullptr) analyze(pattern, A);
+    cholmod_sparse matrix = view(pattern, A);
+    cholmod_l_factorize(&matrix, factor_, &common_);
+    check_status("factorization");
     return common_.status == CHOLMOD_OK && factor_->minor == factor_->n;
   }
 
@@ -178,6 +176,27 @@ class Cholesky {
   }
 
  private:
+  static cholmod_sparse view(Pattern& pattern, const SparseMatrix& A) {
+    cholmod_sparse matrix{};
+    matrix.nrow = matrix.ncol = static_cast<std::size_t>(A.cols());
+    matrix.nzmax = pattern.rows.size();
+    matrix.p = pattern.starts.data();
+    matrix.i = pattern.rows.data();
+    matrix.x = const_cast<double*>(A.valuePtr());  // NOLINT: CHOLMOD does not write to it
+    matrix.stype = -1;
+    matrix.itype = CHOLMOD_LONG;
+    matrix.xtype = CHOLMOD_REAL;
+    matrix.dtype = CHOLMOD_DOUBLE;
+    matrix.sorted = 1;
+    matrix.packed = 1;
+    return matrix;
+  }
+
+  void check_status(const char* stage) const {
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (factor_ == nullptr || common_.status < 0) fail("CHOLMOD", stage, common_.status);
+  }
+
   mutable cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
 };
@@ -188,9 +207,22 @@ const Sparse& compressed(const Sparse& A) {
   return A;
 }
 
+constexpr const char* cholesky_name = "Cholesky (CHOLMOD)";
+constexpr const char* lu_name = "LU (UMFPACK)";
+
 }  // namespace suitesparse
 
 using namespace suitesparse;
+
+FactorEstimate estimate_factors(const SparseMatrix& A, SparseKind kind) {
+  Pattern pattern(compressed(A));
+  if (kind == SparseKind::symmetric) {
+    const auto [entries, operations] = Cholesky().analyze(pattern, A);
+    return {entries * sizeof(double), operations, cholesky_name};
+  }
+  const auto [units, operations] = Lu(false).analyze(pattern, A.valuePtr());
+  return {units, operations, lu_name};
+}
 
 struct SparseFactors::Implementation {
   Pattern pattern;
@@ -301,7 +333,7 @@ std::size_t SparseFactors::bytes() const {
 }
 
 const char* SparseFactors::method() const {
-  return implementation_->cholesky ? "Cholesky (CHOLMOD)" : "LU (UMFPACK)";
+  return implementation_->cholesky ? cholesky_name : lu_name;
 }
 
 }  // namespace eigentrail

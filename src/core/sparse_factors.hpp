@@ -16,6 +16,14 @@ using ComplexSparseMatrix = Eigen::SparseMatrix<Complex>;
 /// What is known of a matrix before it is factored.
 enum class SparseKind { symmetric, general };
 
+/// Upper bounds of memory and work of a factorization, from the symbolic analysis.
+struct FactorEstimate {
+  double bytes = 0.0;
+  double operations = 0.0;
+  const char* method = "";
+};
+FactorEstimate estimate_factors(const SparseMatrix& A, SparseKind kind);
+
 /// Factors matrices of one sparsity pattern, one at a time; the symbolic analysis is made once.
 class SparseFactors {
  public:

@@ -244,17 +244,21 @@ SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters) {
   return pencil;
 }
 
+ShiftedMatrix shifted_matrix(const SparsePencil& pencil, const Shift& shift) {
+  const double square = shift.real * shift.real - shift.frequency * shift.frequency;
+  // Zero factors keep the pattern of the sum, so that it is analyzed once.
+  ShiftedMatrix shifted{square * pencil.M + shift.real * pencil.C + pencil.K};
+  shifted.matrix.makeCompressed();
+  if (pencil.symmetric || (pencil.one_sided && shift.real == 0.0)) shifted.kind = SparseKind::symmetric;
+  return shifted;
+}
+
 bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
   ++factorizations_;
-  const bool undamped = Inverse::form_of(pencil) == Inverse::Form::undamped;
   bool regular = false;
-  if (undamped || shift.frequency == 0.0) {
-    const double square = shift.real * shift.real - shift.frequency * shift.frequency;
-    // Zero factors keep the pattern of the sum, so that it is analyzed once.
-    SparseMatrix shifted = square * pencil.M + shift.real * pencil.C + pencil.K;
-    shifted.makeCompressed();
-    const bool symmetric = pencil.symmetric || (pencil.one_sided && shift.real == 0.0);
-    regular = factors_.factor(shifted, symmetric ? SparseKind::symmetric : SparseKind::general);
+  if (shift.frequency == 0.0 || Inverse::form_of(pencil) == Inverse::Form::undamped) {
+    const ShiftedMatrix shifted = shifted_matrix(pencil, shift);
+    regular = factors_.factor(shifted.matrix, shifted.kind);
   } else {
     const Complex s = shift.value();
     ComplexSparseMatrix shifted = s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() +

@@ -41,6 +41,13 @@ struct ModeRequest {
   int most = 0;        ///< a limit for `cover`
 };
 
+/// The matrix that is factored for a real shift, and whether it is symmetric.
+struct ShiftedMatrix {
+  SparseMatrix matrix;
+  SparseKind kind = SparseKind::general;
+};
+ShiftedMatrix shifted_matrix(const SparsePencil& pencil, const Shift& shift);
+
 struct NearestModes {
   ComplexVector s;      ///< one of each conjugate pair, Im s >= 0; by distance from the shift
   ComplexMatrix right;  ///< n x k, unit columns

@@ -9,6 +9,7 @@
 
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/modes/spectrum.hpp"
 #include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
 
@@ -18,6 +19,9 @@ namespace {
 /// Vectors are kept to this share of the square root of the target: with a larger one what is left out, and
 /// not the distance from the samples, is most of the error, of which the indicator knows little.
 constexpr double share_of_vectors = 0.02;
+
+/// Eigenvalues of the projected pencil with a larger relative indicator stand for none of the large one.
+constexpr double closeness = 1e-3;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
@@ -77,7 +81,9 @@ class Projector {
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->p;
-      if (error <= target_ && projection_.error <= safety * target_) return reduced();
+      if (error > target_ || projection_.error > safety * target_) continue;
+      if (lines_.size() == 1) note_newcomers(*model, places);
+      return reduced();
     }
   }
 
@@ -185,7 +191,7 @@ class Projector {
     projection_.method = finder_.method();
     projection_.target = target_;
     description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < basis_.cols(); ++i) description.coordinate_names.push_back("v" + std::to_string(i + 1));
+    for (Eigen::Index i = 0; i < basis_.cols(); ++i) description.coordinate_names.push_back("x" + std::to_string(i + 1));
     description.coordinate_units.assign(static_cast<std::size_t>(basis_.cols()), "1");
     return std::make_unique<ProjectedFamily>(std::move(description), project_onto(principal, whole), projection_);
   }
@@ -305,6 +311,56 @@ class Projector {
     return modes.s;
   }
 
+  /// Notes where modes that are not followed come among the followed ones: nearer to the usual shift than the
+  /// farthest of these.
+  void note_newcomers(const ProjectedFamily& model, const std::vector<Place>& places) {
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const std::vector<Complex> there = among_the_followed(model, places[i]);
+      if (i > 0 && there.size() > known) {
+        projection_.notes.push_back(
+            "between " + trace_.parameter + " = " + exact_text(places[i - 1].p) + " and " +
+            exact_text(places[i].p) + " a mode that is not followed comes among the followed ones, with a frequency of " +
+            two_digits(std::abs(there.back().imag())) + " rad/s; to follow it, ask for more modes");
+      }
+      known = there.size();
+    }
+  }
+
+  /// Eigenvalues that are not followed and nearer to the usual shift than the farthest followed one, the
+  /// farthest of them last.
+  std::vector<Complex> among_the_followed(const ProjectedFamily& model, const Place& place) const {
+    const AffinePencil<Matrix> at = model.at(place.parameters);
+    const Spectrum spectrum = compute_eigenvalues(at.M.front().matrix, at.C.front().matrix, at.K.front().matrix);
+    std::vector<Complex> others;
+    for (const StartingMode& mode : spectrum.modes) others.push_back(mode.s);
+    const Complex centre = usual_shift().value();
+    double farthest = 0.0, largest = 0.0;
+    for (const ModeState& mode : place.modes) {
+      if (!std::isfinite(std::abs(mode.s)) || others.empty()) continue;
+      farthest = std::max(farthest, std::abs(mode.s - centre));
+      largest = std::max(largest, std::abs(mode.s));
+      others.erase(std::min_element(others.begin(), others.end(), [&](Complex a, Complex b) {
+        return std::abs(a - mode.s) < std::abs(b - mode.s);
+      }));
+    }
+    std::erase_if(others, [&](Complex s) {
+      return std::abs(s - centre) >= farthest || std::abs(s) <= rigid * largest || !is_exact(at, place, s);
+    });
+    std::sort(others.begin(), others.end(),
+              [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
+    return others;
+  }
+
+  /// Whether an eigenvalue of the projected pencil is close to one of the large pencil, as those of the kept
+  /// modes are.
+  bool is_exact(const AffinePencil<Matrix>& at, const Place& place, Complex s) const {
+    const Matrix &M = at.M.front().matrix, &C = at.C.front().matrix, &K = at.K.front().matrix;
+    const ComplexVector right = left_vector(M.transpose(), C.transpose(), K.transpose(), s);
+    const ProjectedMode mode{s, (basis_ * right).normalized(), (basis_ * left_vector(M, C, K, s)).normalized()};
+    return error_indicator(pencil_at(family_, place.parameters), mode) < closeness * size(s);
+  }
+
   std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
     projection_.error = worst.indicator * factor_;
     projection_.error_at = worst.place->p;
@@ -357,6 +413,30 @@ std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const Tr
                                             const std::vector<double>& values) {
   const ProjectionOptions options;
   return Projector(family, trace, {}, options).at(values);
+}
+
+ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace) {
+  const Parameters& parameters = family.description().parameters;
+  Vector values = parameters.declared_values();
+  values[parameters.index(trace.parameter).value()] = 0.5 * (trace.from + trace.to);
+  const SparsePencil pencil = pencil_at(family, values);
+  const ShiftedMatrix shifted = shifted_matrix(pencil, {});
+  const FactorEstimate factors = estimate_factors(shifted.matrix, shifted.kind);
+  ProjectionEstimate estimate;
+  estimate.freedoms = pencil.size();
+  estimate.nonzeros = pencil.M.nonZeros() + pencil.C.nonZeros() + pencil.K.nonZeros();
+  estimate.two_sided = !pencil.one_sided;
+  estimate.method = factors.method;
+  estimate.factor_bytes = factors.bytes;
+  estimate.factor_operations = factors.operations;
+  // Arnoldi: four vectors of positions and velocities per mode; the space: about six samples of each.
+  const int modes = trace.modes.count.value_or(8) + ProjectionOptions().spare_modes;
+  const double vectors = modes * (8.0 + 12.0 * (estimate.two_sided ? 2.0 : 1.0));
+  const double entry = sizeof(double) + sizeof(int);
+  estimate.total_bytes = factors.bytes + 3.0 * static_cast<double>(estimate.nonzeros) * entry +
+                         vectors * static_cast<double>(pencil.size()) * sizeof(double);
+  estimate.target = ProjectionOptions().share_of_tolerance * trace.tolerance;
+  return estimate;
 }
 
 const SparseFamily* large_family(const Model& model) {

@@ -16,6 +16,7 @@
 #include "store/mode_motions.hpp"
 #include "store/output_lock.hpp"
 #include "store/provenance.hpp"
+#include "store/projection_datasets.hpp"
 #include "store/range_datasets.hpp"
 #include "store/saved_state.hpp"
 
@@ -35,7 +36,8 @@ double seconds_since(Clock::time_point begin) {
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
-  if (!is_loci_dataset(parameter) && !is_range_dataset(parameter) && !is_data_error_dataset(parameter))
+  if (!is_loci_dataset(parameter) && !is_range_dataset(parameter) && !is_data_error_dataset(parameter) &&
+      !is_projection_dataset(parameter))
     return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {

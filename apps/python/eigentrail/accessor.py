@@ -35,12 +35,17 @@ class Eigentrail:
     def nearest(self, mode=None, **at):
         """The data of the stored point nearest to a value of the parameter: mode shapes, equilibrium, and others.
 
-        Example: nearest(omega=12.5, mode="blade lag").mode_shape
+        Example: nearest(omega=12.5, mode="blade lag").mode_shape. For a large model that was projected, the mode shapes are
+        those of the large model, along `freedom`.
         """
         loci, value = self._of("loci"), float(self._wanted(at))
         at_points = loci[[name for name, variable in loci.data_vars.items() if "node" in variable.dims]]
         distance = np.abs(loci[self.parameter].values - value)
-        return self._modes(at_points.isel(node=int(distance.argmin())), mode)
+        at_point = self._modes(at_points.isel(node=int(distance.argmin())), mode)
+        if "projection_basis" in loci:
+            shapes = xarray.dot(loci.projection_basis, at_point.mode_shape, dims="coordinate")
+            at_point["mode_shape"] = shapes.transpose(..., "freedom").assign_attrs(at_point.mode_shape.attrs)
+        return at_point
 
     @property
     def events(self):

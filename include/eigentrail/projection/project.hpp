@@ -74,6 +74,19 @@ inline constexpr Eigen::Index largest_dense_size = 150;
 /// `largest_dense_size` freedoms.
 const SparseFamily* large_family(const Model& model);
 
+/// What a projection will need, from the symbolic analysis of the pencil where the trace begins.
+struct ProjectionEstimate {
+  Eigen::Index freedoms = 0;
+  Eigen::Index nonzeros = 0;       ///< of M, C and K together
+  bool two_sided = false;          ///< left vectors are needed
+  const char* method = "";         ///< of the factorization
+  double factor_bytes = 0.0;       ///< of one factorization; one is kept at a time
+  double factor_operations = 0.0;  ///< of one factorization
+  double total_bytes = 0.0;        ///< with matrices, Arnoldi vectors and the space
+  double target = 0.0;             ///< error of the projection, relative to the eigenvalues
+};
+ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace);
+
 /// Replaces a large model by its projection; leaves others as they are.
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                       const std::vector<ParameterValues>& lines = {});

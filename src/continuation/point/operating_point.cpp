@@ -6,6 +6,7 @@
 
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/model/projection.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
@@ -67,6 +68,13 @@ void name_by_energy(const ModelDescription& description, const PathPoint& point,
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
 }
 
+/// The freedoms of the large model that move most, if they have names.
+std::string name_by_freedoms(const Projection& projection, const ComplexVector& reduced) {
+  if (!has_own_names(projection.names)) return {};
+  const ComplexVector shape = projection.basis * reduced;
+  return largest_names(shape.cwiseAbs2() / shape.squaredNorm(), shape, projection.names);
+}
+
 /// `point` is computed in the coordinates in which the equations fall apart, if they do: zeros of rigid-body
 /// motions are exact there.
 OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, double p) {
@@ -94,7 +102,11 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();
-    if (unconstrained) mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);
+    if (const Projection* projection = setup.model->projection()) {
+      mode.what_moves = name_by_freedoms(*projection, shape);
+    } else if (unconstrained) {
+      mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);
+    }
   }
   name_by_energy(description, point, result.modes);
   return result;

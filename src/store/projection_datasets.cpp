@@ -1,0 +1,25 @@
+#include "store/projection_datasets.hpp"
+
+#include "store/labelled_datasets.hpp"
+
+namespace eigentrail {
+
+bool is_projection_dataset(const std::string& name) {
+  return name == "freedom" || name == "projection_basis" || name == "projection_place";
+}
+
+void write_projection(Hdf5File& file, const Projection& projection) {
+  write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
+  using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajorReal basis = projection.basis;
+  write_dataset(file, {"projection_basis", "1", "the large model's vectors are this times the coordinates"},
+                {"freedom", "coordinate"}, std::vector<double>(basis.data(), basis.data() + basis.size()));
+  write_dimension(file, {"projection_place", "1", "values of the parameter whose modes span the space"},
+                  projection.sampled_at);
+  file.set_attribute("projection_error", projection.error);
+  file.set_attribute("projection_error_at", projection.error_at);
+  file.set_attribute("count_sparse_factorizations", static_cast<std::int64_t>(projection.factorizations));
+  file.set_attribute("count_sparse_solutions", static_cast<std::int64_t>(projection.solutions));
+}
+
+}  // namespace eigentrail

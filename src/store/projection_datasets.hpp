@@ -1,0 +1,18 @@
+// The datasets of a loci file that tell what the projected coordinates of a large model stand for.
+#pragma once
+
+#include <string>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/model/projection.hpp"
+
+namespace eigentrail {
+
+/// Whether a dataset of this name may be in a file of a projected model.
+bool is_projection_dataset(const std::string& name);
+
+/// Writes the dimension `freedom`, the basis over it, and what is known of the projection as attributes. The
+/// dimension `coordinate` must exist.
+void write_projection(Hdf5File& file, const Projection& projection);
+
+}  // namespace eigentrail
