@@ -74,6 +74,15 @@ class Inverse {
     }
   }
 
+  /// s of an eigenvector, with few digits.
+  Complex rough_eigenvalue(const ComplexVector& vector) const {
+    const Eigen::Index n = pencil_.size();
+    const ComplexVector x = vector.head(n);
+    if (form_ == Form::quadratic) return scale_ * x.dot(vector.tail(n)) / x.squaredNorm();
+    if (transposed_) return -x.dot(pencil_.K.transpose() * x) / x.dot(pencil_.C.transpose() * x);
+    return -x.dot(pencil_.K * x) / x.dot(pencil_.C * x);
+  }
+
  private:
   Vector times(const SparseMatrix& A, const Vector& x) const {
     if (transposed_) return A.transpose() * x;
@@ -111,15 +120,10 @@ void keep(Found& found, Complex s, const ComplexVector& x) {
 }
 
 /// s from an eigenvalue of the inverse and its vector.
-Complex eigenvalue(Complex nu, const Shift& shift, Inverse::Form form, const SparsePencil& pencil,
-                   const ComplexVector& vector, double scale) {
+Complex eigenvalue(Complex nu, const Shift& shift, const Inverse& inverse, const ComplexVector& vector) {
   if (shift.frequency == 0.0) return shift.real + 1.0 / nu;
   // nu = s / (s^2 + w^2): of the two roots the one that fits the vector.
-  const Eigen::Index n = pencil.size();
-  const auto x = vector.head(n);
-  const Complex rough = form == Inverse::Form::quadratic
-                            ? scale * x.dot(vector.tail(n)) / x.squaredNorm()
-                            : -x.dot(pencil.K * x) / x.dot(pencil.C * x);
+  const Complex rough = inverse.rough_eigenvalue(vector);
   const Complex half = 0.5 / nu;
   const Complex root = std::sqrt(half * half - shift.frequency * shift.frequency);
   const Complex large = std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
@@ -128,7 +132,7 @@ Complex eigenvalue(Complex nu, const Shift& shift, Inverse::Form form, const Spa
 }
 
 std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const Shift& shift, int wanted,
-                             double scale, double tolerance) {
+                             double tolerance) {
   const auto size = static_cast<int>(inverse.rows());
   const int nev = std::min(wanted, size - 2);
   const int ncv = std::min(size, std::max(2 * nev + 1, nev + 12));
@@ -145,7 +149,7 @@ std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const
     const Complex nu = nus[i];
     const ComplexVector x = vectors.col(i).head(pencil.size());
     if (form != Inverse::Form::undamped) {
-      keep(found, eigenvalue(nu, shift, form, pencil, vectors.col(i), scale), x);
+      keep(found, eigenvalue(nu, shift, inverse, vectors.col(i)), x);
       continue;
     }
     const double square = shift.real * shift.real - shift.frequency * shift.frequency;
@@ -285,7 +289,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, factors_) : 1.0;
     Inverse inverse(pencil, factors_, shift, false, scale, solutions_);
-    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, scale, tolerance_);
+    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
     if (!right || right->s.empty()) return std::nullopt;
     if (const double gap = moved ? 0.0 : gap_beside(*right, shift)) {
       shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap} : Shift{shift.real + 0.3 * gap, 0.0};
@@ -294,14 +298,14 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     while (complete_radius(shift, form, right->least) < request.cover && count < request.most) {
       count = std::min(request.most, count + std::max(2, count / 2));
-      right = arnoldi(inverse, pencil, shift, per_mode * count, scale, tolerance_);
+      right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
       if (!right) return std::nullopt;
     }
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
     if (pencil.one_sided) return modes;
     Inverse transposed(pencil, factors_, shift, true, scale, solutions_);
-    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, scale, tolerance_);
+    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance_);
     if (!left) return std::nullopt;
     modes.left = columns(left->vectors, pencil.size());
     return modes;

@@ -36,9 +36,9 @@ constexpr int scout_steps = 16;
 /// counted among the modes that are asked for.
 constexpr double rigid = 1e-6;
 
-std::string two_digits(double value) {
+std::string digits(double value, int count) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1e", value);
+  std::snprintf(text.data(), text.size(), "%.*g", count, value);
   return text.data();
 }
 
@@ -314,17 +314,21 @@ class Projector {
   /// Notes where modes that are not followed come among the followed ones: nearer to the usual shift than the
   /// farthest of these.
   void note_newcomers(const ProjectedFamily& model, const std::vector<Place>& places) {
-    std::size_t known = 0;
+    std::size_t known = 0, entries = 0;
+    std::string first;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const std::vector<Complex> there = among_the_followed(model, places[i]);
-      if (i > 0 && there.size() > known) {
-        projection_.notes.push_back(
-            "between " + trace_.parameter + " = " + exact_text(places[i - 1].p) + " and " +
-            exact_text(places[i].p) + " a mode that is not followed comes among the followed ones, with a frequency of " +
-            two_digits(std::abs(there.back().imag())) + " rad/s; to follow it, ask for more modes");
-      }
+      const bool enters = i > 0 && there.size() > known;
       known = there.size();
+      if (!enters || ++entries > 1) continue;
+      first = "between " + trace_.parameter + " = " + digits(places[i - 1].p, 5) + " and " +
+              digits(places[i].p, 5) + ", at " + digits(there.back().imag(), 4) + " rad/s";
     }
+    if (entries == 0) return;
+    const std::string who = entries == 1 ? "a mode that is not followed comes" :
+                                           std::to_string(entries) + " modes that are not followed come";
+    projection_.notes.push_back(who + " among the followed ones, " + (entries == 1 ? "" : "the first ") + first +
+                                "; to follow more, ask for more modes");
   }
 
   /// Eigenvalues that are not followed and nearer to the usual shift than the farthest followed one, the
@@ -364,10 +368,10 @@ class Projector {
   std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
     projection_.error = worst.indicator * factor_;
     projection_.error_at = worst.place->p;
-    projection_.notes.push_back("the projection leaves an error of about " + two_digits(projection_.error) +
+    projection_.notes.push_back("the projection leaves an error of about " + digits(projection_.error, 2) +
                                 " at " + trace_.parameter + " = " + exact_text(worst.place->p) + " after " +
                                 std::to_string(projection_.factorizations) + " factorizations; asked for were " +
-                                two_digits(target_));
+                                digits(target_, 2));
     return reduced();
   }
 

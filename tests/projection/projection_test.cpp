@@ -1,0 +1,208 @@
+// Projected families against their large ones, by solvers that know nothing of projections.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "eigentrail/projection/project.hpp"
+#include "support/large_families.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+const SparseFamily& family_of(const TraceSetup& setup) {
+  return dynamic_cast<const SparseFamily&>(*setup.model);
+}
+
+Vector at(double omega) {
+  return Vector::Constant(1, omega);
+}
+
+struct Traced {
+  std::unique_ptr<ProjectedFamily> model;
+  std::vector<double> places;
+  std::vector<ComplexVector> eigenvalues;  ///< of the followed modes at the places
+  TraceResult result;
+};
+
+/// Projects and traces; the dense output at random places.
+Traced run(const TraceSetup& setup, int n_places, const ProjectionOptions& options = {}) {
+  Traced traced;
+  traced.model = project(family_of(setup), setup.options, {}, options);
+  Setting setting;
+  setting.scene = setup.scene;
+  setting.options = setup.options;
+  setting.model = project(family_of(setup), setup.options, {}, options);
+  const RecordedTrace record = record_trace(setting);
+  traced.result = record.result;
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> places(setup.options.from, setup.options.to);
+  for (int i = 0; i < n_places; ++i) {
+    traced.places.push_back(places(engine));
+    traced.eigenvalues.push_back(record.eigenvalues_at(traced.places.back()));
+  }
+  return traced;
+}
+
+/// Largest relative distance of the traced eigenvalues from those of the large pencil.
+double error(const TraceSetup& setup, const Traced& traced) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < traced.places.size(); ++i) {
+    const AffinePencil<SparseMatrix> pencil = family_of(setup).at(at(traced.places[i]));
+    for (const Complex s : traced.eigenvalues[i]) {
+      if (std::isnan(s.real())) continue;
+      const Complex beside = s * Complex(1.0 + 1e-4, 1e-4);
+      const Complex exact = eigenvalues_near(pencil, beside, 1).front();
+      largest = std::max(largest, std::abs(s - exact) / std::abs(s));
+    }
+  }
+  return largest;
+}
+
+TEST(Projection, ErrorsAreWithinTheToleranceOfTheLargeModel) {
+  for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+    const TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 3.0, 4, tolerance);
+    const Traced traced = run(setup, 10);
+    EXPECT_EQ(traced.result.status, TraceStatus::completed);
+    EXPECT_LT(error(setup, traced), tolerance) << tolerance;
+    EXPECT_LE(traced.model->projection()->factorizations, 12) << tolerance;
+    EXPECT_LT(traced.model->n_coordinates(), 100);
+  }
+}
+
+TEST(Projection, UndampedModelsNeedNoLeftVectors) {
+  const TraceSetup setup = large_setup(rotating_plate({16, 0.0}), 0.0, 3.0, 4, 1e-8);
+  const Traced traced = run(setup, 10);
+  EXPECT_LT(error(setup, traced), 1e-8);
+  EXPECT_EQ(traced.model->projection()->method, "Cholesky (CHOLMOD)");
+}
+
+/// Largest relative distance of the lowest eigenvalues of a projected family from those of the large one.
+double error_at(const TraceSetup& setup, const ProjectedFamily& model, double p) {
+  const AffinePencil<Matrix> small = model.at(at(p));
+  const AffinePencil<SparseMatrix> large = family_of(setup).at(at(p));
+  const Spectrum spectrum =
+      compute_eigenvalues(small.M.front().matrix, small.C.front().matrix, small.K.front().matrix);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(*setup.options.modes.count); ++i) {
+    const Complex s = spectrum.modes[i].s;
+    const Complex exact = eigenvalues_near(large, s * Complex(1.0 + 1e-5, 1e-5), 1).front();
+    largest = std::max(largest, std::abs(s - exact) / std::abs(s));
+  }
+  return largest;
+}
+
+/// With left vectors the error is of second order: without them as many samples leave a hundred times more.
+TEST(Projection, CirculatoryModelsNeedLeftVectors) {
+  RotatingPlate plate;
+  plate.convection = 10.0;
+  const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 4, 1e-6);
+  ProjectionOptions options;
+  options.first_samples = 3;
+  options.max_factorizations = 4;
+  const auto both = project(family_of(setup), setup.options, {}, options);
+  options.left_vectors = false;
+  const auto right = project(family_of(setup), setup.options, {}, options);
+  for (const double p : {0.3, 0.7, 1.2, 1.7}) {
+    EXPECT_LT(error_at(setup, *both, p), 1e-10) << p;
+    EXPECT_GT(error_at(setup, *right, p), 1e-9) << p;
+  }
+  EXPECT_GT(error_at(setup, *right, 0.3), 1e-8);  // what is asked for
+  EXPECT_NE(right->projection()->notes.front().find("leaves an error"), std::string::npos);
+}
+
+TEST(Projection, SolidShaftLosesItsStabilityWhereTheLargeModelDoes) {
+  SolidShaft shaft;
+  shaft.length = 20;
+  shaft.discs = {8};
+  shaft.disc_width = 6;
+  shaft.bearing_stiffness = 2e7;
+  shaft.bearing_damping = 100;
+  shaft.internal_damping = 2e-5;
+  const TraceSetup setup = large_setup(solid_shaft(shaft), 0.0, 3500.0, 4, 1e-7);
+  const Traced traced = run(setup, 3);
+  EXPECT_LT(error(setup, traced), 1e-7);
+  int flutter = 0;
+  for (const Event& event : traced.result.events) {
+    if (event.kind != EventKind::flutter) continue;
+    ++flutter;
+    const Complex exact =
+        eigenvalues_near(family_of(setup).at(at(event.p)), event.s * Complex(1.0, 1e-5) + 1e-3, 1).front();
+    EXPECT_LT(std::abs(exact.real()), 1e-7 * std::abs(exact)) << event.p;
+  }
+  EXPECT_GE(flutter, 1);
+}
+
+/// Modes of two plates cross when nothing couples them, and veer when something does.
+TEST(Projection, CrossingsAndVeeringsAreToldApart) {
+  for (const double coupling : {0.0, 1e-4}) {
+    const TraceSetup setup = large_setup(two_plates(10, 1.02, coupling), 0.0, 3.0, 2, 1e-8);
+    const Traced traced = run(setup, 0);
+    int veerings = 0;
+    for (const Event& event : traced.result.events) veerings += event.kind == EventKind::veering ? 1 : 0;
+    EXPECT_EQ(veerings > 0, coupling > 0.0) << coupling;
+  }
+}
+
+TEST(Projection, AModeThatComesAmongTheFollowedOnesIsNoted) {
+  const TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 6.0, 6, 1e-6);
+  const auto model = project(family_of(setup), setup.options);
+  ASSERT_EQ(model->projection()->notes.size(), 1U);
+  EXPECT_NE(model->projection()->notes.front().find("not followed come among the followed ones"),
+            std::string::npos);
+  const TraceSetup lowest = large_setup(rotating_plate({16}), 0.0, 0.3, 6, 1e-6);
+  EXPECT_TRUE(project(family_of(lowest), lowest.options)->projection()->notes.empty());
+}
+
+TEST(Projection, SingleValuesAreExact) {
+  const TraceSetup setup = large_setup(rotating_plate({16, 0.02, 1.0}), 0.0, 3.0, 4, 1e-6);
+  const auto model = project_at(family_of(setup), setup.options, {1.0});
+  EXPECT_EQ(model->projection()->factorizations, 1);
+  const AffinePencil<Matrix> reduced = model->at(at(1.0));
+  const Spectrum spectrum =
+      compute_spectrum(reduced.M.front().matrix, reduced.C.front().matrix, reduced.K.front().matrix);
+  for (int i = 0; i < 4; ++i) {
+    const Complex s = spectrum.modes[static_cast<std::size_t>(i)].s;
+    const Complex exact = eigenvalues_near(family_of(setup).at(at(1.0)), s * Complex(1.0, 1e-4), 1).front();
+    EXPECT_LT(std::abs(s - exact), 1e-9 * std::abs(s));
+  }
+}
+
+TEST(Projection, AllModesOfALargeModelAreRefused) {
+  TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 3.0, 4, 1e-6);
+  setup.options.modes = {};
+  EXPECT_THROW((void)project(family_of(setup), setup.options), InputError);
+}
+
+TEST(Projection, ModesInABandAreAllThere) {
+  TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 1.0, 4, 1e-6);
+  setup.options.modes = {};
+  setup.options.modes.band = FrequencyBand{5.0, 8.0};
+  const auto model = project(family_of(setup), setup.options);
+  const AffinePencil<Matrix> reduced = model->at(at(0.0));
+  const Spectrum small =
+      compute_spectrum(reduced.M.front().matrix, reduced.C.front().matrix, reduced.K.front().matrix);
+  const AffinePencil<SparseMatrix> large = family_of(setup).at(at(0.0));
+  const Spectrum whole = compute_eigenvalues(Matrix(large.M.front().matrix), Matrix(large.C.front().matrix),
+                                             Matrix(large.K.front().matrix));
+  int in_band = 0;
+  for (const StartingMode& mode : whole.modes) {
+    if (!setup.options.modes.wants(mode.s)) continue;
+    ++in_band;
+    double nearest = 1e300;
+    for (const StartingMode& other : small.modes) nearest = std::min(nearest, std::abs(other.s - mode.s));
+    EXPECT_LT(nearest, 1e-7 * std::abs(mode.s)) << mode.s;
+  }
+  EXPECT_GE(in_band, 3);
+}
+
+TEST(Projection, SmallFamiliesAreLeftAsTheyAre) {
+  TraceSetup setup = large_setup(rotating_plate({8}), 0.0, 1.0, 4, 1e-6);
+  ASSERT_LE(setup.model->n_coordinates(), largest_dense_size);
+  const Model* before = setup.model.get();
+  project_if_large(setup.model, setup.options);
+  EXPECT_EQ(setup.model.get(), before);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
