@@ -165,7 +165,7 @@ int run_spectrum(const SpectrumArguments& arguments) {
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()},
                     Purpose::operating_point);
   const std::vector<double> values = arguments.at.empty() ? std::vector{setup.options.from} : arguments.at;
-  if (const SparseFamily* large = large_family(*setup.model))
+  if (const SparseFamily* large = large_family(*setup.model, setup.options))
     setup.model = project_at(*large, setup.options, values);
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   if (arguments.csv) {

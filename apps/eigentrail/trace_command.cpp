@@ -16,6 +16,7 @@
 #include "eigentrail/stability/undecided_ranges.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/projection_file.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
@@ -31,6 +32,7 @@ struct TraceArguments {
   bool force = false;
   bool resume = false;
   bool quiet = false;
+  std::string save_reduced;  ///< file for the matrices of a projected model; empty: none
   int threads = 0;  ///< 0: one per core
   double save_every = LociWriter::usual_interval;
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
@@ -312,12 +314,23 @@ class TraceRun {
   TraceResult result_;
 };
 
+void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
+  const auto* family = dynamic_cast<const ProjectedFamily*>(setup.model.get());
+  if (family == nullptr)
+    throw InputError("--save-reduced: the model is not projected; it is for sparse families of which some modes "
+                     "are followed");
+  const std::string scene = write_projected(arguments.save_reduced, setup.scene, *family, arguments.force);
+  if (!arguments.quiet)
+    std::printf("wrote %s and its scene %s\n", arguments.save_reduced.c_str(), scene.c_str());
+}
+
 int run_trace(const TraceArguments& arguments) {
   if (std::isnan(arguments.save_every))
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
   project_if_large(setup.model, setup.options);
+  if (!arguments.save_reduced.empty()) save_reduced(arguments, setup);
   setup.options.threads = arguments.threads > 0
                               ? arguments.threads
                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -356,6 +369,9 @@ void add_trace(CLI::App& program, int& exit_code) {
                    "seconds of work that may be lost when the program is killed")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command->add_option("--save-reduced", arguments->save_reduced,
+                      "large models: write the projected matrices as a family of their own (HDF5; the scene "
+                      "that names them is written beside it)");
   command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
   TraceOptions defaults;
   TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {

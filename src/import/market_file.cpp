@@ -16,17 +16,22 @@ class MarketReader {
  public:
   MarketReader(std::string_view text, const std::string& path) : lines_(text, path), size_(text.size()) {}
 
-  Matrix read() {
+  SystemMatrix read() {
     read_banner();
     read_sizes();
     if (array_) {
+      matrix_ = Matrix::Zero(rows_, columns_);
       read_array();
     } else {
+      triplets_.reserve(static_cast<std::size_t>(symmetry_ == Symmetry::none ? entries_ : 2 * entries_));
       for (long i = 0; i < entries_; ++i) read_entry(i);
     }
     if (next_line())
       lines_.fail("more lines than the " + std::to_string(entries_) + " entries that are announced");
-    return std::move(matrix_);
+    if (array_) return std::move(matrix_);
+    SparseMatrix sparse(rows_, columns_);
+    sparse.setFromTriplets(triplets_.begin(), triplets_.end());
+    return sparse;
   }
 
  private:
@@ -86,17 +91,19 @@ class MarketReader {
       sizes[i] = *number;
     }
     const auto [rows, columns, entries] = sizes;
-    if (rows < 1 || columns < 1 || rows > limits::matrix_rows || columns > limits::matrix_rows)
+    const long most = array_ ? limits::matrix_rows : static_cast<long>(limits::sparse_rows);
+    if (rows < 1 || columns < 1 || rows > most || columns > most)
       lines_.fail("the matrix is " + std::to_string(rows) + " x " + std::to_string(columns) +
-                  "; matrices of 1 to " + std::to_string(limits::matrix_rows) +
-                  " rows and columns can be imported");
+                  "; matrices of 1 to " + std::to_string(most) + " rows and columns can be imported" +
+                  (array_ ? ", larger ones as coordinate" : ""));
     if (symmetry_ != Symmetry::none && rows != columns) lines_.fail("a symmetric matrix is square");
     const long half = rows * (rows + (symmetry_ == Symmetry::skew ? -1 : 1)) / 2;
     entries_ = !array_ ? entries : symmetry_ == Symmetry::none ? rows * columns : half;
     // Before memory is taken: each entry needs a line.
     if (static_cast<std::size_t>(entries_) > size_ / 2)
       lines_.fail(std::to_string(entries_) + " entries are announced, more than the file has room for");
-    matrix_ = Matrix::Zero(rows, columns);
+    rows_ = rows;
+    columns_ = columns;
   }
 
   /// "row column value"; the value is one in a pattern.
@@ -109,7 +116,7 @@ class MarketReader {
     const std::size_t expected = pattern_ ? 2 : complex_ ? 4 : 3;
     if (words.size() != expected)
       lines_.fail("expected " + std::to_string(expected) + " numbers, found " + std::to_string(words.size()));
-    const long r = index(words[0], matrix_.rows(), "row"), c = index(words[1], matrix_.cols(), "column");
+    const long r = index(words[0], rows_, "row"), c = index(words[1], columns_, "column");
     double value = pattern_ ? 1.0 : real(words[2]);
     if (complex_) check_imaginary(words[3]);
     add(r, c, value);
@@ -135,7 +142,7 @@ class MarketReader {
   }
 
   void add(Eigen::Index r, Eigen::Index c, double value) {
-    matrix_(r, c) += value;
+    put(r, c, value);
     if (symmetry_ == Symmetry::none) return;
     if (r == c) {
       if (symmetry_ == Symmetry::skew) lines_.fail("a skew-symmetric matrix has no entries on its diagonal");
@@ -146,7 +153,15 @@ class MarketReader {
     if (below_ && above_)
       lines_.fail(
           "the file has entries on both sides of the diagonal of a symmetric matrix; expected one side");
-    matrix_(c, r) += symmetry_ == Symmetry::skew ? -value : value;
+    put(c, r, symmetry_ == Symmetry::skew ? -value : value);
+  }
+
+  void put(Eigen::Index r, Eigen::Index c, double value) {
+    if (array_) {
+      matrix_(r, c) = value;
+    } else {
+      triplets_.emplace_back(r, c, value);
+    }
   }
 
   /// The numbers of an array column by column, of a symmetric one from the diagonal on, of a skew-symmetric
@@ -180,18 +195,20 @@ class MarketReader {
   bool array_ = false, pattern_ = false, complex_ = false, below_ = false, above_ = false;
   Symmetry symmetry_ = Symmetry::none;
   long entries_ = 0;
-  Matrix matrix_;
+  Eigen::Index rows_ = 0, columns_ = 0;
+  Matrix matrix_;                                 ///< of an array
+  std::vector<Eigen::Triplet<double>> triplets_;  ///< of coordinates
   std::vector<std::string_view> words_;  ///< of the present line of an array
   std::size_t place_ = 0;
 };
 
 }  // namespace
 
-Matrix parse_market_file(std::string_view text, const std::string& path) {
+SystemMatrix parse_market_file(std::string_view text, const std::string& path) {
   return MarketReader(text, path).read();
 }
 
-Matrix read_market_file(const std::string& path) {
+SystemMatrix read_market_file(const std::string& path) {
   return parse_market_file(read_text_file(path), path);
 }
 

@@ -5,17 +5,17 @@
 #include <string>
 #include <string_view>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/core/system_matrix.hpp"
 
 namespace eigentrail {
 
-/// The matrix of a file with at most limits::matrix_rows rows and columns: coordinate (entries that are given
-/// twice are added) or array; real, integer, pattern (ones), or complex with imaginary parts of zero;
+/// The matrix of a file: coordinate (sparse; entries that are given twice are added), of at most
+/// limits::sparse_rows rows and columns, or array (dense), of at most limits::matrix_rows; real, integer, pattern (ones), or complex with imaginary parts of zero;
 /// general, symmetric, skew-symmetric, or Hermitian, which is symmetric if it is real. Throws InputError that
 /// names file and line.
-Matrix parse_market_file(std::string_view text, const std::string& path);
+SystemMatrix parse_market_file(std::string_view text, const std::string& path);
 
 /// The same from a file.
-Matrix read_market_file(const std::string& path);
+SystemMatrix read_market_file(const std::string& path);
 
 }  // namespace eigentrail

@@ -23,17 +23,20 @@ struct Coefficient {
   std::string file;
   char letter = 'K';
   std::size_t power = 0;
-  Matrix matrix = {};
+  SystemMatrix matrix = {};
 };
 
-const std::array<std::pair<char, std::vector<Matrix> PolynomialData::*>, 5> coefficients{
+/// Sparse matrices with fewer rows are stored as dense ones.
+constexpr Eigen::Index least_sparse_rows = 151;
+
+const std::array<std::pair<char, std::vector<SystemMatrix> PolynomialData::*>, 5> coefficients{
     {{'M', &PolynomialData::M},
      {'C', &PolynomialData::C},
      {'K', &PolynomialData::K},
      {'E', &PolynomialData::E},
      {'A', &PolynomialData::A}}};
 
-std::string size_text(const Matrix& matrix) {
+std::string size_text(const SystemMatrix& matrix) {
   return std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());
 }
 
@@ -132,6 +135,7 @@ class MarketImport {
                            ", and so is " + other.file);
       }
       one.matrix = read_market_file(file);
+      if (one.matrix.is_sparse() && one.matrix.cols() < least_sparse_rows) one.matrix = one.matrix.dense();
       all.push_back(std::move(one));
     }
     return all;
@@ -171,7 +175,12 @@ class MarketImport {
     std::size_t highest = 0;
     for (const Coefficient& one : all) highest = std::max(highest, one.power);
     set_title();
-    if (highest == 0 && !(has(all, 'A') && has(all, 'K'))) return one_sample(all);
+    const bool is_sample = highest == 0 && !(has(all, 'A') && has(all, 'K'));
+    if (is_sample && sparse_entries(all) == 0) return one_sample(all);
+    if (is_sample)
+      throw InputError("matrix-market: sparse matrices of " + std::to_string(all.front().matrix.cols()) +
+                       " rows, and no matrix has a power of the parameter; a large model needs one, such as "
+                       "K1.mtx");
     if (highest == 0)
       throw InputError("matrix-market: no matrix has a power of the parameter; expected one such as K1.mtx");
     result_.parameter = parameter("p");
@@ -180,11 +189,14 @@ class MarketImport {
       std::string powers;
       for (const Coefficient& one : all) {
         if (one.letter != letter) continue;
-        std::vector<Matrix>& own = family.*list;
-        if (own.size() <= one.power) {
-          count(one.file, (one.power + 1 - own.size()) * static_cast<std::size_t>(one.matrix.size()));
-          own.resize(one.power + 1);
+        std::vector<SystemMatrix>& own = family.*list;
+        const auto size = static_cast<std::size_t>(one.matrix.size());
+        if (one.matrix.is_sparse()) {
+          count(one.file, static_cast<std::size_t>(one.matrix.sparse().nonZeros()));
+        } else if (own.size() <= one.power) {
+          count(one.file, (one.power + 1 - own.size()) * size);
         }
+        own.resize(std::max(own.size(), one.power + 1));
         own[one.power] = one.matrix;
         powers += (powers.empty() ? "" : ", ") + std::to_string(one.power);
       }
@@ -192,7 +204,16 @@ class MarketImport {
         result_.understood.push_back(std::string(1, letter) + ", power" + (powers.size() > 1 ? "s " : " ") +
                                      powers + " of " + result_.parameter);
     }
+    if (const auto nonzeros = sparse_entries(all))
+      result_.understood.push_back("sparse, " + std::to_string(nonzeros) + " entries");
     finish_family(family, all.front().matrix.cols());
+  }
+
+  /// Entries of the sparse matrices; zero if there are none.
+  static Eigen::Index sparse_entries(const std::vector<Coefficient>& all) {
+    Eigen::Index sum = 0;
+    for (const Coefficient& one : all) sum += one.matrix.is_sparse() ? one.matrix.sparse().nonZeros() : 0;
+    return sum;
   }
 
   void finish_family(PolynomialData& family, Eigen::Index n) {
@@ -225,7 +246,7 @@ class MarketImport {
     data.parameter_unit = option("unit", "");
     for (const Coefficient& one : all) {
       for (const SampledMatrix& named : sampled_matrices()) {
-        if (one.letter == named.name[0]) (data.*named.samples).push_back(one.matrix);
+        if (one.letter == named.name[0]) (data.*named.samples).push_back(one.matrix.dense());
       }
     }
     result_.understood.push_back("one sample, " + size_text(all.front().matrix) +
@@ -259,6 +280,16 @@ class MarketImport {
     return lists;
   }
 
+  /// Samples are interpolated entry by entry, as dense matrices.
+  static Matrix dense_sample(const std::string& file) {
+    const SystemMatrix matrix = read_market_file(file);
+    if (std::max(matrix.rows(), matrix.cols()) > limits::matrix_rows)
+      throw InputError(file + ": the matrix is " + size_text(matrix) + "; samples have at most " +
+                       std::to_string(limits::matrix_rows) +
+                       " rows. Larger models come as powers of the parameter: M0.mtx, K0.mtx, K2.mtx");
+    return matrix.dense();
+  }
+
   void read_table(const FileTable& table) {
     refuse_options({"from", "to"}, "the table has the values of the parameter");
     const std::vector<std::vector<Matrix>*> lists = columns_of(table);
@@ -271,7 +302,7 @@ class MarketImport {
       for (std::size_t i = 0; i < lists.size(); ++i) {
         const std::string& file = table.files[row][i];
         const bool same = row > 0 && table.files[row - 1][i] == file;
-        Matrix matrix = same ? lists[i]->back() : read_market_file(file);
+        Matrix matrix = same ? lists[i]->back() : dense_sample(file);
         const Eigen::Index n = data.size() == 0 ? matrix.cols() : data.size();
         if (matrix.rows() != n || matrix.cols() != n)
           throw InputError(file + ": the matrix is " + size_text(matrix) + "; expected " + std::to_string(n) +

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "eigentrail/import/write_samples.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/output_file.hpp"
 
@@ -21,10 +23,11 @@ const char* frame_name(StateFrame frame) {
   return frame == StateFrame::fixed ? "fixed" : "rotating";
 }
 
-void write_list(Hdf5File& file, const std::string& name, ElementType type, const auto& list) {
-  if (list.empty()) return;
+void write_list(Hdf5File& file, const std::string& name, ElementType type, const auto& list,
+                bool even_if_empty = false) {
+  if (list.empty() && !even_if_empty) return;
   file.create_dataset({name, type, {list.size()}, false, {}});
-  file.write_rows(name, 0, list);
+  if (!list.empty()) file.write_rows(name, 0, list);
 }
 
 void write_matrices(Hdf5File& file, const std::string& name, const std::vector<Matrix>& samples) {
@@ -67,8 +70,8 @@ namespace {
 
 /// The number of states: columns of the first coefficient.
 Eigen::Index family_size(const PolynomialData& family) {
-  for (const std::vector<Matrix>* list : {&family.M, &family.K, &family.C, &family.A}) {
-    for (const Matrix& one : *list) {
+  for (const std::vector<SystemMatrix>* list : {&family.M, &family.K, &family.C, &family.A}) {
+    for (const SystemMatrix& one : *list) {
       if (one.size() != 0) return one.cols();
     }
   }
@@ -87,10 +90,10 @@ std::string quoted(const std::string& text) {
 
 /// Throws std::invalid_argument if the coefficients do not fit each other or are not finite.
 void check(const PolynomialData& family) {
-  const auto list = [&](const std::vector<Matrix>& coefficients, const std::string& name, bool square) {
+  const auto list = [&](const std::vector<SystemMatrix>& coefficients, const std::string& name, bool square) {
     Eigen::Index rows = -1;
     for (std::size_t power = 0; power < coefficients.size(); ++power) {
-      const Matrix& one = coefficients[power];
+      const SystemMatrix& one = coefficients[power];
       if (one.size() == 0) continue;
       const Eigen::Index n = family_size(family);
       if (rows < 0) rows = square ? n : one.rows();
@@ -99,7 +102,7 @@ void check(const PolynomialData& family) {
         throw std::invalid_argument(which + " is " + std::to_string(one.rows()) + " x " +
                                     std::to_string(one.cols()) + "; expected " + std::to_string(rows) +
                                     " x " + std::to_string(n));
-      if (!one.allFinite()) throw std::invalid_argument(which + " has an entry that is not finite");
+      if (!std::isfinite(one.norm())) throw std::invalid_argument(which + " has an entry that is not finite");
     }
   };
   const bool second_order = !family.M.empty() || !family.C.empty() || !family.K.empty();
@@ -118,14 +121,31 @@ void check(const PolynomialData& family) {
                                 std::to_string(n) + " states");
 }
 
+/// Compressed rows, as scipy.sparse.csr_matrix has them.
+void write_sparse(Hdf5File& file, const std::string& name, const SparseMatrix& matrix) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = matrix;
+  const auto entries = static_cast<std::size_t>(rows.nonZeros());
+  write_list(file, name + "/data", ElementType::real,
+             std::vector<double>(rows.valuePtr(), rows.valuePtr() + entries), true);
+  write_list(file, name + "/indices", ElementType::integer,
+             std::vector<std::int64_t>(rows.innerIndexPtr(), rows.innerIndexPtr() + entries), true);
+  write_list(file, name + "/indptr", ElementType::integer,
+             std::vector<std::int64_t>(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1));
+}
+
 void write_family(const std::string& path, const PolynomialData& family) {
   Hdf5File file = Hdf5File::in_memory(path);
   for (const auto& [name, coefficients] :
        {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
     for (std::size_t power = 0; power < coefficients->size(); ++power) {
-      const RowMajor one = (*coefficients)[power];
-      if (one.size() == 0) continue;
+      const SystemMatrix& coefficient = (*coefficients)[power];
+      if (coefficient.size() == 0) continue;
       const std::string dataset = std::string(name) + "/" + std::to_string(power);
+      if (coefficient.is_sparse()) {
+        write_sparse(file, dataset, coefficient.sparse());
+        continue;
+      }
+      const RowMajor one = coefficient.dense();
       const Shape shape{static_cast<std::uint64_t>(one.rows()), static_cast<std::uint64_t>(one.cols())};
       file.create_dataset({dataset, ElementType::real, shape, false, {}});
       file.write_rows(dataset, 0, std::vector<double>(one.data(), one.data() + one.size()));
@@ -154,6 +174,7 @@ std::string scene_text(const Imported& imported, const std::string& file) {
   text += "parameter = " + quoted(imported.parameter) + "\n";
   text += "from = " + exact_text(least) + "\n";
   if (!imported.one_point()) text += "to = " + exact_text(largest) + "\ntolerance = 1e-6\n";
+  if (family && family_size(*family) > limits::matrix_rows) text += "modes = 6\n";
   return text;
 }
 

@@ -31,7 +31,7 @@ class SparseReader {
     if (!file_.has("/" + key)) return result;
     for (const std::string& name : file_.members("/" + key)) {
       const std::string path = "/" + key + "/" + name;
-      result.push_back({factor(path, name), matrix(path)});
+      result.push_back({factor(path, name), matrix(path), name});
     }
     return result;
   }
@@ -226,7 +226,7 @@ std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table
   if (!A.empty()) {
     K = negated(std::move(A));
     C = std::move(E);
-    if (C.empty()) C.push_back({1.0, identity(reader.size())});
+    if (C.empty()) C.push_back({1.0, identity(reader.size()), "0"});
   }
   if (K.empty() || (M.empty() && C.empty())) reader.fail("has no matrix K, or neither M nor C");
   reader.reject_unused_factors();

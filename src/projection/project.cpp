@@ -10,6 +10,7 @@
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
 
@@ -443,14 +444,16 @@ ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOp
   return estimate;
 }
 
-const SparseFamily* large_family(const Model& model) {
+const SparseFamily* large_family(const Model& model, const TraceOptions& trace) {
   const auto* family = dynamic_cast<const SparseFamily*>(&model);
-  return family != nullptr && family->n_coordinates() > largest_dense_size ? family : nullptr;
+  if (family == nullptr || family->n_coordinates() <= largest_dense_size) return nullptr;
+  const bool some_modes = trace.modes.count || trace.modes.band;
+  return some_modes || family->n_coordinates() > limits::matrix_rows ? family : nullptr;
 }
 
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                       const std::vector<ParameterValues>& lines) {
-  if (const SparseFamily* family = large_family(*model)) model = project(*family, trace, lines);
+  if (const SparseFamily* family = large_family(*model, trace)) model = project(*family, trace, lines);
 }
 
 }  // namespace eigentrail

@@ -2,8 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <limits>
+
+#include "core/singular_vectors.hpp"
 
 namespace eigentrail {
 namespace {
@@ -32,7 +33,7 @@ AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Stora
     for (const AffineTerm<Storage>& term : terms) {
       Matrix reduced = basis.transpose() * (term.matrix * basis);
       if (const int sign = symmetry(term.matrix)) reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
-      result.push_back({term.factor, std::move(reduced)});
+      result.push_back({term.factor, std::move(reduced), term.name});
     }
     return result;
   };
@@ -79,11 +80,11 @@ Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {
     const double norm = weighted.col(j).norm();
     if (norm > 0.0) weighted.col(j) /= norm;
   }
-  const Eigen::BDCSVD<Matrix> svd(weighted, Eigen::ComputeThinU);
-  const Vector& sizes = svd.singularValues();
-  const Eigen::Index rank = (sizes.array() > accuracy).count();
+  const SingularVectors<Matrix> components = right_singular_vectors(weighted.transpose());
+  if (!components.values.allFinite()) return Matrix::Identity(energy.rows(), energy.cols());
+  const Eigen::Index rank = (components.values.array() > accuracy).count();
   const Matrix parts =
-      solver.eigenvectors() * (weights.cwiseInverse().asDiagonal() * svd.matrixU().leftCols(rank));
+      solver.eigenvectors() * (weights.cwiseInverse().asDiagonal() * components.V.leftCols(rank));
   return Eigen::HouseholderQR<Matrix>(parts).householderQ() * Matrix::Identity(parts.rows(), rank);
 }
 

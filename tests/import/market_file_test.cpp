@@ -12,6 +12,10 @@ Matrix read(const std::string& text) {
   return parse_market_file("%%MatrixMarket matrix " + text, "a.mtx");
 }
 
+Matrix read_whole(const std::string& text, const std::string& path) {
+  return parse_market_file(text, path);
+}
+
 std::string message(const std::string& text) {
   return test::input_error([&] { parse_market_file(text, "a.mtx"); });
 }
@@ -45,7 +49,7 @@ TEST(MarketFile, Arrays) {
 }
 
 TEST(MarketFile, CapitalsAndEndsOfLinesDoNotMatter) {
-  EXPECT_EQ(parse_market_file("%%matrixmarket MATRIX Coordinate REAL General\r\n1 1 1\r\n1 1 4\r\n", "a"),
+  EXPECT_EQ(read_whole("%%matrixmarket MATRIX Coordinate REAL General\r\n1 1 1\r\n1 1 4\r\n", "a"),
             (Matrix{{4.0}}));
 }
 
@@ -74,7 +78,8 @@ TEST(MarketFile, FaultsNameTheirLine) {
       {banner + "2 x 2\n", "expected a size, found 'x'"},
       {banner + "2 -2 2\n", "expected a size, found '-2'"},
       {banner + "0 0 0\n", "the matrix is 0 x 0"},
-      {banner + "6000 6000 1\n1 1 1\n", "the matrix is 6000 x 6000; matrices of 1 to 5000 rows"},
+      {array + "6000 6000\n1\n", "the matrix is 6000 x 6000; matrices of 1 to 5000 rows"},
+      {banner + "6000000 6000000 1\n1 1 1\n", "matrices of 1 to 5000000 rows"},
       {banner + "5000 5000 999999999999\n1 1 1\n", "more than the file has room for"},
       {banner + "2 2 9999999999999999999999\n", "expected a size"},
       {array + "5000 5000\n1\n", "25000000 entries are announced, more than the file has room for"},

@@ -1,9 +1,11 @@
 // Families and samples from files of the Matrix Market.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "eigentrail/import/importer.hpp"
+#include "eigentrail/model/affine_family.hpp"
 #include "scene/input_error.hpp"
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
@@ -48,7 +50,7 @@ TEST_F(MatrixMarket, PowersBecomeAFamily) {
   EXPECT_EQ(imported.family->M.size(), 1u);
   ASSERT_EQ(imported.family->K.size(), 3u);
   EXPECT_EQ(imported.family->K[1].size(), 0);
-  EXPECT_EQ(imported.family->K[2], (Matrix{{3.0, 0.0}, {0.0, -1.0}}));
+  EXPECT_EQ(imported.family->K[2].dense(), (Matrix{{3.0, 0.0}, {0.0, -1.0}}));
 
   const std::string scene = write_import(imported, folder_.path() + "/out", "model", false);
   const TraceSetup setup = prepare_trace(read_scene(scene), {});
@@ -67,6 +69,36 @@ TEST_F(MatrixMarket, FirstOrderFamilyWithNames) {
   const std::string scene = write_import(imported, folder_.path(), "model", false);
   const TraceSetup setup = prepare_trace(read_scene(scene), {});
   EXPECT_EQ(setup.model->description().coordinate_names, imported.family->state_names);
+}
+
+/// A chain of n masses, sparse; and its stiffness that grows with the parameter.
+TEST_F(MatrixMarket, LargeSparseMatricesStaySparse) {
+  constexpr int n = 6000;
+  std::string mass = "%%MatrixMarket matrix coordinate real symmetric\n6000 6000 6000\n";
+  std::string chain = "%%MatrixMarket matrix coordinate real symmetric\n6000 6000 11999\n";
+  for (int i = 1; i <= n; ++i) {
+    const std::string place = std::to_string(i) + " " + std::to_string(i);
+    mass += place + " 1\n";
+    chain += place + " 2\n";
+    if (i > 1) chain += std::to_string(i) + " " + std::to_string(i - 1) + " -1\n";
+  }
+  const Imported imported =
+      read({write("M0.mtx", mass), write("K0.mtx", chain), write("K1.mtx", mass)}, {{"to", "1e-3"}});
+  ASSERT_TRUE(imported.family);
+  EXPECT_TRUE(imported.family->K[0].is_sparse());
+  EXPECT_EQ(imported.family->K[0].sparse().nonZeros(), 3 * n - 2);
+  const std::string scene = write_import(imported, folder_.path(), "model", false);
+  const TraceSetup setup = prepare_trace(read_scene(scene), {});
+  EXPECT_EQ(setup.options.modes.count, 6);  // all modes of so large a model cannot be followed
+  const auto& family = dynamic_cast<const SparseFamily&>(*setup.model);
+  EXPECT_EQ((SparseMatrix(family.pencil().K[0].matrix - imported.family->K[0].sparse())).norm(), 0.0);
+  EXPECT_LT(std::filesystem::file_size(folder_.path() + "/model.h5"), 2'000'000U);
+}
+
+TEST_F(MatrixMarket, LargeSparseMatricesNeedAPower) {
+  const std::string one = write("M0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
+  const std::string other = write("K0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
+  EXPECT_TRUE(test::contains(message({one, other}), "a large model needs one, such as K1.mtx"));
 }
 
 TEST_F(MatrixMarket, ConstraintsBesideMAndK) {

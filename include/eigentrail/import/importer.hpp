@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/core/system_matrix.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 
 namespace eigentrail {
@@ -19,9 +20,9 @@ struct ImportRequest {
 
 /// Matrices that are polynomials of the parameter: M = M[0] + M[1] p + M[2] p^2 + ... Coefficients without
 /// entries are zero. The equations are those of [matrix_family]: E x' = A x, or M x'' + C x' + K x = 0 with
-/// constraints A x = 0.
+/// constraints A x = 0. Sparse coefficients are written as such.
 struct PolynomialData {
-  std::vector<Matrix> M, C, K, E, A;
+  std::vector<SystemMatrix> M, C, K, E, A;
   std::vector<std::string> state_names;  ///< n, or empty
   std::string parameter_unit;            ///< empty: none, or not known
   double from = 0.0, to = 1.0;           ///< range of the parameter

@@ -5,6 +5,7 @@
 // with sparse constant matrices (a large model as another program made it) or dense ones (its projection).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "eigentrail/model/model.hpp"
@@ -16,6 +17,7 @@ template <class Storage>
 struct AffineTerm {
   Expression factor = 1.0;
   Storage matrix;
+  std::string name = {};  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
 };
 
 /// The summands of M, C and K; an empty list is a zero matrix.

@@ -70,9 +70,9 @@ std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const Tr
 /// performance.md).
 inline constexpr Eigen::Index largest_dense_size = 150;
 
-/// The model as a sparse family that is to be projected; null if it is none, or has at most
-/// `largest_dense_size` freedoms.
-const SparseFamily* large_family(const Model& model);
+/// The model as a sparse family that is to be projected; null if it is none, has at most `largest_dense_size`
+/// freedoms, or if all modes are asked for and the dense engine can hold it (limits::matrix_rows).
+const SparseFamily* large_family(const Model& model, const TraceOptions& trace);
 
 /// What a projection will need, from the symbolic analysis of the pencil where the trace begins.
 struct ProjectionEstimate {

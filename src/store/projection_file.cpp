@@ -1,0 +1,44 @@
+#include "eigentrail/store/projection_file.hpp"
+
+#include <filesystem>
+#include <regex>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/store/output_file.hpp"
+
+namespace eigentrail {
+namespace {
+
+void write_terms(Hdf5File& file, const std::string& letter, const std::vector<AffineTerm<Matrix>>& terms) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  for (const AffineTerm<Matrix>& term : terms) {
+    const RowMajor rows = term.matrix;
+    const std::string name = letter + "/" + term.name;
+    const auto size = static_cast<std::uint64_t>(rows.rows());
+    file.create_dataset({name, ElementType::real, {size, size}, false, {}});
+    file.write_rows(name, 0, std::vector<double>(rows.data(), rows.data() + rows.size()));
+  }
+}
+
+}  // namespace
+
+std::string write_projected(const std::string& path, const Scene& scene, const ProjectedFamily& family,
+                            bool force) {
+  namespace fs = std::filesystem;
+  const std::string beside = fs::path(path).replace_extension(".toml").string();
+  for (const std::string& one : {path, beside}) {
+    if (!force && fs::exists(one)) throw InputError(one + ": exists already; --force replaces it");
+  }
+  Hdf5File file = Hdf5File::in_memory(path);
+  write_terms(file, "M", family.pencil().M);
+  write_terms(file, "C", family.pencil().C);
+  write_terms(file, "K", family.pencil().K);
+  write_durably(path, {file.image()});
+  // A scene of a large model has one key `file`, that of its matrices.
+  static const std::regex key("(^|\n)([ \t]*file[ \t]*=[ \t]*)(\"[^\"\n]*\"|'[^'\n]*')");
+  const std::string name = fs::path(path).filename().string();
+  write_durably(beside, {std::regex_replace(scene.text, key, "$1$2\"" + name + "\"")});
+  return beside;
+}
+
+}  // namespace eigentrail
