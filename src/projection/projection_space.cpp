@@ -80,7 +80,7 @@ Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {
     const double norm = weighted.col(j).norm();
     if (norm > 0.0) weighted.col(j) /= norm;
   }
-  const SingularVectors<Matrix> components = right_singular_vectors(weighted.transpose());
+  const SingularVectors<Matrix> components = right_singular_vectors(Matrix(weighted.transpose()));
   if (!components.values.allFinite()) return Matrix::Identity(energy.rows(), energy.cols());
   const Eigen::Index rank = (components.values.array() > accuracy).count();
   const Matrix parts =

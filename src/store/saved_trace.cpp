@@ -39,7 +39,7 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return "'" + printable(text) + "'";
 }
 
@@ -52,7 +52,7 @@ std::string first_difference(const std::string& before, const std::string& now) 
     const bool has_b = static_cast<bool>(std::getline(b, line_b));
     if (!has_a && !has_b) return "line ends";
     if (line_a != line_b)
-      return "line " + std::to_string(line) + " was " + quoted(line_a) + " and is " + quoted(line_b);
+      return "line " + std::to_string(line) + " was " + in_quotes(line_a) + " and is " + in_quotes(line_b);
   }
 }
 
