@@ -16,6 +16,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"growth", growth},
                                           {"chains", chains},
                                           {"blades", blades},
+                                          {"large_models", large_models},
                                           {"threads", threads}};
   return all;
 }

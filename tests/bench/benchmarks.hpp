@@ -40,6 +40,8 @@ Figures order_choice(const BenchOptions& options);
 // chain_bench.cpp
 Figures chains(const BenchOptions& options);
 Figures blades(const BenchOptions& options);
+// large_bench.cpp
+Figures large_models(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 
