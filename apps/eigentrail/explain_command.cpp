@@ -17,13 +17,13 @@
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
+#include "scene_arguments.hpp"
 #include "scene_in_words.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct ExplainArguments {
-  std::string scene;
+struct ExplainArguments : SceneArguments {
   bool sensitivity = false;
   std::map<std::string, std::string> options;
 };
@@ -221,8 +221,9 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 
 int run_explain(const ExplainArguments& arguments) {
   const TraceSetup setup =
-      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+      prepare_trace(given_scene(arguments), {arguments.options.begin(), arguments.options.end()});
   const auto& [scene, options, model] = setup;
+  warn_of_unused(scene, *model);
   check_parameter_name(scene, options.parameter);
   if (arguments.sensitivity && is_matrix_family(scene))
     throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
@@ -273,7 +274,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command =
       program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  add_scene(*command, *arguments);
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "rank the effects by their influence on each mode where the trace begins");
   for (const std::string name : {"parameter", "from", "to", "modes", "order", "without"}) {

@@ -69,8 +69,8 @@ def not_finite(name, expression, found, where=" where the trace begins"):
     return coefficient(name, expression, "is not a finite number; found ", found + where)
 
 
-def unit(name, text):
-    return blade(name, 'unit = "rad/s"', f'§unit = "{text}"', f"[parameters] omega: unit '{text}' is not known", "N m^-1")
+def unit(name, text, suggestion="N m^-1"):
+    return blade(name, 'unit = "rad/s"', f'§unit = "{text}"', f"[parameters] omega: unit '{text}' is not known", suggestion)
 
 
 def parameter(name, line, *fragments):
@@ -185,10 +185,10 @@ UNITS = [
     unit("unit with a power that is missing", "s^"),
     unit("unit with a power of a half", "s^0.5"),
     unit("unit with a power too large", "s^13"),
-    unit("unit with parentheses", "1/(s)"),
-    unit("unit in capitals", "RPM"),
-    unit("unit written out", "radians/second"),
-    unit("power without a sign", "s-1"),
+    unit("unit with parentheses", "1/(s)", "did you mean '1/s'?"),
+    unit("unit in capitals", "RPM", "did you mean 'rpm'?"),
+    unit("unit written out", "radians/second", "did you mean 'rad/s'?"),
+    unit("power without a sign", "s-1", "did you mean 's^-1'?"),
     unit("number as a factor of a unit", "2 rad/s"),
     unit("unit without a letter before its power", "^2"),
 ]
@@ -204,9 +204,6 @@ PARAMETERS = [
     parameter("name with a space", '§"blade mass" = 1.0', "[parameters] blade mass:", "letters, digits and '_'"),
     parameter("name with a letter that is not ASCII", '§"ω" = 1.0', "[parameters] ω:", "letters, digits and '_'"),
     parameter("name that is split by a point", "§a.b = 1.0", "[parameters] a: expected value ="),
-    parameter("unused definition", '§spare = "2 * mass"', "[parameters] spare: nothing in the scene uses this parameter"),
-    parameter("parameter that only an unused one uses", '§a = 1.0\nb = "a"',
-              "[parameters] a: nothing in the scene uses this parameter"),
     parameter("definition with an unknown parameter", '§spare = "2 * masss"', "[parameters] spare:", "at character 5:",
               "did you mean 'mass'?"),
     parameter("definition that is empty", '§spare = ""', "[parameters] spare:", "expression ends"),
