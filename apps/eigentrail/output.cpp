@@ -10,6 +10,12 @@
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
+namespace {
+
+/// What is smaller than this, relative to its scale, is rounding.
+constexpr double known_digits = 1e-12;
+
+}  // namespace
 
 std::string rounded(double value, int digits) {
   std::array<char, 48> buffer{};
@@ -26,10 +32,13 @@ std::string complex_text(double real, double imag, int digits) {
 }
 
 Complex without_rounding(Complex s, double reference) {
-  constexpr double known = 1e-12;
-  const double least = known * std::max(std::abs(s), reference);
+  const double least = known_digits * std::max(std::abs(s), reference);
   const auto cleaned = [least](double part) { return std::abs(part) <= least ? 0.0 : part; };
   return {cleaned(s.real()), cleaned(s.imag())};
+}
+
+double without_rounding(double p, double from, double to) {
+  return std::abs(p) <= known_digits * std::abs(to - from) ? 0.0 : p;
 }
 
 std::string eigenvalue_text(Complex s, int digits) {

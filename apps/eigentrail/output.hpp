@@ -23,6 +23,10 @@ std::string complex_text(double real, double imag, int digits = 6);
 /// their magnitude at best, or of the `reference`.
 Complex without_rounding(Complex s, double reference);
 
+/// A value of the parameter in which what is zero but for rounding is zero: places are known to 1e-12 of the
+/// range from `from` to `to` at best.
+double without_rounding(double p, double from, double to);
+
 /// An eigenvalue as text, without rounding.
 std::string eigenvalue_text(Complex s, int digits);
 

@@ -8,6 +8,7 @@
 #include "frequency_unit.hpp"
 #include "output.hpp"
 #include "ranges.hpp"
+#include "whirl.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -99,7 +100,9 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   std::vector<Found> found;
   for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
     found.push_back({trace.result.events[i], ""});
-    found.back().event.s = without_rounding(found.back().event.s, trace.result.s_ref);
+    Event& event = found.back().event;
+    event.s = without_rounding(event.s, trace.result.s_ref);
+    event.p = without_rounding(event.p, trace.setup.options.from, trace.setup.options.to);
     if (trace.errors != nullptr && std::isfinite(trace.errors->intervals[i].from))
       found.back().interval =
           interval_text(trace.errors->intervals[i], trace.setup.options.from, trace.result.reached);
@@ -113,13 +116,14 @@ bool is_onset(EventKind kind) {
   return kind == EventKind::flutter || kind == EventKind::divergence;
 }
 
-/// "1x" for a resonance with the first harmonic; its mode, frequency and damping.
-std::vector<std::string> critical_speed_row(const Found& found, const std::string& parameter,
+/// "1x, forward" for a resonance with the first harmonic; its mode, frequency and damping.
+std::vector<std::string> critical_speed_row(const TraceSummary& trace, const Found& found,
                                             const FrequencyUnit& unit) {
   const Event& event = found.event;
+  const std::string whirl = whirl_direction(trace.setup, event);
   const auto cells = motion_cells(event.s, unit, 0.0);
-  return {"    " + rounded(event.value) + "x",
-          parameter + " = " + rounded(event.p, 12),
+  return {"    " + rounded(event.value) + "x" + (whirl.empty() ? "" : ", " + whirl),
+          trace.setup.options.parameter + " = " + rounded(event.p, 12),
           modes_text(event),
           cells[0] + " " + unit.name,
           "damping " + cells[1],
@@ -138,7 +142,7 @@ void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) 
   std::vector<std::vector<std::string>> onsets, critical, others;
   for (const Found& found : sorted_events(trace)) {
     if (found.event.kind == EventKind::resonance) {
-      critical.push_back(critical_speed_row(found, parameter, unit));
+      critical.push_back(critical_speed_row(trace, found, unit));
       continue;
     }
     std::vector<std::string> row = event_row(found.event, parameter);
