@@ -15,6 +15,7 @@
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
 #include "scene_arguments.hpp"
@@ -28,6 +29,15 @@ struct ExplainArguments : SceneArguments {
   std::map<std::string, std::string> options;
 };
 
+/// The unit in which expressions see a parameter with a unit.
+std::string unit_in_expressions(const Parameter& parameter) {
+  const Dimension dimension = parameter.dimension.value_or(Dimension{});
+  if (!parameter.is_angle) return si_unit(dimension);
+  return dimension.is_number()                       ? "rad"
+         : dimension == parse_unit("rpm")->dimension ? "rad/s"
+                                                     : si_unit(dimension);
+}
+
 void print_parameters(const Model& model, int traced) {
   const Parameters& parameters = model.description().parameters;
   const Vector declared = parameters.declared_values();
@@ -39,7 +49,9 @@ void print_parameters(const Model& model, int traced) {
     const std::string note = static_cast<int>(i) == traced ? "traced"
                              : parameters[i].definition    ? "derived"
                                                            : "";
-    const std::string in_si = parameters[i].factor == 1.0 ? "" : "= " + rounded(si[at], 9) + " in SI";
+    const std::string in_si = parameters[i].factor == 1.0
+                                  ? ""
+                                  : "= " + rounded(si[at], 9) + " " + unit_in_expressions(parameters[i]);
     rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
   }
   std::printf("parameters\n");

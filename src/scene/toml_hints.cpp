@@ -95,7 +95,7 @@ std::string value_hint(const std::string& key, std::string_view value, std::stri
   if (value.empty()) return "; a value is missing after '='";
   if (is_decimal_comma(value)) {
     std::string point = shown;
-    point[point.find(',')] = '.';
+    std::replace(point.begin(), point.end(), ',', '.');
     return "; decimals have a point: " + key + " = " + point;
   }
   if (is_flag_in_capitals(value)) return "; write true or false, in small letters";
