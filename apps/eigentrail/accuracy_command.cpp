@@ -12,12 +12,12 @@
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "progress_bar.hpp"
+#include "scene_arguments.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct AccuracyArguments {
-  std::string scene;
+struct AccuracyArguments : SceneArguments {
   std::optional<std::string> output;  ///< absent: no file is written
   bool force = false;
   bool quiet = false;
@@ -61,8 +61,9 @@ int run_accuracy(AccuracyArguments& arguments) {
   read_list(arguments, "--orders", options.orders);
   read_list(arguments, "--grids", options.grids);
   check_options(options);
-  TraceSetup setup = prepare_trace(read_scene(arguments.scene),
-                                   {arguments.trace_options.begin(), arguments.trace_options.end()});
+  TraceSetup setup =
+      prepare_trace(given_scene(arguments), {arguments.trace_options.begin(), arguments.trace_options.end()});
+  warn_of_unused(setup.scene, *setup.model);
   project_if_large(setup.model, setup.options);
   if (arguments.output) {
     check_output(*arguments.output, arguments.force, {accuracy_format, "work-precision study"});
@@ -93,7 +94,7 @@ void add_accuracy(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "accuracy", "work-precision study of a scene: the error really achieved, and what it costs");
   StudyOptions& options = arguments->options;
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  add_scene(*command, *arguments);
   command->add_option("-o,--output", arguments->output, "file to write (HDF5)");
   for (const auto& [flag, help] :
        {std::array{"--tolerances", "tolerances to trace with: A,B,... (1e-2,1e-3,...,1e-12)"},

@@ -11,17 +11,35 @@
 #include "eigentrail/store/output_file.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
+#include "scene_arguments.hpp"
+#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct BoundaryArguments {
-  std::string scene;
+struct BoundaryArguments : SceneArguments {
   std::string output;
   bool force = false;
   bool quiet = false;
   BoundaryRequest request;
+  std::string from, to;  ///< of the second parameter
+  std::optional<std::string> first_from, first_to;
 };
+
+/// Reads the ranges, whose numbers may have units.
+void read_ranges(const Scene& scene, BoundaryArguments& arguments) {
+  BoundaryRequest& request = arguments.request;
+  const auto number = [&scene](const std::string& option, const std::string& text, const std::string& name) {
+    // An unknown name is reported where the options are checked.
+    const auto index = scene.parameters.index(name);
+    return read_value(option, text, index ? scene.parameters[static_cast<std::size_t>(*index)] : Parameter{});
+  };
+  request.from = number("--from", arguments.from, request.second);
+  request.to = number("--to", arguments.to, request.second);
+  const std::string first = request.parameter.value_or(traced_name(scene));
+  if (arguments.first_from) request.first_from = number("--first-from", *arguments.first_from, first);
+  if (arguments.first_to) request.first_to = number("--first-to", *arguments.first_to, first);
+}
 
 std::string range_text(double from, double to) {
   return rounded(from, 8) + " .. " + rounded(to, 8);
@@ -95,9 +113,12 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
       rounded(result.seconds, 3).c_str());
 }
 
-int run_boundary(const BoundaryArguments& arguments) {
+int run_boundary(BoundaryArguments& arguments) {
   check_output(arguments.output, arguments.force, {boundary_format, "boundary file"});
-  const BoundarySetup setup = prepare_boundary(read_scene(arguments.scene), arguments.request);
+  Scene scene = given_scene(arguments);
+  read_ranges(scene, arguments);
+  const BoundarySetup setup = prepare_boundary(std::move(scene), arguments.request);
+  warn_of_unused(setup.scene, *setup.model);
   check_boundary_names(setup.scene, setup.options);
   check_can_create(arguments.output);
   ProgressBar progress(arguments.quiet);
@@ -128,15 +149,16 @@ void add_boundary(CLI::App& program, int& exit_code) {
   BoundaryRequest& request = arguments->request;
   CLI::App* command = program.add_subcommand(
       "boundary", "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  command->add_option("-o,--output", arguments->output, "boundary file to write (HDF5)")->required();
+  add_scene(*command, *arguments);
+  auto* output = command->add_option("-o,--output", arguments->output,
+                                     "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
   command->add_option("--second", request.second, "name of the second parameter")->required();
-  command->add_option("--from", request.from, "where its range begins, in its unit")->required();
-  command->add_option("--to", request.to, "where its range ends")->required();
+  command->add_option("--from", arguments->from, "where its range begins, in its unit")->required();
+  command->add_option("--to", arguments->to, "where its range ends")->required();
   command->add_option("--parameter", request.parameter, "name of the first parameter (overrides the scene)");
-  command->add_option("--first-from", request.first_from,
+  command->add_option("--first-from", arguments->first_from,
                       "where the range of the first parameter begins, in its unit (overrides the scene)");
-  command->add_option("--first-to", request.first_to, "where it ends (overrides the scene)");
+  command->add_option("--first-to", arguments->first_to, "where it ends (overrides the scene)");
   command->add_option(
       "--tolerance", request.tolerance,
       "bound of the relative error of the eigenvalue and of the curve in units of the window, "
@@ -151,7 +173,10 @@ void add_boundary(CLI::App& program, int& exit_code) {
   command->footer(
       "Example:\n"
       "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");
-  command->callback([arguments, &exit_code] { exit_code = run_boundary(*arguments); });
+  command->callback([arguments, output, &exit_code] {
+    if (output->count() == 0) arguments->output = beside(arguments->scene, "_boundary.h5");
+    exit_code = run_boundary(*arguments);
+  });
 }
 
 }  // namespace eigentrail::app

@@ -6,20 +6,22 @@
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
+#include "frequency_unit.hpp"
 #include "output.hpp"
+#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
 
 struct EvalArguments {
   std::string file;
-  std::vector<double> at;
+  std::vector<std::string> at;
   bool csv = false;
   bool json = false;
 };
 
 /// An eigenvalue at a value of the parameter.
-struct Value {
+struct Evaluated {
   double p = 0.0;
   std::string mode;
   Complex s;
@@ -28,8 +30,8 @@ struct Value {
 };
 
 /// Each value p in `at`, each passage of the path there, and each mode that exists.
-std::vector<Value> all_values(const LociFile& loci, const std::vector<double>& at) {
-  std::vector<Value> values;
+std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double>& at) {
+  std::vector<Evaluated> values;
   for (const double p : at) {
     const std::vector<ComplexVector> passages = loci.eigenvalues_at(p);
     const auto positions = loci.positions(p);
@@ -37,7 +39,7 @@ std::vector<Value> all_values(const LociFile& loci, const std::vector<double>& a
       const ComplexVector& s = passages[passage];
       for (Eigen::Index i = 0; i < s.size(); ++i) {
         if (std::isnan(s[i].real())) continue;
-        Value value{p, loci.modes[static_cast<std::size_t>(i)], s[i]};
+        Evaluated value{p, loci.modes[static_cast<std::size_t>(i)], s[i]};
         if (loci.data_errors && passage < positions.size()) {
           const auto step = static_cast<Eigen::Index>(positions[passage].step);
           value.interpolation = loci.data_errors->interpolation(step, i);
@@ -50,40 +52,56 @@ std::vector<Value> all_values(const LociFile& loci, const std::vector<double>& a
   return values;
 }
 
-void print_csv(const LociFile& loci, const std::vector<Value>& values) {
-  const bool errors = loci.data_errors.has_value();
-  std::printf("parameter,mode,real,imag%s\n", errors ? ",interpolation_error,digits_error" : "");
-  for (const Value& value : values) {
-    std::printf("%s,%s,%s,%s", exact_text(value.p).c_str(), value.mode.c_str(),
-                exact_text(value.s.real()).c_str(), exact_text(value.s.imag()).c_str());
-    if (errors)
-      std::printf(",%s,%s", exact_text(value.interpolation).c_str(), exact_text(value.digits).c_str());
-    std::printf("\n");
+/// The numbers of an eigenvalue that rows of CSV and JSON hold, by their names. Frequencies are in rad/s.
+std::vector<std::pair<std::string, double>> numbers_of(const LociFile& loci, const Evaluated& value) {
+  const double natural = std::abs(value.s);
+  std::vector<std::pair<std::string, double>> numbers{{"real", value.s.real()},
+                                                      {"imag", value.s.imag()},
+                                                      {"natural_frequency", natural},
+                                                      {"damped_frequency", std::abs(value.s.imag())},
+                                                      {"damping_ratio", -value.s.real() / natural + 0.0},
+                                                      {"log_decrement", log_decrement(value.s)}};
+  if (loci.data_errors) {
+    numbers.emplace_back("interpolation_error", value.interpolation);
+    numbers.emplace_back("digits_error", value.digits);
+  }
+  return numbers;
+}
+
+void print_csv(const LociFile& loci, const std::vector<Evaluated>& values) {
+  std::string heading = "parameter,mode";
+  for (const auto& [name, number] : numbers_of(loci, {})) heading += "," + name;
+  std::printf("%s\n", heading.c_str());
+  for (const Evaluated& value : values) {
+    std::string line = exact_text(value.p) + "," + value.mode;
+    for (const auto& [name, number] : numbers_of(loci, value)) line += "," + exact_text(number);
+    std::printf("%s\n", line.c_str());
   }
 }
 
-void print_json(const LociFile& loci, const std::vector<Value>& values) {
+void print_json(const LociFile& loci, const std::vector<Evaluated>& values) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Value& value : values) {
-    nlohmann::ordered_json row{
-        {"parameter", value.p}, {"mode", value.mode}, {"real", value.s.real()}, {"imag", value.s.imag()}};
-    if (loci.data_errors) {
-      row["interpolation_error"] = value.interpolation;
-      row["digits_error"] = value.digits;
-    }
+  for (const Evaluated& value : values) {
+    nlohmann::ordered_json row{{"parameter", value.p}, {"mode", value.mode}};
+    for (const auto& [name, number] : numbers_of(loci, value)) row[name] = number;
     rows.push_back(std::move(row));
   }
   std::printf("%s\n", rows.dump(2).c_str());
 }
 
-void print_for_people(const LociFile& loci, const std::vector<Value>& values) {
-  std::vector<std::vector<std::string>> rows{{loci.parameter, "mode", "s", "frequency", "damping ratio"}};
+void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values, const FrequencyUnit& unit) {
+  std::vector<std::vector<std::string>> rows{{loci.parameter, "mode", "s, 1/s", "natural, " + unit.name,
+                                              "damped, " + unit.name, "damping", "decrement"}};
   if (loci.data_errors) rows[0].emplace_back("error of the data");
-  for (const Value& value : values) {
-    const double size = std::abs(value.s);
-    rows.push_back({exact_text(value.p), value.mode, complex_text(value.s.real(), value.s.imag(), 10),
-                    rounded(size, 8),
-                    std::isfinite(size) && size > 0.0 ? rounded(-value.s.real() / size + 0.0, 6) : "-"});
+  for (const Evaluated& value : values) {
+    const Complex s = without_rounding(value.s, 0.0);
+    const double size = std::abs(s);
+    const double decrement = log_decrement(s);
+    const bool has_damping = std::isfinite(size) && size > 0.0;
+    rows.push_back({exact_text(value.p), value.mode, eigenvalue_text(s, 10), rounded(size / unit.factor, 8),
+                    rounded(std::abs(s.imag()) / unit.factor, 8),
+                    has_damping ? rounded(-100.0 * s.real() / size + 0.0, 6) + " %" : "-",
+                    std::isfinite(decrement) ? rounded(decrement + 0.0, 6) : "-"});
     if (loci.data_errors) rows.back().push_back(rounded(value.interpolation + value.digits, 2));
   }
   print_table(rows);
@@ -91,13 +109,15 @@ void print_for_people(const LociFile& loci, const std::vector<Value>& values) {
 
 int run_eval(const EvalArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
-  const std::vector<Value> values = all_values(loci, arguments.at);  // throws before anything is printed
+  const Parameter parameter = parameter_of_file(loci.parameter, loci.parameter_unit);
+  // Throws before anything is printed.
+  const std::vector<Evaluated> values = all_values(loci, read_values("--at", arguments.at, parameter));
   if (arguments.csv) {
     print_csv(loci, values);
   } else if (arguments.json) {
     print_json(loci, values);
   } else {
-    print_for_people(loci, values);
+    print_for_people(loci, values, frequency_unit(parameter));
   }
   return done;
 }
@@ -109,9 +129,15 @@ void add_eval(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("eval", "eigenvalues at any parameter of a trace, from its dense output");
   command->add_option("FILE", arguments->file, "loci file")->required();
-  command->add_option("--at", arguments->at, "parameter values, in the parameter's unit")->required();
-  auto* csv = command->add_flag("--csv", arguments->csv,
-                                "print parameter,mode,real,imag; errors of the data follow if there are any");
+  command
+      ->add_option(
+          "--at", arguments->at,
+          "parameter values, in the parameter's unit: 40, 10,20, 0:5:40 (begin:step:end), \"100 rpm\"")
+      ->required();
+  auto* csv = command->add_flag(
+      "--csv", arguments->csv,
+      "print parameter,mode,real,imag, then natural and damped frequency (rad/s), damping ratio, logarithmic "
+      "decrement, and errors of the data if there are any");
   command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
   command->footer("Example:\n  eigentrail eval blade.h5 --at 12.5 40 --csv");
   command->callback([arguments, &exit_code] { exit_code = run_eval(*arguments); });

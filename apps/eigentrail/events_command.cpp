@@ -91,8 +91,8 @@ void print_events_table(const LociFile& loci) {
       const std::string text = interval_text(*interval, loci.lowest(), loci.highest());
       remark += (remark.empty() || text.empty() ? "" : ", ") + text;
     }
-    rows.push_back({event.kind, rounded(event.parameter, 14),
-                    complex_text(event.s.real(), event.s.imag(), 10), event.modes, remark});
+    rows.push_back({event.kind, rounded(without_rounding(event.parameter, loci.lowest(), loci.highest()), 14),
+                    eigenvalue_text(event.s, 10), event.modes, remark});
   }
   print_table(rows);
 }

@@ -15,19 +15,29 @@
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
+#include "scene_arguments.hpp"
 #include "scene_in_words.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct ExplainArguments {
-  std::string scene;
+struct ExplainArguments : SceneArguments {
   bool sensitivity = false;
   std::map<std::string, std::string> options;
 };
+
+/// The unit in which expressions see a parameter with a unit.
+std::string unit_in_expressions(const Parameter& parameter) {
+  const Dimension dimension = parameter.dimension.value_or(Dimension{});
+  if (!parameter.is_angle) return si_unit(dimension);
+  return dimension.is_number()                       ? "rad"
+         : dimension == parse_unit("rpm")->dimension ? "rad/s"
+                                                     : si_unit(dimension);
+}
 
 void print_parameters(const Model& model, int traced) {
   const Parameters& parameters = model.description().parameters;
@@ -40,7 +50,9 @@ void print_parameters(const Model& model, int traced) {
     const std::string note = static_cast<int>(i) == traced ? "traced"
                              : parameters[i].definition    ? "derived"
                                                            : "";
-    const std::string in_si = parameters[i].factor == 1.0 ? "" : "= " + rounded(si[at], 9) + " in SI";
+    const std::string in_si = parameters[i].factor == 1.0
+                                  ? ""
+                                  : "= " + rounded(si[at], 9) + " " + unit_in_expressions(parameters[i]);
     rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
   }
   std::printf("parameters\n");
@@ -222,8 +234,9 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 
 int run_explain(const ExplainArguments& arguments) {
   const TraceSetup setup =
-      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()});
+      prepare_trace(given_scene(arguments), {arguments.options.begin(), arguments.options.end()});
   const auto& [scene, options, model] = setup;
+  warn_of_unused(scene, *model);
   check_parameter_name(scene, options.parameter);
   if (arguments.sensitivity && is_matrix_family(scene))
     throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
@@ -280,7 +293,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command =
       program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  add_scene(*command, *arguments);
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "rank the effects by their influence on each mode where the trace begins");
   for (const std::string name : {"parameter", "from", "to", "modes", "order", "without"}) {

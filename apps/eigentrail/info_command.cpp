@@ -111,7 +111,7 @@ void print_for_people(const LociFile& loci) {
                                               "certified", "worst residual", "worst condition"}};
   const auto end_value = [&loci](Eigen::Index node, std::size_t mode) {
     const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
-    return std::isnan(s.real()) ? std::string("-") : complex_text(s.real(), s.imag(), 8);
+    return std::isnan(s.real()) ? std::string("-") : eigenvalue_text(s, 8);
   };
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
     const double share = loci.certified_share(i);

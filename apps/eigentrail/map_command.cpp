@@ -15,13 +15,15 @@
 #include "map_picture.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
+#include "scene_arguments.hpp"
+#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct MapArguments {
-  std::string scene;
+struct MapArguments : SceneArguments {
   std::string output;
+  std::string from, to;  ///< of the second parameter
   std::string grid = "50";
   bool force = false;
   bool quiet = false;
@@ -146,9 +148,14 @@ std::string failure(const StabilityMap& map) {
 
 int run_map(MapArguments& arguments) {
   read_grid(arguments.grid, arguments.options);
-  const MapSetup setup =
-      prepare_map(read_scene(arguments.scene),
-                  {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
+  Scene scene = given_scene(arguments);
+  const auto index = scene.parameters.index(arguments.options.second);
+  const Parameter second = index ? scene.parameters[static_cast<std::size_t>(*index)] : Parameter{};
+  arguments.options.from = read_value("--from", arguments.from, second);
+  arguments.options.to = read_value("--to", arguments.to, second);
+  const MapSetup setup = prepare_map(
+      std::move(scene), {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
+  warn_of_unused(setup.trace.scene, *setup.trace.model);
   check_map_names(setup);
   check_output(arguments.output, arguments.force, {map_format, "stability map"});
   check_can_create(arguments.output);
@@ -181,13 +188,15 @@ void add_map(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("map", "stability over a window of two parameters: growing modes and margin");
   MapOptions& options = arguments->options;
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  add_scene(*command, *arguments);
   command->add_option("--second", options.second, "name of the second parameter")->required();
-  command->add_option("--from", options.from, "first value of the second parameter, in its unit")->required();
-  command->add_option("--to", options.to, "last value of the second parameter")->required();
+  command->add_option("--from", arguments->from, "first value of the second parameter, in its unit")
+      ->required();
+  command->add_option("--to", arguments->to, "last value of the second parameter")->required();
   command->add_option("--grid", arguments->grid,
                       "N values of both, or NxM: N of the second by M of the first (50)");
-  command->add_option("-o,--output", arguments->output, "map file to write (HDF5)")->required();
+  auto* output = command->add_option("-o,--output", arguments->output,
+                                     "map file to write (HDF5); default: SCENE_map.h5, here");
   for (const auto& [flag, key, help] :
        {std::array{"--parameter", "parameter", "name of the first parameter: the one that is traced"},
         std::array{"--first-from", "from", "where the window of the first parameter begins"},
@@ -210,7 +219,10 @@ void add_map(CLI::App& program, int& exit_code) {
       "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
       "40x80 -o "
       "drag.h5");
-  command->callback([arguments, &exit_code] { exit_code = run_map(*arguments); });
+  command->callback([arguments, output, &exit_code] {
+    if (output->count() == 0) arguments->output = beside(arguments->scene, "_map.h5");
+    exit_code = run_map(*arguments);
+  });
 }
 
 }  // namespace eigentrail::app

@@ -4,11 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
+namespace {
+
+/// What is smaller than this, relative to its scale, is rounding.
+constexpr double known_digits = 1e-12;
+
+}  // namespace
 
 std::string rounded(double value, int digits) {
   std::array<char, 48> buffer{};
@@ -24,14 +31,37 @@ std::string complex_text(double real, double imag, int digits) {
   return rounded(real, digits) + (std::signbit(imag) ? " - " : " + ") + rounded(std::abs(imag), digits) + "j";
 }
 
-std::vector<std::string> event_row(const Event& event, const std::string& parameter) {
+Complex without_rounding(Complex s, double reference) {
+  const double least = known_digits * std::max(std::abs(s), reference);
+  const auto cleaned = [least](double part) { return std::abs(part) <= least ? 0.0 : part; };
+  return {cleaned(s.real()), cleaned(s.imag())};
+}
+
+double without_rounding(double p, double from, double to) {
+  return std::abs(p) <= known_digits * std::abs(to - from) ? 0.0 : p;
+}
+
+std::string eigenvalue_text(Complex s, int digits) {
+  const Complex clean = without_rounding(s, 0.0);
+  return complex_text(clean.real(), clean.imag(), digits);
+}
+
+double log_decrement(Complex s) {
+  const bool oscillates = s.imag() != 0.0 && std::isfinite(s.real());
+  return oscillates ? -2.0 * std::numbers::pi * s.real() / std::abs(s.imag()) : NAN;
+}
+
+std::string modes_text(const Event& event) {
   std::string modes;
   for (const int mode : event.modes) modes += (modes.empty() ? "" : ", ") + std::to_string(mode + 1);
+  return modes.empty() ? "" : (event.modes.size() == 1 ? "mode " : "modes ") + modes;
+}
+
+std::vector<std::string> event_row(const Event& event, const std::string& parameter) {
   const std::string remark =
       event_kind(event.kind).remark({event.half_width, event.puiseux, event.direction, event.value});
   return {"  " + event_name(event.kind), parameter + " = " + rounded(event.p, 12),
-          "s = " + complex_text(event.s.real(), event.s.imag(), 8), modes.empty() ? "" : "modes " + modes,
-          remark};
+          "s = " + complex_text(event.s.real(), event.s.imag(), 8), modes_text(event), remark};
 }
 
 std::array<bool, 2> is_cut(const EventInterval& interval, double from, double to) {
@@ -80,6 +110,7 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
       line += "  " + row[i];
       if (i + 1 < row.size()) line += std::string(widths[i] - width(row[i]), ' ');
     }
+    line.erase(line.find_last_not_of(' ') + 1);
     std::printf("%s\n", line.c_str());
   }
 }

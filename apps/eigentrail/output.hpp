@@ -19,6 +19,23 @@ std::string order_text(int order, bool chosen);
 /// A complex number as text, for example "-0.01994 + 17.88j".
 std::string complex_text(double real, double imag, int digits = 6);
 
+/// An eigenvalue in which a part that is zero but for rounding is zero: eigenvalues are known to 1e-12 of
+/// their magnitude at best, or of the `reference`.
+Complex without_rounding(Complex s, double reference);
+
+/// A value of the parameter in which what is zero but for rounding is zero: places are known to 1e-12 of the
+/// range from `from` to `to` at best.
+double without_rounding(double p, double from, double to);
+
+/// An eigenvalue as text, without rounding.
+std::string eigenvalue_text(Complex s, int digits);
+
+/// Logarithmic decrement -2 pi Re s / |Im s|; NaN for real eigenvalues and at infinity.
+double log_decrement(Complex s);
+
+/// "modes 1, 2"; empty if an event has none.
+std::string modes_text(const Event& event);
+
 /// The cells of a table row that describe an event.
 std::vector<std::string> event_row(const Event& event, const std::string& parameter);
 

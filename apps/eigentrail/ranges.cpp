@@ -1,5 +1,6 @@
 #include "ranges.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -53,6 +54,11 @@ void print_ranges(const std::vector<StableRange>& ranges, const std::string& par
   const std::string heading = "  stable ranges" + (whose.empty() ? "" : " (" + whose + ")");
   std::printf("%s%s\n", heading.c_str(), ranges.empty() ? "  none" : "");
   std::vector<std::vector<std::string>> rows;
+  double low = 0.0, high = 0.0;
+  for (const StableRange& range : ranges) {
+    low = std::min({low, range.from.p, range.to.p});
+    high = std::max({high, range.from.p, range.to.p});
+  }
   for (const StableRange& range : ranges) {
     std::string margins;
     if (range.kind == Stability::stable) {
@@ -60,7 +66,8 @@ void print_ranges(const std::vector<StableRange>& ranges, const std::string& par
                 " 1/s, largest at " + rounded(range.largest_at, 6);
     }
     rows.push_back({"  " + stability_name(range.kind),
-                    parameter + " = " + rounded(range.from.p, 12) + " -> " + rounded(range.to.p, 12),
+                    parameter + " = " + rounded(without_rounding(range.from.p, low, high), 12) + " -> " +
+                        rounded(without_rounding(range.to.p, low, high), 12),
                     "from " + end_text(range.from, range.kind), "to " + end_text(range.to, range.kind),
                     margins});
   }

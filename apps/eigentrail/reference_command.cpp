@@ -52,7 +52,7 @@ EffectHelp events_help() {
     if (request.of_excitation)
       help.fields.push_back({"excitation", "rad/s", "the excitation frequency", "the traced parameter"});
   }
-  help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "true"});
+  help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "false"});
   return help;
 }
 

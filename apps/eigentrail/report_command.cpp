@@ -1,11 +1,14 @@
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "check_output.hpp"
 #include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/report/report.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "scene_arguments.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -17,8 +20,18 @@ struct ReportArguments {
   bool quiet = false;
 };
 
+/// A page is HTML whatever its name: "-o page.png" is a mistake.
+void check_ending(const std::string& output) {
+  std::string ending = std::filesystem::path(output).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending.empty() || ending == ".html" || ending == ".htm") return;
+  throw InputError(output + ": a report is a page in HTML; give a name that ends in .html, found '" + ending +
+                   "'");
+}
+
 int run_report(const ReportArguments& arguments) {
   check_output(arguments.output, arguments.force, OtherOutput{is_report, "report of eigentrail"});
+  check_ending(arguments.output);
   check_can_create(arguments.output);
   write_report(arguments.files, arguments.output);
   if (!arguments.quiet) {
@@ -38,13 +51,17 @@ void add_report(CLI::App& program, int& exit_code) {
       ->add_option("FILE", arguments->files,
                    "loci files, boundaries, maps or accuracy studies; several are shown together")
       ->required();
-  command->add_option("-o,--output", arguments->output, "page to write (HTML)")->required();
+  auto* output = command->add_option("-o,--output", arguments->output,
+                                     "page to write (HTML); default: the name of the first file, here");
   command->add_flag("--force", arguments->force, "replace an existing page");
   command->add_flag("-q,--quiet", arguments->quiet, "say nothing");
   command->footer(
       "Examples:\n  eigentrail report blade.h5 -o blade.html\n"
       "  eigentrail report blade.h5 blade_drag_20.h5 flutter.h5 -o compare.html");
-  command->callback([arguments, &exit_code] { exit_code = run_report(*arguments); });
+  command->callback([arguments, output, &exit_code] {
+    if (output->count() == 0) arguments->output = beside(arguments->files.front(), ".html");
+    exit_code = run_report(*arguments);
+  });
 }
 
 }  // namespace eigentrail::app

@@ -13,13 +13,14 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "output.hpp"
+#include "scene_arguments.hpp"
+#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct SpectrumArguments {
-  std::string scene;
-  std::vector<double> at;
+struct SpectrumArguments : SceneArguments {
+  std::vector<std::string> at;
   std::map<std::string, std::string> options;
   bool csv = false;
   bool json = false;
@@ -72,6 +73,7 @@ nlohmann::ordered_json json_row(const ShownPoint& point, std::size_t i) {
                              {"natural_frequency_hz", in_hertz(natural_frequency(mode))},
                              {"damped_frequency_hz", in_hertz(mode.s.imag())},
                              {"damping_ratio", damping_ratio(mode)},
+                             {"log_decrement", log_decrement(mode.s)},
                              {"condition", mode.condition},
                              {"what_moves", printable(mode.what_moves)}};
   if (point.errors) {
@@ -121,10 +123,12 @@ std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
   const OperatingMode& mode = point.modes[i];
   const Complex s = shown(mode);
   const double ratio = -s.real() / std::abs(s);
+  const double decrement = log_decrement(s);
   std::vector<std::string> row{std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8)};
   if (point.errors) row.push_back(rounded(point.error(i), 2));
   row.insert(row.end(), {rounded(in_hertz(natural_frequency(mode)), 6), rounded(in_hertz(mode.s.imag()), 6),
                          std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
+                         std::isfinite(decrement) ? rounded(decrement + 0.0, 4) : "-",
                          rounded(mode.condition, 3), cell_text(mode.what_moves)});
   return row;
 }
@@ -132,7 +136,8 @@ std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
 void print_point(const ShownPoint& point) {
   std::vector<std::string> titles{"mode", "s, 1/s"};
   if (point.errors) titles.emplace_back("error of data, 1/s");
-  titles.insert(titles.end(), {"natural, Hz", "damped, Hz", "damping", "condition", "what moves"});
+  titles.insert(titles.end(),
+                {"natural, Hz", "damped, Hz", "damping", "decrement", "condition", "what moves"});
   std::vector<std::vector<std::string>> rows{titles};
   std::vector<std::size_t> growing, undecided;
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
@@ -161,10 +166,13 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
 }
 
 int run_spectrum(const SpectrumArguments& arguments) {
-  TraceSetup setup =
-      prepare_trace(read_scene(arguments.scene), {arguments.options.begin(), arguments.options.end()},
-                    Purpose::operating_point);
-  const std::vector<double> values = arguments.at.empty() ? std::vector{setup.options.from} : arguments.at;
+  TraceSetup setup = prepare_trace(
+      given_scene(arguments), {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
+  warn_of_unused(setup.scene, *setup.model);
+  const std::vector<double> values =
+      arguments.at.empty()
+          ? std::vector{setup.options.from}
+          : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
   if (const SparseFamily* large = large_family(*setup.model, setup.options))
     setup.model = project_at(*large, setup.options, values);
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
@@ -194,9 +202,11 @@ void add_spectrum(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<SpectrumArguments>();
   CLI::App* command =
       program.add_subcommand("spectrum", "eigenvalues at single values of the parameter, without a trace");
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  command->add_option("--at", arguments->at,
-                      "parameter values, in the parameter's unit; default: where the trace begins");
+  add_scene(*command, *arguments);
+  command->add_option(
+      "--at", arguments->at,
+      "parameter values, in the parameter's unit: 40, 10,20, 0:5:40 (begin:step:end), \"100 rpm\"; "
+      "default: where the trace begins");
   for (const std::string name : {"parameter", "modes", "without"}) {
     command->add_option_function<std::string>(
         "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },

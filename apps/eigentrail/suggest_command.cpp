@@ -12,12 +12,12 @@
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "output.hpp"
+#include "scene_arguments.hpp"
 
 namespace eigentrail::app {
 namespace {
 
-struct SuggestArguments {
-  std::string file;
+struct SuggestArguments : SceneArguments {
   int count = 3;
   bool json = false;
   std::map<std::string, std::string> options;
@@ -58,8 +58,9 @@ void print_json(const std::vector<Suggestion>& suggestions) {
 
 int run_suggest(const SuggestArguments& arguments) {
   const TraceSetup setup =
-      prepare_trace(scene_of(arguments.file), {arguments.options.begin(), arguments.options.end()},
-                    Purpose::operating_point);
+      prepare_trace(with_settings_of(arguments, scene_of(arguments.scene)),
+                    {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
+  warn_of_unused(setup.scene, *setup.model);
   const std::vector<Suggestion> all = suggest_samples(setup);
   const double tolerance = setup.options.tolerance;
   const auto above = static_cast<std::size_t>(
@@ -98,8 +99,9 @@ void add_suggest(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<SuggestArguments>();
   CLI::App* command =
       program.add_subcommand("suggest", "at which values of the parameter to compute more samples");
-  command->add_option("FILE", arguments->file, "scene with a [sampled_family], or its samples (.h5)")
+  command->add_option("FILE", arguments->scene, "scene with a [sampled_family], or its samples (.h5)")
       ->required();
+  add_settings(*command, *arguments);
   command->add_option("--count", arguments->count, "largest number of values")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -56,6 +56,27 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return nearest;
 }
 
+bool is_misprint(std::string_view name, std::string_view known) {
+  constexpr std::size_t shortest = 4;
+  if (name == known || std::min(name.size(), known.size()) < shortest) return false;
+  const auto same_letter = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  if (std::equal(name.begin(), name.end(), known.begin(), known.end(), same_letter)) return true;
+  const auto first = static_cast<std::size_t>(
+      std::mismatch(name.begin(), name.end(), known.begin(), known.end()).first - name.begin());
+  if (name.size() == known.size()) {
+    const bool swapped = first + 1 < name.size() && name[first] == known[first + 1] &&
+                         name[first + 1] == known[first] && name.substr(first + 2) == known.substr(first + 2);
+    return swapped && std::isalpha(static_cast<unsigned char>(name[first])) != 0 &&
+           std::isalpha(static_cast<unsigned char>(name[first + 1])) != 0;
+  }
+  const std::string_view longer = name.size() > known.size() ? name : known;
+  const std::string_view shorter = name.size() > known.size() ? known : name;
+  return longer.size() == shorter.size() + 1 && longer.substr(first + 1) == shorter.substr(first) &&
+         std::isalpha(static_cast<unsigned char>(longer[first])) != 0;
+}
+
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   if (const std::string nearest = nearest_name(name, candidates); !nearest.empty()) {
     return "did you mean '" + nearest + "'?";

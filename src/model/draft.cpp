@@ -113,12 +113,12 @@ Place Draft::read_place(TableReader& table, const std::string& key, Carrier* car
   if (table.is_table(key)) {
     TableReader on = table.table(key);
     const int body = read_body(on, "body");
-    const ExpressionVector at = read_vector(on, "at", Range::any);
+    const ExpressionVector at = read_vector(on, "at", "m", Range::any);
     on.finish();
     if (carrier != nullptr) *carrier = {body, -1};
     return on_body(body, at);
   }
-  const NameOrPosition value = table.name_or_position(key);
+  const NameOrPosition value = table.name_or_position(key, "m");
   if (const auto* name = std::get_if<std::string>(&value)) return named_place(table, key, *name, carrier);
   if (carrier != nullptr) *carrier = {};
   const ExpressionVector& at = std::get<ExpressionVector>(value);
@@ -194,22 +194,23 @@ void Draft::add_constraint(std::string_view kind, const std::string& label, std:
   data.constraints.push_back({static_cast<int>(found - kinds.begin()), label, std::move(rows), first});
 }
 
-Expression Draft::read_number(TableReader& table, const std::string& key, Range range,
+Expression Draft::read_number(TableReader& table, const std::string& key, WantedUnit unit, Range range,
                               std::optional<double> otherwise) const {
-  const Expression expression = otherwise ? table.expression(key, *otherwise) : table.expression(key);
+  const Expression expression =
+      otherwise ? table.expression_or(key, *otherwise, unit) : table.expression(key, unit);
   check_range(table, key, expression, range);
   return expression;
 }
 
-ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, Range range,
+ExpressionVector Draft::read_vector(TableReader& table, const std::string& key, WantedUnit unit, Range range,
                                     std::optional<ExpressionVector> otherwise) const {
-  const ExpressionVector vector = otherwise && !table.has(key) ? *otherwise : table.vector(key);
+  const ExpressionVector vector = otherwise && !table.has(key) ? *otherwise : table.vector(key, unit);
   check_range(table, key, vector, range);
   return vector;
 }
 
 ExpressionVector Draft::read_guess(TableReader& table, const std::string& key) const {
-  const ExpressionVector found = table.vector(key);
+  const ExpressionVector found = table.vector(key, "m");
   for (const Expression& e : found) {
     const std::vector<double> values = check_values(e);
     if (!values.empty() && !std::isfinite(values[0]))

@@ -92,12 +92,12 @@ struct Draft {
   /// Adds the rows of a constraint; `label` names its multipliers.
   void add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows);
 
-  // Numbers and vectors whose values are checked. `otherwise` is the default value; without it the key is
-  // required.
+  // Numbers and vectors whose dimensions and values are checked. `otherwise` is the default value; without it
+  // the key is required.
 
-  Expression read_number(TableReader& table, const std::string& key, Range range,
+  Expression read_number(TableReader& table, const std::string& key, WantedUnit unit, Range range,
                          std::optional<double> otherwise = std::nullopt) const;
-  ExpressionVector read_vector(TableReader& table, const std::string& key, Range range,
+  ExpressionVector read_vector(TableReader& table, const std::string& key, WantedUnit unit, Range range,
                                std::optional<ExpressionVector> otherwise = std::nullopt) const;
   /// Reads a starting position. It only has to be finite where the trace begins.
   ExpressionVector read_guess(TableReader& table, const std::string& key) const;
@@ -120,6 +120,9 @@ struct Draft {
 
 /// A name for the table with index i of a kind: "spring 2" for i = 1.
 std::string numbered(std::string_view name, std::size_t index);
+
+/// Directions may be of any length, in any unit.
+inline constexpr WantedUnit any_unit = std::nullopt;
 
 /// Read the [[body]] tables (read_bodies.cpp) and the tables of all constraints (read_constraints.cpp).
 void read_bodies(Draft& draft);

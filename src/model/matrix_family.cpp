@@ -1,8 +1,11 @@
 #include "model/matrix_family.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <numbers>
 
 namespace eigentrail {
 
@@ -74,17 +77,50 @@ auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Inde
 
 enum class Symmetry { symmetric, skew, none };
 
-/// Symmetry of all coefficients. Off the diagonal, entries that are expressions count as unsymmetric.
-Symmetry symmetry(const MatrixPolynomial& polynomial) {
+/// Values of the parameters at which expressions are compared: those of the scene, and others beside them.
+std::vector<Vector> places_to_compare(const Parameters& parameters) {
+  constexpr int count = 3;
+  std::vector<Vector> places;
+  for (int place = 0; place < count; ++place) {
+    Vector values = parameters.declared_values();
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      // Golden ratio: the fractional parts of its multiples are all different.
+      const double share = std::fmod(static_cast<double>(place * (i + 1)) * std::numbers::phi, 1.0);
+      values[i] += share * (1.0 + std::abs(values[i]));
+    }
+    parameters.to_si(std::span<double>(values.data(), parameters.size()));
+    places.push_back(std::move(values));
+  }
+  return places;
+}
+
+/// Whether two expressions are `sign` times each other. They may be written differently ("a*b" and "b*a"), as
+/// long as they have the same values.
+bool agree(const Expression& a, const Expression& b, double sign, const std::vector<Vector>& places) {
+  return std::all_of(places.begin(), places.end(), [&](const Vector& place) {
+    const std::span<const double> si(place.data(), static_cast<std::size_t>(place.size()));
+    return a.evaluate(si) == sign * b.evaluate(si);
+  });
+}
+
+/// Symmetry of all coefficients. An entry that is an expression needs its counterpart across the diagonal.
+Symmetry symmetry(const MatrixPolynomial& polynomial, const Parameters& parameters) {
   bool symmetric = true;
   bool skew = true;
   for (const Matrix& c : polynomial.coefficients) {
     symmetric = symmetric && c == c.transpose();
     skew = skew && c == -c.transpose();
   }
-  for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
-    symmetric = symmetric && entry.row == entry.column;
-    skew = false;
+  const std::vector<Vector> places = places_to_compare(parameters);
+  std::map<std::array<Eigen::Index, 3>, const Expression*> entries;
+  for (const MatrixPolynomial::Entry& entry : polynomial.entries)
+    entries[{entry.power, entry.row, entry.column}] = &entry.expression;
+  for (const auto& [at, expression] : entries) {
+    const auto across = entries.find({at[0], at[2], at[1]});
+    const bool found = across != entries.end();
+    symmetric = symmetric && found && agree(*expression, *across->second, 1.0, places);
+    skew = skew && found && agree(*expression, *across->second, -1.0, places);
+    if (!symmetric && !skew) break;
   }
   return symmetric ? Symmetry::symmetric : skew ? Symmetry::skew : Symmetry::none;
 }
@@ -103,8 +139,8 @@ MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPol
               {"constraints", "constraint matrix", 0, {.constraint = true}}};
           return std::move(description);
         }
-        const Symmetry c = C.empty() ? Symmetry::symmetric : symmetry(C);
-        const bool k_symmetric = symmetry(K) == Symmetry::symmetric;
+        const Symmetry c = C.empty() ? Symmetry::symmetric : symmetry(C, description.parameters);
+        const bool k_symmetric = symmetry(K, description.parameters) == Symmetry::symmetric;
         description.effects = {
             {"M", "mass matrix, polynomial in the traced parameter", count(M), {.inertia = true}},
             {"C",
@@ -152,7 +188,7 @@ Structure MatrixFamily::structure(int traced_parameter) const {
     result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
     result.circulatory = result.circulatory || effect.contribution.circulatory;
   }
-  result.symmetric_mass = symmetry(M_) == Symmetry::symmetric;
+  result.symmetric_mass = symmetry(M_, description().parameters) == Symmetry::symmetric;
   result.constant_mass = constant(M_, traced_parameter);
   result.constant_damping = constant(C_, traced_parameter);
   result.constant_stiffness = constant(K_, traced_parameter);

@@ -25,7 +25,7 @@ ExpressionRotation product(const ExpressionRotation& a, const ExpressionRotation
 
 ExpressionRotation read_axis_angle(Draft& draft, TableReader table) {
   const ExpressionVector axis = table.vector("axis");
-  const Expression angle = table.expression("angle");
+  const Expression angle = table.expression("angle", "rad");
   draft.check_range(table, "axis", axis, Range::positive);
   draft.check_range(table, "angle", angle, Range::any);
   table.finish();
@@ -35,7 +35,7 @@ ExpressionRotation read_axis_angle(Draft& draft, TableReader table) {
 /// Three successive rotations, each about an axis of the body as rotated by the ones before (intrinsic).
 ExpressionRotation read_euler(Draft& draft, TableReader table) {
   const std::string sequence = table.text("sequence");
-  const ExpressionVector angles = draft.read_vector(table, "angles", Range::any);
+  const ExpressionVector angles = draft.read_vector(table, "angles", "rad", Range::any);
   table.finish();
   const auto is_axis = [](char c) { return c >= 'x' && c <= 'z'; };
   if (sequence.size() != 3 || !std::all_of(sequence.begin(), sequence.end(), is_axis) ||
@@ -57,7 +57,7 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
   const std::array<std::string, 3> keys = {"x_axis", "y_axis", "z_axis"};
   std::array<ExpressionVector, 2> axes;
   for (std::size_t i = 0; i < 2; ++i) {
-    axes[i] = draft.read_vector(table, keys[given[i]], Range::positive);
+    axes[i] = draft.read_vector(table, keys[given[i]], any_unit, Range::positive);
   }
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const Eigen::Vector3d a = draft.vector_at(axes[0], i);
@@ -101,7 +101,7 @@ using ExpressionMatrix = std::array<std::array<Expression, 3>, 3>;
 ExpressionMatrix read_inertia(Draft& draft, TableReader& table) {
   ExpressionMatrix J;
   if (!table.has("inertia")) return J;
-  const auto rows = table.matrix("inertia");
+  const auto rows = table.matrix("inertia", "kg m^2");
   const bool diagonal = rows.size() == 1 && rows[0].size() == 3;
   const bool full = rows.size() == 3 &&
                     std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() == 3; });
@@ -163,7 +163,7 @@ void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const Expre
   TableReader markers = table.table("markers");
   for (const std::string& name : markers.keys()) {
     if (name == "centre") markers.fail(name, "is the centre of mass already; choose another name");
-    body.markers[name] = draft.read_vector(markers, name, Range::any);
+    body.markers[name] = draft.read_vector(markers, name, "m", Range::any);
   }
 }
 
@@ -193,8 +193,8 @@ void read_bodies(Draft& draft) {
     if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
       table.fail("name", "another body or point is called '" + body.name + "' already");
     }
-    const Expression mass = draft.read_number(table, "mass", Range::non_negative);
-    const ExpressionVector centre = draft.read_vector(table, "centre", Range::any, ExpressionVector{});
+    const Expression mass = draft.read_number(table, "mass", "kg", Range::non_negative);
+    const ExpressionVector centre = draft.read_vector(table, "centre", "m", Range::any, ExpressionVector{});
     const ExpressionMatrix J = read_inertia(draft, table);
     check_inertia(draft, table, J);
     body.position = draft.read_guess(table, "position");

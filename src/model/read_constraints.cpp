@@ -125,15 +125,15 @@ HingeAngle angle_about(Draft& draft, const Joint& joint, const JointAxes& axes) 
 
 Rows read_rod(Draft& draft, TableReader& table, Angles&) {
   const Joint joint = read_sides(draft, table, false);
-  const Expression length = draft.read_number(table, "length", Range::positive);
+  const Expression length = draft.read_number(table, "length", "m", Range::positive);
   const Difference d{joint.to, joint.from};
   return {{d, d, 0, draft.quantity(length * length)}};
 }
 
 Rows read_plane(Draft& draft, TableReader& table, Angles&) {
   const Place point = draft.read_moving_place(table, "point");
-  const ExpressionVector normal = draft.read_vector(table, "normal", Range::positive);
-  const Expression offset = draft.read_number(table, "offset", Range::any, 0.0);
+  const ExpressionVector normal = draft.read_vector(table, "normal", any_unit, Range::positive);
+  const Expression offset = draft.read_number(table, "offset", "m", Range::any, 0.0);
   return {{{draft.fixed_place(normal), {}}, Difference{point, {}}, 0, draft.quantity(offset)}};
 }
 
@@ -144,7 +144,7 @@ Rows read_fixed(Draft& draft, TableReader& table, Angles&) {
   if (name.size() != 1 || axis == std::string_view::npos) {
     table.fail("coordinate", "expected \"x\", \"y\" or \"z\", found \"" + name + "\"");
   }
-  const Expression value = draft.read_number(table, "value", Range::any, 0.0);
+  const Expression value = draft.read_number(table, "value", "m", Range::any, 0.0);
   return {{{point, {}}, {}, static_cast<int>(axis), draft.quantity(value)}};
 }
 
@@ -161,7 +161,7 @@ Rows read_revolute(Draft& draft, TableReader& table, Angles& angles) {
   RowBuilder builder(draft, joint);
   builder.coincide();
   builder.parallel(axes);
-  if (table.has("angle")) builder.turned_by(axes, draft.read_number(table, "angle", Range::any));
+  if (table.has("angle")) builder.turned_by(axes, draft.read_number(table, "angle", "rad", Range::any));
   angles.push_back(angle_about(draft, joint, axes));
   return builder.rows;
 }
@@ -205,7 +205,7 @@ Rows read_prismatic(Draft& draft, TableReader& table, Angles&) {
   builder.parallel(axes);
   builder.turned_by(axes, 0.0);
   builder.on_axis(axes);
-  if (table.has("length")) builder.along(axes.axis.from, draft.read_number(table, "length", Range::any));
+  if (table.has("length")) builder.along(axes.axis.from, draft.read_number(table, "length", "m", Range::any));
   return builder.rows;
 }
 
@@ -237,7 +237,7 @@ Rows read_point_on_plane(Draft& draft, TableReader& table, Angles&) {
     table.fail("from", "a point has no orientation; the plane needs a body or a fixed place");
   const JointAxes axes = read_axes(draft, table, joint, "normal");
   RowBuilder builder(draft, joint);
-  builder.along(axes.axis.from, draft.read_number(table, "distance", Range::any, 0.0));
+  builder.along(axes.axis.from, draft.read_number(table, "distance", "m", Range::any, 0.0));
   return builder.rows;
 }
 

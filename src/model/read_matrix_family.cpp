@@ -299,10 +299,11 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
     if (polynomial->coefficients.size() > 1) used.insert(variable);
   }
   if (p.M.empty()) p.M = constant(Matrix::Zero(n, n));
-  reject_unused_parameters(scene, used);
   const Eigen::Index m = p.A.empty() ? 0 : p.A.coefficients[0].rows();
-  return std::make_unique<MatrixFamily>(describe(n, m, p.state_names, scene.parameters), variable,
-                                        std::move(p.M), std::move(p.C), std::move(p.K), std::move(p.A),
+  ModelDescription description = describe(n, m, p.state_names, scene.parameters);
+  description.unused_parameters = unused_parameters(scene, used);
+  return std::make_unique<MatrixFamily>(std::move(description), variable, std::move(p.M), std::move(p.C),
+                                        std::move(p.K), std::move(p.A),
                                         p.first_order ? FamilyForm::first_order : FamilyForm::second_order);
 }
 

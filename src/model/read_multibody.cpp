@@ -57,20 +57,21 @@ class FieldReader {
 
   void quantity(const QuantityField& field, Quantity& quantity) {
     const std::string key(field.key);
-    quantity = draft_.quantity(draft_.read_number(table_, key, field.range, field.otherwise));
+    quantity = draft_.quantity(draft_.read_number(table_, key, field.unit, field.range, field.otherwise));
   }
 
   void vector(const QuantityField& field, std::array<Quantity, 3>& vector) {
     const std::string key(field.key);
     std::optional<ExpressionVector> otherwise;
     if (field.otherwise) otherwise = {0.0, 0.0, *field.otherwise};
-    vector = draft_.vector(draft_.read_vector(table_, key, field.range, otherwise));
+    const WantedUnit unit = field.unit.empty() ? any_unit : WantedUnit(field.unit);  // none: a direction
+    vector = draft_.vector(draft_.read_vector(table_, key, unit, field.range, otherwise));
   }
 
   void matrix(const QuantityField& field, std::array<Quantity, 4>& entries) {
     const std::string key(field.key);
     std::vector<std::vector<Expression>> rows(2, std::vector<Expression>(2, field.otherwise.value_or(0.0)));
-    if (!field.otherwise || table_.has(key)) rows = table_.matrix(key);
+    if (!field.otherwise || table_.has(key)) rows = table_.matrix(key, field.unit);
     if (rows.size() != 2 || rows[0].size() != 2 || rows[1].size() != 2)
       table_.fail(key, "expected a 2 x 2 matrix " + std::string(field.help));
     for (std::size_t i = 0; i < 4; ++i) {
@@ -186,7 +187,7 @@ void read_points(Draft& draft) {
     if (std::find(draft.points.begin(), draft.points.end(), name) != draft.points.end()) {
       table.fail("name", "another point is called '" + name + "' already");
     }
-    const Expression mass = draft.read_number(table, "mass", Range::non_negative);
+    const Expression mass = draft.read_number(table, "mass", "kg", Range::non_negative);
     for (const Expression& e : draft.read_guess(table, "position")) draft.guess.push_back(e);
     table.finish();
     draft.points.push_back(name);
@@ -209,14 +210,14 @@ void add_masses(Draft& draft) {
 
 /// Reads [frame] or [gravity]: one vector that acts on all masses. Empty if the scene has none.
 template <class Element>
-std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key) {
+std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key, std::string_view unit) {
   const std::vector<const Table*> found = tables(draft.scene, std::string(Element::name));
   if (found.empty()) return std::nullopt;
   const std::string label = "[" + std::string(Element::name) + "]";
   if (found.size() > 1)
     throw scene_error(draft.scene, found[1]->where, label + ": a scene has one of these at most");
   TableReader table = draft.reader(*found[0], label);
-  const ExpressionVector field = draft.read_vector(table, key, Range::any);
+  const ExpressionVector field = draft.read_vector(table, key, unit, Range::any);
   table.finish();
   const std::array<Quantity, 3> quantities = draft.vector(field);
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {
@@ -333,8 +334,8 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   }
   check_without(draft);
   add_masses(draft);
-  const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity");
-  const auto gravity = read_field<Gravity>(draft, "acceleration");
+  const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity", "rad/s");
+  const auto gravity = read_field<Gravity>(draft, "acceleration", "m/s^2");
   if (rotation && gravity) check_gravity(draft, *rotation, *gravity);
   read_constraints(draft);
   draft.data.elements.for_each([&]<class Element>(std::vector<Placed<Element>>&, std::size_t) {
@@ -347,11 +348,12 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
         "[[spinning_disc]]: not together with [frame]; in a rotating frame the gyroscopic moments "
         "come from the inertia of the body itself");
   }
-  reject_unused_parameters(scene, draft.used);
+  std::vector<int> unused = unused_parameters(scene, draft.used);
   draft.data.parameters = draft.parameters();
   draft.data.n_triples = static_cast<int>(draft.guess.size()) / 3;
   draft.data.n_coordinates = static_cast<int>(draft.guess.size() + draft.state_names.size());
   ModelDescription description = describe(draft);
+  description.unused_parameters = std::move(unused);
   if (rotation) description.rotation_axis = axis_of(draft, *rotation);
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
 }

@@ -172,10 +172,11 @@ std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<in
   if (table.has("degree")) degree = whole_number(table, "degree", 1, 15);
   if (table.has("digits")) data.digits = whole_number(table, "digits", 1, 17);
   table.finish();
-  reject_unused_parameters(scene, used);
+  std::vector<int> unused = unused_parameters(scene, used);
   check_within(scene, variable, index, data, check_at);
   std::vector<SamplePiece> pieces = interpolate_samples(data, data.values, kinks, degree);
   ModelDescription description = describe(data, scene.parameters);
+  description.unused_parameters = std::move(unused);
   description.data = describe_samples(data, pieces, variable);
   return std::make_unique<SampledFamily>(std::move(description), index, data, std::move(pieces));
 }

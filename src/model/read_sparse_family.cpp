@@ -237,8 +237,9 @@ std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table
     table.fail("state_names", "has " + std::to_string(names.size()) + " names for " +
                                   std::to_string(reader.size()) + " coordinates");
   table.finish();
-  reject_unused_parameters(scene, used);
-  return std::make_unique<SparseFamily>(describe(reader.size(), std::move(names), scene.parameters),
+  ModelDescription description = describe(reader.size(), std::move(names), scene.parameters);
+  description.unused_parameters = unused_parameters(scene, used);
+  return std::make_unique<SparseFamily>(std::move(description),
                                         AffinePencil<SparseMatrix>{std::move(M), std::move(C), std::move(K)});
 }
 

@@ -35,11 +35,11 @@ struct Blade {
 Blade read_blade(Draft& draft, TableReader& table) {
   Blade blade;
   blade.body = draft.read_body(table, "body");
-  blade.root = draft.read_vector(table, "root", Range::any);
-  blade.tip = draft.read_vector(table, "tip", Range::any);
+  blade.root = draft.read_vector(table, "root", "m", Range::any);
+  blade.tip = draft.read_vector(table, "tip", "m", Range::any);
   draft.check_range(table, "tip", blade.tip - blade.root, Range::positive);
-  blade.leading = normalized(draft.read_vector(table, "leading", Range::positive));
-  const ExpressionVector lift = draft.read_vector(table, "lift", Range::positive);
+  blade.leading = normalized(draft.read_vector(table, "leading", any_unit, Range::positive));
+  const ExpressionVector lift = draft.read_vector(table, "lift", any_unit, Range::positive);
   const ExpressionVector across = lift - dot(lift, blade.leading) * blade.leading;
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     if (draft.vector_at(across, i).norm() <= 1e-9 * draft.vector_at(lift, i).norm())
@@ -65,12 +65,13 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[blade_element]] " + std::to_string(i + 1));
     const Blade blade = read_blade(draft, table);
-    const Expression chord = draft.read_number(table, "chord", Range::non_negative);
-    const Expression density = draft.read_number(table, "density", Range::non_negative, 1.225);
-    const Expression lift_slope = draft.read_number(table, "lift_slope", Range::any, 2.0 * std::numbers::pi);
-    const Expression drag = draft.read_number(table, "profile_drag", Range::non_negative, 0.0);
-    const Expression pitch = draft.read_number(table, "pitch", Range::any, 0.0);
-    const ExpressionVector inflow = draft.read_vector(table, "inflow", Range::any, ExpressionVector{});
+    const Expression chord = draft.read_number(table, "chord", "m", Range::non_negative);
+    const Expression density = draft.read_number(table, "density", "kg/m^3", Range::non_negative, 1.225);
+    const Expression lift_slope =
+        draft.read_number(table, "lift_slope", "1/rad", Range::any, 2.0 * std::numbers::pi);
+    const Expression drag = draft.read_number(table, "profile_drag", "", Range::non_negative, 0.0);
+    const Expression pitch = draft.read_number(table, "pitch", "rad", Range::any, 0.0);
+    const ExpressionVector inflow = draft.read_vector(table, "inflow", "m/s", Range::any, ExpressionVector{});
     const std::string label =
         table.has("name") ? printable(table.text("name")) : numbered(BladeElement::name, i);
     table.finish();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <set>
 #include <span>
 
@@ -119,10 +118,9 @@ Json excitation_data(const LociFile& loci) {
     if (!index) return nullptr;
     std::set<int> used;
     const EventOptions events = read_event_options(scene, loci.parameter, used);
-    const std::string& unit = scene.parameters[static_cast<std::size_t>(*index)].unit;
-    const bool angular = unit == "rad/s" || unit == "rpm" || unit == "rev/s" || unit == "deg/s";
-    const bool turns = unit == "Hz" || unit == "kHz";
-    if (!events.excitation && !angular && !turns) return nullptr;
+    const auto& dimension = scene.parameters[static_cast<std::size_t>(*index)].dimension;
+    const bool is_frequency = dimension == parse_unit("rad/s")->dimension;
+    if (!events.excitation && !is_frequency) return nullptr;
     std::vector<double> parameters, frequencies;
     for (int i = 0; i <= places; ++i) {
       const double p = loci.lowest() + (loci.highest() - loci.lowest()) * i / places;
@@ -132,7 +130,7 @@ Json excitation_data(const LociFile& loci) {
       parameters.push_back(p);
       frequencies.push_back(events.excitation ? events.excitation->evaluate(std::span<const double>(
                                                     values.data(), static_cast<std::size_t>(values.size())))
-                                              : (turns ? 2.0 * std::numbers::pi : 1.0) * values[*index]);
+                                              : values[*index]);
     }
     return {{"parameter", parameters},
             {"frequency", frequencies},

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/expression_dimension.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "eigentrail/scene/units.hpp"
+#include "scene/read_parameters.hpp"
 
 namespace eigentrail {
 namespace {
@@ -13,94 +14,6 @@ std::string at(SourceLocation where) {
   return where.line == 0 ? ": "
                          : ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
-
-bool is_name(std::string_view text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !text.empty() && letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-}
-
-/// Reads [parameters]. A parameter is a number, an expression, or { value = ..., unit = "..." }.
-class ParameterReader {
- public:
-  ParameterReader(const Scene& scene, const Table& table) : scene_(scene), table_(table) {}
-
-  /// `implied` is a parameter that is added if it is not declared.
-  Parameters read(const std::optional<Parameter>& implied) {
-    if (table_.entries.size() > limits::parameters) {
-      const auto& [name, value] = table_.entries[limits::parameters];
-      fail(value, name, "is one too many; a scene has at most " + std::to_string(limits::parameters));
-    }
-    for (const auto& [name, value] : table_.entries) names_.push_back(name);
-    std::vector<Parameter> list;
-    const bool add = implied && table_.find(implied->name) == nullptr;
-    if (add) names_.push_back(implied->name);
-    for (const auto& [name, value] : table_.entries) list.push_back(read_one(name, value));
-    if (add) list.push_back(*implied);
-    try {
-      return Parameters(list);
-    } catch (const ParameterCycle& cycle) {
-      const Parameter& parameter = list[static_cast<std::size_t>(cycle.parameter)];
-      throw scene_error(scene_, parameter.where, "[parameters] " + parameter.name + ": " + cycle.what());
-    }
-  }
-
- private:
-  Parameter read_one(const std::string& name, const Value& entry) {
-    Parameter parameter;
-    parameter.name = name;
-    parameter.where = entry.where;
-    if (!is_name(name))
-      fail(entry, name, "a parameter's name is letters, digits and '_', so that expressions can use it");
-    const Value* value = &entry;
-    if (const auto* fields = std::get_if<Table>(&entry.data)) {
-      value = fields->find("value");
-      if (value == nullptr) fail(entry, name, "expected value = ...");
-      for (const auto& [key, field] : fields->entries) read_field(parameter, key, field);
-    }
-    set_value(parameter, *value);
-    return parameter;
-  }
-
-  void read_field(Parameter& parameter, const std::string& key, const Value& field) {
-    if (key == "value") return;
-    if (key != "unit")
-      fail(field, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
-    const auto* unit = std::get_if<std::string>(&field.data);
-    if (unit == nullptr) fail(field, parameter.name, "unit: expected a text, found " + field.kind());
-    const auto factor = unit_factor(*unit);
-    if (!factor) {
-      fail(field, parameter.name,
-           "unit '" + *unit + "' is not known; write it like \"rad/s\", \"rpm\", \"mm\" or \"N m^-1\"");
-    }
-    parameter.unit = *unit;
-    parameter.factor = *factor;
-  }
-
-  void set_value(Parameter& parameter, const Value& value) {
-    if (const auto* number = std::get_if<double>(&value.data)) {
-      if (!std::isfinite(*number)) fail(value, parameter.name, "expected a finite number");
-      parameter.value = *number;
-    } else if (const auto* text = std::get_if<std::string>(&value.data)) {
-      try {
-        parameter.definition = Expression::parse(*text, names_);
-      } catch (const ExpressionError& error) {
-        fail(value, parameter.name,
-             "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
-      }
-    } else {
-      fail(value, parameter.name, "expected a number or an expression, found " + value.kind());
-    }
-  }
-
-  [[noreturn]] void fail(const Value& value, const std::string& name, const std::string& message) const {
-    throw scene_error(scene_, value.where, "[parameters] " + name + ": " + message);
-  }
-
-  const Scene& scene_;
-  const Table& table_;
-  std::vector<std::string> names_;
-};
 
 /// The traced parameter of a scene with a family of matrices, still without a value.
 std::optional<Parameter> family_variable(const Table& root) {
@@ -111,7 +24,7 @@ std::optional<Parameter> family_variable(const Table& root) {
   if (fields == nullptr) return std::nullopt;
   const Value* value = fields->find("parameter");
   const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
-  if (name == nullptr || !is_name(*name)) return std::nullopt;
+  if (name == nullptr || !is_parameter_name(*name)) return std::nullopt;
   Parameter parameter;
   parameter.name = *name;
   parameter.where = value->where;
@@ -161,7 +74,7 @@ Scene parse_scene(std::string text, const std::string& path) {
     throw scene_error(scene, parameters->where, "parameters: expected a table, found " + parameters->kind());
   }
   const std::optional<Parameter> implied = family_variable(scene.root);
-  scene.parameters = ParameterReader(scene, *table).read(implied);
+  scene.parameters = read_parameters(scene, *table, implied);
   if (implied && table->find(implied->name) == nullptr) set_start_of_trace(scene, implied->name);
   return scene;
 }
@@ -195,7 +108,7 @@ void TableReader::fail(const std::string& key, const std::string& message) const
                     label_ + " " + key + ": " + message);
 }
 
-Expression TableReader::to_expression(const Value& value, const std::string& key) {
+Expression TableReader::to_expression(const Value& value, const std::string& key, WantedUnit unit) {
   if (const auto* number = std::get_if<double>(&value.data)) {
     if (!std::isfinite(*number)) fail(key, "expected a finite number");
     return {*number};
@@ -205,38 +118,55 @@ Expression TableReader::to_expression(const Value& value, const std::string& key
   try {
     Expression expression = Expression::parse(*text, scene_.parameters.names());
     used_.insert(expression.parameters().begin(), expression.parameters().end());
+    check_dimension(expression, key, *text, unit);
     return expression;
   } catch (const ExpressionError& error) {
     fail(key, "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
   }
 }
 
-Expression TableReader::expression(const std::string& key) {
-  return to_expression(require(key, "a number or an expression"), key);
+void TableReader::check_dimension(const Expression& expression, const std::string& key,
+                                  const std::string& text, WantedUnit unit) const {
+  const std::vector<Parameter>& parameters = scene_.parameters.list();
+  try {
+    if (!unit) {
+      (void)dimension_of(expression, parameters);
+    } else if (const std::string fault = dimension_fault(expression, parameters, *unit); !fault.empty()) {
+      fail(key, "\"" + text + "\" " + fault);
+    }
+  } catch (const DimensionError& error) {
+    fail(key, "\"" + text + "\" " + error.what());
+  }
 }
 
-Expression TableReader::expression(const std::string& key, double otherwise) {
+Expression TableReader::expression(const std::string& key, WantedUnit unit) {
+  return to_expression(require(key, "a number or an expression"), key, unit);
+}
+
+Expression TableReader::expression_or(const std::string& key, double otherwise, WantedUnit unit) {
   const Value* value = find(key);
-  return value == nullptr ? Expression(otherwise) : to_expression(*value, key);
+  return value == nullptr ? Expression(otherwise) : to_expression(*value, key, unit);
 }
 
-std::array<Expression, 3> TableReader::to_vector(const Value& value, const std::string& key) {
+std::array<Expression, 3> TableReader::to_vector(const Value& value, const std::string& key,
+                                                 WantedUnit unit) {
   const auto* items = std::get_if<Array>(&value.data);
   if (items == nullptr || items->size() != 3) {
     fail(key, "expected three numbers or expressions [x, y, z], found " +
                   (items == nullptr ? value.kind() : std::to_string(items->size()) + " of them"));
   }
-  return {to_expression((*items)[0], key), to_expression((*items)[1], key), to_expression((*items)[2], key)};
+  return {to_expression((*items)[0], key, unit), to_expression((*items)[1], key, unit),
+          to_expression((*items)[2], key, unit)};
 }
 
-std::array<Expression, 3> TableReader::vector(const std::string& key) {
-  return to_vector(require(key, "three numbers or expressions [x, y, z]"), key);
+std::array<Expression, 3> TableReader::vector(const std::string& key, WantedUnit unit) {
+  return to_vector(require(key, "three numbers or expressions [x, y, z]"), key, unit);
 }
 
-NameOrPosition TableReader::name_or_position(const std::string& key) {
+NameOrPosition TableReader::name_or_position(const std::string& key, WantedUnit unit) {
   const Value& value = require(key, "the name of a point, or a fixed place [x, y, z]");
   if (const auto* name = std::get_if<std::string>(&value.data)) return *name;
-  return to_vector(value, key);
+  return to_vector(value, key, unit);
 }
 
 std::string TableReader::text(const std::string& key) {
@@ -271,15 +201,15 @@ bool TableReader::flag(const std::string& key) {
   return *flag;
 }
 
-std::vector<Expression> TableReader::list(const std::string& key) {
+std::vector<Expression> TableReader::list(const std::string& key, WantedUnit unit) {
   const Value& value = require(key, "a number or a list of numbers");
   const auto* array = std::get_if<Array>(&value.data);
-  if (array == nullptr) return {to_expression(value, key)};
+  if (array == nullptr) return {to_expression(value, key, unit)};
   if (array->size() > limits::list_length)
     fail(key, "expected at most " + std::to_string(limits::list_length) + " numbers, found " +
                   std::to_string(array->size()));
   std::vector<Expression> result;
-  for (const Value& item : *array) result.push_back(to_expression(item, key));
+  for (const Value& item : *array) result.push_back(to_expression(item, key, unit));
   return result;
 }
 
@@ -289,14 +219,14 @@ const Array& TableReader::items(const Value& value, const std::string& key, cons
   return *array;
 }
 
-std::vector<std::vector<Expression>> TableReader::matrix(const std::string& key) {
+std::vector<std::vector<Expression>> TableReader::matrix(const std::string& key, WantedUnit unit) {
   const std::string expected = "a list of numbers, or a list of rows of them";
   const Array& rows = items(require(key, expected), key, expected);
-  if (rows.empty() || std::get_if<Array>(&rows.front().data) == nullptr) return {list(key)};
+  if (rows.empty() || std::get_if<Array>(&rows.front().data) == nullptr) return {list(key, unit)};
   std::vector<std::vector<Expression>> result;
   for (const Value& row : rows) {
     auto& entries = result.emplace_back();
-    for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key));
+    for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key, unit));
   }
   return result;
 }
@@ -308,7 +238,7 @@ std::vector<std::vector<std::vector<Expression>>> TableReader::matrices(const st
     auto& rows = result.emplace_back();
     for (const Value& row : items(matrix, key, expected)) {
       auto& entries = rows.emplace_back();
-      for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key));
+      for (const Value& entry : items(row, key, expected)) entries.push_back(to_expression(entry, key, {}));
     }
   }
   return result;
@@ -365,17 +295,30 @@ std::vector<const Table*> tables(const Scene& scene, const std::string& key) {
   return result;
 }
 
-void reject_unused_parameters(const Scene& scene, const std::set<int>& used) {
+InputError unused_error(const Scene& scene, int parameter) {
+  const Parameter& unused = scene.parameters[static_cast<std::size_t>(parameter)];
+  return scene_error(
+      scene, unused.where,
+      "[parameters] " + unused.name + ": nothing in the scene uses this parameter; remove it or use it");
+}
+
+std::vector<int> unused_parameters(const Scene& scene, const std::set<int>& used) {
   const std::set<int> reached = scene.parameters.with_definitions(used);
   const int n = static_cast<int>(scene.parameters.size());
+  std::vector<int> unused;
   for (int i = 0; i < n; ++i) {
-    if (!reached.contains(i)) {
-      const Parameter& parameter = scene.parameters[static_cast<std::size_t>(i)];
+    if (reached.contains(i)) continue;
+    unused.push_back(i);
+    const Parameter& parameter = scene.parameters[static_cast<std::size_t>(i)];
+    for (const int other : reached) {
+      const std::string& known = scene.parameters[static_cast<std::size_t>(other)].name;
+      if (!is_misprint(parameter.name, known)) continue;
       throw scene_error(scene, parameter.where,
                         "[parameters] " + parameter.name +
-                            ": nothing in the scene uses this parameter; remove it or use it");
+                            ": nothing in the scene uses this parameter; did you mean '" + known + "'?");
     }
   }
+  return unused;
 }
 
 }  // namespace eigentrail

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -11,79 +10,135 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-constexpr std::array<std::pair<std::string_view, double>, 51> symbols = {{
-    {"1", 1.0},
-    {"-", 1.0},
-    {"m", 1.0},
-    {"km", 1e3},
-    {"cm", 1e-2},
-    {"mm", 1e-3},
-    {"um", 1e-6},
-    {"µm", 1e-6},
-    {"μm", 1e-6},
-    {"nm", 1e-9},
-    {"in", 0.0254},
-    {"ft", 0.3048},
-    {"kg", 1.0},
-    {"g", 1e-3},
-    {"mg", 1e-6},
-    {"t", 1e3},
-    {"lb", 0.45359237},
-    {"slug", 14.593902937206364},
-    {"s", 1.0},
-    {"ms", 1e-3},
-    {"us", 1e-6},
-    {"µs", 1e-6},
-    {"μs", 1e-6},
-    {"ns", 1e-9},
-    {"min", 60.0},
-    {"h", 3600.0},
-    {"N", 1.0},
-    {"mN", 1e-3},
-    {"kN", 1e3},
-    {"MN", 1e6},
-    {"lbf", 4.4482216152605},
-    {"Pa", 1.0},
-    {"kPa", 1e3},
-    {"MPa", 1e6},
-    {"GPa", 1e9},
-    {"J", 1.0},
-    {"kJ", 1e3},
-    {"W", 1.0},
-    {"kW", 1e3},
-    {"rad", 1.0},
-    {"mrad", 1e-3},
-    {"deg", pi / 180},
-    {"rev", 2 * pi},
-    {"rpm", 2 * pi / 60},
-    {"Hz", 1.0},
-    {"kHz", 1e3},
-    {"kt", 1852.0 / 3600.0},
-    {"mph", 0.44704},
-    {"g0", 9.80665},
-    {"%", 1e-2},
-    {"percent", 1e-2},
+/// Dimension kg^a m^b s^c A^d K^e.
+constexpr Dimension dimension(double kg, double m, double s, double A = 0.0, double K = 0.0) {
+  return {{kg, m, s, A, K}};
+}
+namespace of {
+constexpr Dimension number{};
+constexpr Dimension length = dimension(0, 1, 0), mass = dimension(1, 0, 0), duration = dimension(0, 0, 1);
+constexpr Dimension rate = dimension(0, 0, -1), velocity = dimension(0, 1, -1);
+constexpr Dimension acceleration = dimension(0, 1, -2), force = dimension(1, 1, -2);
+constexpr Dimension pressure = dimension(1, -1, -2), energy = dimension(1, 2, -2);
+constexpr Dimension power = dimension(1, 2, -3), viscosity = dimension(1, -1, -1);
+constexpr Dimension volume = dimension(0, 3, 0);
+constexpr Dimension current = dimension(0, 0, 0, 1), temperature = dimension(0, 0, 0, 0, 1);
+}  // namespace of
+
+constexpr double pound_force = 0.45359237 * 9.80665;
+
+/// Units with SI prefixes: mm, kN, GPa, mrad.
+struct Symbol {
+  std::string_view name;
+  Unit unit;
+};
+constexpr std::array<Symbol, 20> with_prefixes = {{
+    {"m", {1.0, of::length}},
+    {"g", {1e-3, of::mass}},
+    {"s", {1.0, of::duration}},
+    {"N", {1.0, of::force}},
+    {"Pa", {1.0, of::pressure}},
+    {"bar", {1e5, of::pressure}},
+    {"J", {1.0, of::energy}},
+    {"W", {1.0, of::power}},
+    {"rad", {1.0, of::number}},
+    {"Hz", {2 * pi, of::rate, true}},
+    {"A", {1.0, of::current}},
+    {"V", {1.0, dimension(1, 2, -3, -1)}},
+    {"ohm", {1.0, dimension(1, 2, -3, -2)}},
+    {"Ω", {1.0, dimension(1, 2, -3, -2)}},
+    {"C", {1.0, dimension(0, 0, 1, 1)}},
+    {"F", {1.0, dimension(-1, -2, 4, 2)}},
+    {"H", {1.0, dimension(1, 2, -2, -2)}},
+    {"Wb", {1.0, dimension(1, 2, -2, -1)}},
+    {"T", {1.0, dimension(1, 0, -2, -1)}},
+    {"K", {1.0, of::temperature}},
+}};
+constexpr std::array<std::pair<std::string_view, double>, 13> prefixes = {{{"n", 1e-9},
+                                                                           {"u", 1e-6},
+                                                                           {"µ", 1e-6},
+                                                                           {"μ", 1e-6},
+                                                                           {"m", 1e-3},
+                                                                           {"c", 1e-2},
+                                                                           {"d", 1e-1},
+                                                                           {"da", 1e1},
+                                                                           {"h", 1e2},
+                                                                           {"k", 1e3},
+                                                                           {"M", 1e6},
+                                                                           {"G", 1e9},
+                                                                           {"T", 1e12}}};
+
+constexpr std::array<Symbol, 36> without_prefixes = {{
+    {"1", {}},
+    {"-", {}},
+    {"%", {1e-2, of::number}},
+    {"percent", {1e-2, of::number}},
+    {"in", {0.0254, of::length}},
+    {"ft", {0.3048, of::length}},
+    {"yd", {0.9144, of::length}},
+    {"mi", {1609.344, of::length}},
+    {"nmi", {1852.0, of::length}},
+    {"t", {1e3, of::mass}},
+    {"lb", {0.45359237, of::mass}},
+    {"oz", {0.45359237 / 16, of::mass}},
+    {"slug", {pound_force / 0.3048, of::mass}},
+    {"min", {60.0, of::duration}},
+    {"h", {3600.0, of::duration}},
+    {"d", {86400.0, of::duration}},
+    {"lbf", {pound_force, of::force}},
+    {"kip", {1e3 * pound_force, of::force}},
+    {"kgf", {9.80665, of::force}},
+    {"dyn", {1e-5, of::force}},
+    {"psi", {pound_force / (0.0254 * 0.0254), of::pressure}},
+    {"ksi", {1e3 * pound_force / (0.0254 * 0.0254), of::pressure}},
+    {"psf", {pound_force / (0.3048 * 0.3048), of::pressure}},
+    {"atm", {101325.0, of::pressure}},
+    {"hp", {550 * 0.3048 * pound_force, of::power}},
+    {"l", {1e-3, of::volume}},
+    {"L", {1e-3, of::volume}},
+    {"P", {0.1, of::viscosity}},
+    {"cP", {1e-3, of::viscosity}},
+    {"deg", {pi / 180, of::number, true}},
+    {"°", {pi / 180, of::number, true}},
+    {"rev", {2 * pi, of::number, true}},
+    {"rpm", {2 * pi / 60, of::rate, true}},
+    {"kt", {1852.0 / 3600.0, of::velocity}},
+    {"mph", {0.44704, of::velocity}},
+    {"g0", {9.80665, of::acceleration}},
 }};
 
-std::optional<double> symbol_factor(std::string_view symbol) {
-  for (const auto& [name, factor] : symbols) {
-    if (name == symbol) return factor;
+/// A unit by its symbol alone. Prefixes come last: "min" is a minute, not a milliinch.
+std::optional<Unit> symbol_unit(std::string_view symbol) {
+  for (const Symbol& known : without_prefixes) {
+    if (known.name == symbol) return known.unit;
+  }
+  for (const Symbol& known : with_prefixes) {
+    if (!symbol.ends_with(known.name)) continue;
+    const std::string_view prefix = symbol.substr(0, symbol.size() - known.name.size());
+    if (prefix.empty()) return known.unit;
+    for (const auto& [name, factor] : prefixes) {
+      if (name == prefix) return Unit{factor * known.unit.factor, known.unit.dimension, known.unit.angle};
+    }
   }
   return std::nullopt;
 }
 
-/// Factor of one unit "symbol" or "symbol^n".
-std::optional<double> term_factor(std::string_view term) {
-  int power = 1;
+Unit power_of(const Unit& unit, int exponent) {
+  return {std::pow(unit.factor, exponent), pow(unit.dimension, exponent), unit.angle && exponent != 0};
+}
+
+/// One unit "symbol" or "symbol^n".
+std::optional<Unit> term_unit(std::string_view term) {
+  int exponent = 1;
   const std::size_t caret = term.find('^');
   if (caret != std::string_view::npos) {
     const char* begin = term.data() + caret + 1;
     const char* end = term.data() + term.size();
-    const auto parsed = std::from_chars(begin, end, power);
-    if (parsed.ec != std::errc() || parsed.ptr != end || power < -12 || power > 12) return std::nullopt;
+    const auto parsed = std::from_chars(begin, end, exponent);
+    if (parsed.ec != std::errc() || parsed.ptr != end || exponent < -12 || exponent > 12) return std::nullopt;
   }
-  const auto base = symbol_factor(term.substr(0, caret));
-  return base ? std::optional(std::pow(*base, power)) : std::nullopt;
+  const auto base = symbol_unit(term.substr(0, caret));
+  return base ? std::optional(power_of(*base, exponent)) : std::nullopt;
 }
 
 /// Length in bytes of a separator at the beginning of `text`, 0 if there is none.
@@ -92,10 +147,17 @@ std::size_t separator_length(std::string_view text) {
   return text.starts_with(' ') || text.starts_with('*') || text.starts_with('/') ? 1 : 0;
 }
 
+/// Length of the part of `text` before the next separator.
+std::size_t term_length(std::string_view text) {
+  std::size_t length = 0;
+  while (length < text.size() && separator_length(text.substr(length)) == 0) ++length;
+  return length;
+}
+
 }  // namespace
 
-std::optional<double> unit_factor(std::string_view unit) {
-  double factor = 1.0;
+std::optional<Unit> parse_unit(std::string_view unit) {
+  Unit result;
   bool divide = false;
   bool expect_term = false;
   while (!unit.empty()) {
@@ -108,37 +170,34 @@ std::optional<double> unit_factor(std::string_view unit) {
       unit.remove_prefix(length);
       continue;
     }
-    std::size_t length = 0;
-    while (length < unit.size() && separator_length(unit.substr(length)) == 0) ++length;
-    const auto term = term_factor(unit.substr(0, length));
+    const std::size_t length = term_length(unit);
+    const auto term = term_unit(unit.substr(0, length));
     if (!term) return std::nullopt;
-    factor = divide ? factor / *term : factor * *term;
+    result.factor = divide ? result.factor / term->factor : result.factor * term->factor;
+    result.dimension = divide ? result.dimension / term->dimension : result.dimension * term->dimension;
+    result.angle = result.angle || term->angle;
     divide = false;
     expect_term = false;
     unit.remove_prefix(length);
   }
-  const bool usable = !expect_term && std::isfinite(factor) && factor > 0.0;
-  return usable ? std::optional(factor) : std::nullopt;
+  const bool usable = !expect_term && std::isfinite(result.factor) && result.factor > 0.0;
+  return usable ? std::optional(result) : std::nullopt;
+}
+
+std::optional<double> unit_factor(std::string_view unit) {
+  const auto parsed = parse_unit(unit);
+  return parsed ? std::optional(parsed->factor) : std::nullopt;
 }
 
 std::optional<double> angular_frequency(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, double>, 8> units = {{{"", 1.0},
-                                                                         {"rad/s", 1.0},
-                                                                         {"1/s", 1.0},
-                                                                         {"Hz", 2 * pi},
-                                                                         {"kHz", 2e3 * pi},
-                                                                         {"rev/s", 2 * pi},
-                                                                         {"rpm", 2 * pi / 60},
-                                                                         {"deg/s", pi / 180}}};
   double value = 0.0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
   if (parsed.ec != std::errc() || !std::isfinite(value)) return std::nullopt;
-  std::string_view unit(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
-  while (unit.starts_with(' ')) unit.remove_prefix(1);
-  for (const auto& [name, factor] : units) {
-    if (name == unit) return value * factor;
-  }
-  return std::nullopt;
+  std::string_view rest(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
+  while (rest.starts_with(' ')) rest.remove_prefix(1);
+  if (rest.empty()) return value;
+  const auto unit = parse_unit(rest);
+  return unit && unit->dimension == of::rate ? std::optional(value * unit->factor) : std::nullopt;
 }
 
 }  // namespace eigentrail

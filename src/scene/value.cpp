@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "eigentrail/scene/limits.hpp"
+#include "scene/toml_hints.hpp"
 
 namespace eigentrail {
 namespace {
@@ -146,7 +147,8 @@ Table parse_toml(std::string_view text, const std::string& path) {
   } catch (const toml::parse_error& error) {
     const SourceLocation where{static_cast<int>(error.source().begin.line),
                                static_cast<int>(error.source().begin.column)};
-    throw InputError(prefix(path, where) + "not valid TOML: " + std::string(error.description()));
+    throw InputError(prefix(path, where) + "not valid TOML: " + std::string(error.description()) +
+                     toml_hint(text, where.line, error.description()));
   }
 }
 

@@ -104,12 +104,16 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   options.lines = request.lines.value_or(options.lines);
   check_second_parameter(setup.scene.parameters, options.second, options.trace.parameter);
   check_numbers(options);
-  // build_model reports parameters on which the model does not depend, except those in `used`. Both
-  // parameters of the window must enter the model.
-  used.erase(setup.scene.parameters.index(options.trace.parameter).value());
-  used.erase(setup.scene.parameters.index(options.second).value());
+  // Both parameters of the window must enter the model itself.
+  const int first = setup.scene.parameters.index(options.trace.parameter).value();
+  const int second = setup.scene.parameters.index(options.second).value();
+  used.erase(first);
+  used.erase(second);
   setup.model =
       build_model(setup.scene, {places_to_check(setup.scene, options), used, options.trace.without});
+  for (const int unused : setup.model->description().unused_parameters) {
+    if (unused == first || unused == second) throw unused_error(setup.scene, unused);
+  }
   project_if_large(setup.model, options.trace, lines_over(options.trace, options.second, options.second_from, options.second_to));
   return setup;
 }

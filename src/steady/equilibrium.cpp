@@ -171,9 +171,12 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
 
 std::string failure_message(const KinsolResult& kinsol, const SteadyReport& report) {
   std::ostringstream message;
-  message << "no equilibrium found: KINSOL stopped after " << kinsol.iterations << " iterations ("
-          << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message)
-          << "); largest residual " << report.residual << " of its scale, in the " << report.worst_equation;
+  message << "no equilibrium found: largest residual " << report.residual << " of its scale, in the "
+          << report.worst_equation
+          << "; check what acts there, or begin closer to the equilibrium (KINSOL stopped after "
+          << kinsol.iterations
+          << " iterations: " << (kinsol.converged ? "its last iterate is not isolated" : kinsol.message)
+          << ")";
   return message.str();
 }
 

@@ -9,7 +9,7 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 42> loci_names = {"node",
+const std::array<std::string, 43> loci_names = {"node",
                                                 "step",
                                                 "mode",
                                                 "function",
@@ -25,6 +25,7 @@ const std::array<std::string, 42> loci_names = {"node",
                                                 "eigenvalue",
                                                 "eigenvalue_derivative",
                                                 "frequency",
+                                                "damped_frequency",
                                                 "damping_ratio",
                                                 "mode_shape",
                                                 "residual",
@@ -69,7 +70,9 @@ void add_points(std::vector<GrowingDataset>& list, const Model& model, const std
   list.push_back({"eigenvalue", ElementType::complex, {"node", "mode"}, "1/s", "eigenvalue s"});
   list.push_back(
       {"eigenvalue_derivative", ElementType::complex, {"node", "mode"}, per_unit, "ds/d" + parameter});
-  list.push_back({"frequency", ElementType::real, {"node", "mode"}, "rad/s", "abs(s)"});
+  list.push_back({"frequency", ElementType::real, {"node", "mode"}, "rad/s", "natural frequency abs(s)"});
+  list.push_back(
+      {"damped_frequency", ElementType::real, {"node", "mode"}, "rad/s", "damped frequency abs(Im(s))"});
   list.push_back({"damping_ratio", ElementType::real, {"node", "mode"}, "1", "-Re(s)/abs(s)"});
   list.push_back({"mode_shape",
                   ElementType::complex,

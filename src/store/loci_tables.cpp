@@ -128,6 +128,7 @@ void LociTables::append(const LociRows& rows) {
   file_.write_rows("eigenvalue", points_, rows.eigenvalue);
   file_.write_rows("eigenvalue_derivative", points_, rows.eigenvalue_derivative);
   file_.write_rows("frequency", points_, rows.frequency);
+  file_.write_rows("damped_frequency", points_, rows.damped_frequency);
   file_.write_rows("damping_ratio", points_, rows.damping_ratio);
   file_.write_rows("mode_shape", points_, rows.mode_shape);
   file_.write_rows("residual", points_, rows.residual);

@@ -10,7 +10,8 @@ namespace eigentrail {
 
 /// Points and steps that are not written yet; every member is a flat row-major array of one dataset.
 struct LociRows {
-  std::vector<double> parameter, frequency, damping_ratio, residual, condition, equilibrium, multiplier;
+  std::vector<double> parameter, frequency, damped_frequency, damping_ratio, residual, condition, equilibrium,
+      multiplier;
   std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
   std::vector<double> step_length, step_parameter;
   std::vector<Complex> dense_output;

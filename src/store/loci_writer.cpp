@@ -131,7 +131,8 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
   last_shapes.resize(tables.modes());
   rows.eigenvalue.resize(begin + tables.modes(), Complex(nan, nan));
   rows.eigenvalue_derivative.resize(begin + tables.modes(), Complex(nan, nan));
-  for (auto* column : {&rows.frequency, &rows.damping_ratio, &rows.residual, &rows.condition})
+  for (auto* column :
+       {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition})
     column->resize(begin + tables.modes(), nan);
   rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
   for (const ModeState& state : point.modes) {
@@ -141,6 +142,7 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
     rows.eigenvalue[at] = state.s;
     rows.eigenvalue_derivative[at] = state.slope;
     rows.frequency[at] = size;
+    rows.damped_frequency[at] = std::abs(state.s.imag());
     rows.damping_ratio[at] = std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0;
     rows.residual[at] = state.backward_error;
     rows.condition[at] = state.condition;

@@ -41,7 +41,7 @@ class Spectrum(CommandTest):
         rows = json.loads(self.run_well("spectrum", scene, "--at", "50", "7.5", "--json"))
         lines = self.run_well("spectrum", scene, "--at", "50", "7.5", "--csv").splitlines()
         self.assertEqual(lines[0], "parameter,mode,real,imag,natural_frequency_hz,damped_frequency_hz,damping_ratio,"
-                                   "condition,what_moves")
+                                   "log_decrement,condition,what_moves")
         self.assertEqual(len(rows), 4)
         for row, line in zip(rows, lines[1:]):
             s = complex(row["real"], row["imag"])
@@ -65,25 +65,28 @@ class Spectrum(CommandTest):
                             ["expected a frequency"])
 
 
+EVAL_COLUMNS = ["parameter", "mode", "real", "imag", "natural_frequency", "damped_frequency", "damping_ratio", "log_decrement"]
+
+
 class Eval(CommandTest):
     def test_csv_has_the_promised_header_and_a_row_per_place_and_mode(self):
         self.trace(BLADE)
         lines = self.run_well("eval", "loci.h5", "--at", "50", "7.5", "--csv").splitlines()
-        self.assertEqual(lines[0], "parameter,mode,real,imag")
+        self.assertEqual(lines[0], ",".join(EVAL_COLUMNS))
         self.assertEqual([line.split(",")[:2] for line in lines[1:]],
                          [["50", "mode 1"], ["50", "mode 2"], ["7.5", "mode 1"], ["7.5", "mode 2"]])
 
     def test_json_holds_the_numbers_of_the_csv(self):
         self.trace(BLADE)
         rows = json.loads(self.run_well("eval", "loci.h5", "--at", "50", "7.5", "--json"))
-        self.assertEqual([list(row) for row in rows], [["parameter", "mode", "real", "imag"]] * 4)
+        self.assertEqual([list(row) for row in rows], [EVAL_COLUMNS] * 4)
         self.assertEqual([(row["parameter"], row["mode"], complex(row["real"], row["imag"])) for row in rows],
                          self.eval_rows("loci.h5", [50, 7.5]))
 
     def test_table_for_people_names_its_columns(self):
         self.trace(BLADE)
         lines = self.run_well("eval", "loci.h5", "--at", "50").splitlines()
-        self.assertRegex(lines[0], r"omega +mode +s +frequency +damping ratio")
+        self.assertRegex(lines[0], r"omega +mode +s, 1/s +natural, rad/s +damped, rad/s +damping +decrement")
         self.assertEqual(len(lines), 3)
 
     def test_stored_points_come_back_exactly(self):
@@ -206,7 +209,7 @@ class Events(CommandTest):
     def test_summary_and_info_point_to_them(self):
         self.write("scene.toml", BIRTH)
         summary = self.run_well("trace", "scene.toml", "-o", "loci.h5")
-        self.assertRegex(summary, r"special points\n +collision +p = 0\.9975 .*\n +divergence +p = 1 ")
+        self.assertRegex(summary, r"onset of instability\n +divergence +p = 1 .*\n +other special points\n +collision +p = 0\.9975 ")
         self.assertIn("2 special points; `eigentrail events` lists them", self.run_well("info", "loci.h5"))
         self.assertEqual(json.loads(self.run_well("info", "loci.h5", "--json"))["events"], 2)
 

@@ -16,6 +16,7 @@ title = "Circle"
 [parameters]
 p = { value = 0.0, unit = "m" }
 q = { value = 0.0, unit = "rpm" }
+one = 1.0  # stands for units that make the sums below possible
 
 [trace]
 parameter = "p"
@@ -24,8 +25,8 @@ to = 1.5
 
 [matrix_family]
 M = [[[1]]]
-C = [[["p*p + (30*q/pi)^2 - 1"]]]
-K = [[["0.8 - p - 30*q/pi"]]]
+C = [[["one*p*p + one*(30*q/pi)^2 - 1"]]]
+K = [[["0.8 - one*p - one*30*q/pi"]]]
 """
 
 # Traced along its damping; it has no equilibrium with p > 1.
@@ -176,7 +177,7 @@ BAD_MAPS = [
     ("unknown first parameter", {"--parameter": "omga"}, ["[trace] parameter", "did you mean 'omega'?"]),
     ("empty window", {"--to": "1"}, ["--to: equals --from (1): the window is empty"]),
     ("empty range of the first", {"--first-to": "100"}, ["[trace] to: equals from (100)"]),
-    ("infinite window", {"--to": "inf"}, ["--from, --to: expected finite numbers"]),
+    ("infinite window", {"--to": "inf"}, ["--to: is not a finite number; found inf"]),
     ("word as end", {"--to": "far"}, ["--to", "far"]),
     ("one line", {"--grid": "1"}, ["--grid: expected at least 2 values of each parameter, found 1x1"]),
     ("one cell a line", {"--grid": "5x1"}, ["--grid: expected at least 2", "5x1"]),

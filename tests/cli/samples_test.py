@@ -231,6 +231,11 @@ class TraceOfSamplesTest(SamplesTest):
         with h5py.File(self.folder / "loci.h5") as file:
             self.assertEqual(file["mode_name"].asstr()[1], "filter 100 %")
 
+    def trace_wave(self, digits, *options):
+        self.samples(self.wavy(digits))
+        self.write("line.toml", LINE + "[events]\nextrema = true\n")
+        return self.run_well("trace", "line.toml", "-o", "loci.h5", "--force", *options)
+
     def wavy(self, digits):
         """A damping ratio that goes up and down by 1e-3."""
         def write(file):
@@ -242,14 +247,14 @@ class TraceOfSamplesTest(SamplesTest):
         return write
 
     def test_extrema_that_are_shallower_than_the_errors_of_the_data_are_left_out(self):
-        deep = self.trace_line(self.wavy(None))
+        deep = self.trace_wave(None)
         self.assertRegex(deep, r"extremum .* damping ratio")
-        shallow = self.trace_line(self.wavy(2))
+        shallow = self.trace_wave(2)
         self.assertNotIn("damping ratio 0.0", shallow)
         self.assertIn("extrema of damping ratios left out: no deeper than the errors of the data", shallow)
         self.assertIn("no special points", self.run_well("events", "loci.h5"))
         # Events that a save has written already are taken back.
-        self.trace_line(self.wavy(2), "--save-every", "0")
+        self.trace_wave(2, "--save-every", "0")
         self.assertIn("no special points", self.run_well("events", "loci.h5"))
 
     def test_a_band_without_a_mode_has_a_note(self):

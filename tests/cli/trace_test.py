@@ -26,7 +26,7 @@ class Trace(CommandTest):
     def test_summary_counts_every_active_effect_and_no_absent_one(self):
         for scene in sorted(SCENES.glob("*.toml")):
             with self.subTest(scene.name):
-                summary = self.run_well("trace", scene, "-o", f"{scene.stem}.h5")
+                summary = self.run_well("trace", scene, "--verbose", "-o", f"{scene.stem}.h5")
                 evaluations = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
                 counted = [entry.split()[0] for entry in evaluations.split(", ")]
                 explained = self.run_well("explain", scene)
@@ -105,7 +105,7 @@ class TraceWithoutCertificate(CommandTest):
 
     def check(self, scene, *options):
         summary = self.trace_loudly(scene, *options)
-        self.assertIn("  identity  not certified (--no-certify)\n", summary)
+        self.assertIn("identity of modes not certified (--no-certify)\n", summary)
         self.assertNotIn("certified on every step", summary)
         with h5py.File(self.folder / "loci.h5") as file:
             certified, exists = file["certified"][:], file["mode_block"][:] >= 0
@@ -133,7 +133,7 @@ class TraceWithoutCertificate(CommandTest):
 
     def test_without_the_flag_everything_here_is_certified(self):
         for scene in (BLADE, FAMILY, BIRTH, CROSSING):
-            self.assertIn("  identity  certified on every step\n", self.trace_loudly(scene))
+            self.assertIn("identity of modes certified on every step\n", self.trace_loudly(scene))
             with h5py.File(self.folder / "loci.h5") as file:
                 np.testing.assert_array_equal(file["certified"][:], np.where(file["mode_block"][:] >= 0, 1, -1))
                 self.assertEqual(file.attrs["option_certify"], "true")

@@ -19,8 +19,11 @@ Setting oscillator(const std::string& parameters, const std::string& events) {
                       "\n[matrix_family]\nM = [[[1]]]\nC = [[[0.1]]]\nK = [[[4]], [[1]]]\n");
 }
 
-TEST(CriteriaOf, DefaultsAreStabilityAndExtrema) {
-  const auto criteria = criteria_of(EventOptions{});
+TEST(CriteriaOf, AreStabilityAndExtremaIfThoseAreAskedFor) {
+  EXPECT_EQ(criteria_of(EventOptions{}).size(), 1U);
+  EventOptions asked;
+  asked.extrema = true;
+  const auto criteria = criteria_of(asked);
   ASSERT_EQ(criteria.size(), 2U);
   EXPECT_EQ(criteria[0].kind, EventKind::flutter);
   EXPECT_EQ(criteria[1].kind, EventKind::extremum);

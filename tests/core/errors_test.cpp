@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace eigentrail {
 namespace {
 
@@ -19,6 +21,18 @@ TEST(NearestName, IsTheOneWithTheFewestEdits) {
                                   {"mass", "mass", "the name itself"},
                                   {"K", "k", "single letter"}};
   for (const Row& row : table) EXPECT_EQ(nearest_name(row.name, names), row.nearest) << row.why;
+}
+
+TEST(IsMisprint, IsAUsualTypingError) {
+  for (const auto& [name, known] :
+       {std::pair("stiffnes", "stiffness"), std::pair("dampping", "damping"), std::pair("Omega", "omega"),
+        std::pair("lenght", "length"), std::pair("mas_1", "mass_1")})
+    EXPECT_TRUE(is_misprint(name, known)) << name;
+  for (const auto& [name, known] :
+       {std::pair("k1", "k2"), std::pair("mass1", "mass2"), std::pair("mass", "mass2"),
+        std::pair("stiff_x", "stiff_y"), std::pair("mass", "mass"), std::pair("rho", "rhoo"),
+        std::pair("mass12", "mass21"), std::pair("drag", "mass")})
+    EXPECT_FALSE(is_misprint(name, known)) << name;
 }
 
 TEST(NearestName, IsEmptyWhenNothingIsClose) {

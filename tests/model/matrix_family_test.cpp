@@ -54,6 +54,37 @@ TEST(MatrixFamily, PolynomialIsExpandedAboutThePoint) {
   EXPECT_EQ(lin.C.size(), 1U);
 }
 
+/// Structure of K(p) with these rows of its lowest power; C as well.
+Structure structure_of(const std::string& K, const std::string& C) {
+  const Setting setting = make_setting(
+      "[parameters]\nk = 100\nc = 3\nl = 2\n[trace]\nparameter = \"v\"\nfrom = 0\nto = 1\n[matrix_family]\n"
+      "M = [ [[1, 0], [0, \"1 + 0*(k + c + l)\"]] ]\nC = [ " +
+      C + " ]\nK = [ " + K + ", [[0, 1], [1, 0]] ]\n");
+  return setting.model->structure(setting.parameter("v"));
+}
+
+TEST(MatrixFamily, SymmetryOfExpressionsIsSeen) {
+  const std::string no_damping = "[[0, 0], [0, 0]]";
+  for (const std::string K : {R"([["2*k", "-k"], ["-k", "k"]])", R"([["k", "k*l"], ["l*k", 1]])",
+                              R"([["k", 2], [2, "k"]])", R"([["k^2", "-k*l"], ["-l*k", "k"]])"})
+    EXPECT_FALSE(structure_of(K, no_damping).circulatory) << K;
+  for (const std::string K : {R"([["2*k", "-k"], ["k", "k"]])", R"([["2*k", "-k"], [-100, "k"]])",
+                              R"([["2*k", "k"], ["l", "k"]])", R"([["2*k", "k"], [0, "k"]])",
+                              // Equal at the values of the scene, and nowhere else.
+                              R"([["2*k", "k"], ["50*l", "k"]])"})
+    EXPECT_TRUE(structure_of(K, no_damping).circulatory) << K;
+}
+
+TEST(MatrixFamily, SkewDampingOfExpressionsIsGyroscopic) {
+  const std::string K = R"([["k", 0], [0, "k"]])";
+  const Structure skew = structure_of(K, R"([[0, "c*l"], ["-l*c", 0]])");
+  EXPECT_TRUE(skew.gyroscopic && !skew.damped);
+  const Structure symmetric = structure_of(K, R"([["c", "-c"], ["-c", "2*c"]])");
+  EXPECT_TRUE(!symmetric.gyroscopic && symmetric.damped);
+  const Structure neither = structure_of(K, R"([["c", "c*l"], ["-l*c", 0]])");
+  EXPECT_TRUE(neither.gyroscopic && neither.damped);
+}
+
 /// x'' + c x' + (2 + p) x = 0 and another one, coupled; in both orders.
 TEST(MatrixFamily, FirstOrderFormHasTheSameLociAsTheSecondOrderForm) {
   const std::string range =

@@ -41,10 +41,17 @@ class Loci(FileTest):
 
     def test_it_is_the_plain_dataset_with_labels(self):
         plain = xarray.load_dataset(self.path, engine="h5netcdf")
-        xarray.testing.assert_identical(self.file.drop_vars(["event_kind", "event_modes"]).reset_coords(),
+        xarray.testing.assert_identical(self.file.drop_vars(["event_kind", "event_modes", "natural_frequency"]).reset_coords(),
                                         plain.reset_coords())
         self.assertEqual(self.file.mode_name.dims, ("mode",))
         self.assertIn("mode_name", self.file.frequency.coords)
+
+    def test_both_frequencies_have_their_names(self):
+        np.testing.assert_array_equal(self.file.natural_frequency, self.file.frequency)
+        np.testing.assert_array_equal(self.file.damped_frequency, np.abs(self.file.eigenvalue.imag))
+        found = self.file.eigentrail.sel(omega=[12.5, 40])
+        np.testing.assert_allclose(found.natural_frequency, np.abs(found.eigenvalue), rtol=1e-15)
+        np.testing.assert_array_equal(found.damped_frequency, np.abs(found.eigenvalue.imag))
 
     def test_the_file_is_free_again(self):
         with h5py.File(self.path, "r+"):
@@ -56,7 +63,7 @@ class Loci(FileTest):
         self.assertEqual(dict(sel(omega=[12.5, 40]).sizes), {"omega": 2, "mode": 2})
         self.assertEqual(dict(sel(omega=np.linspace(5, 100, 7), mode="lag").sizes), {"omega": 7})
         self.assertEqual(dict(sel(omega=[40], mode=["mode 2", "lag"]).sizes), {"omega": 1, "mode": 2})
-        self.assertEqual(dict(sel(omega=self.file.event_parameter).sizes), {"event": 2, "mode": 2})
+        self.assertEqual(dict(sel(omega=self.file.event_parameter).sizes), {"event": 1, "mode": 2})
 
     def test_order_and_repetition_of_the_values_are_kept(self):
         frequency = self.file.eigentrail.sel(omega=[40, 12.5, 40, 5]).frequency
@@ -77,7 +84,8 @@ class Loci(FileTest):
     def test_axes_of_plots_have_names_and_units(self):
         found = self.file.eigentrail.sel(omega=[12.5, 40])
         units = {name: found[name].attrs["units"] for name in found.variables if "units" in found[name].attrs}
-        expected = {"omega": "rad/s", "eigenvalue": "1/s", "frequency": "rad/s", "damping_ratio": "1", "certified": "1"}
+        expected = {"omega": "rad/s", "eigenvalue": "1/s", "frequency": "rad/s",
+                    "natural_frequency": "rad/s", "damped_frequency": "rad/s", "damping_ratio": "1", "certified": "1"}
         self.assertEqual({name: units[name] for name in expected}, expected)
         self.assertTrue(all(found[name].attrs["long_name"] for name in found.variables))
 
@@ -92,15 +100,15 @@ class Loci(FileTest):
 
     def test_events_are_a_table(self):
         events = self.file.eigentrail.events
-        self.assertEqual(events.kind.tolist(), ["extremum", "flutter"])
-        self.assertEqual(events.modes.tolist(), ["lag", "lag"])
-        self.assertAlmostEqual(events.omega[1], 12.4393882230095, places=10)
-        self.assertAlmostEqual(events.eigenvalue[1].real, 0.0, places=12)
+        self.assertEqual(events.kind.tolist(), ["flutter"])
+        self.assertEqual(events.modes.tolist(), ["lag"])
+        self.assertAlmostEqual(events.omega[0], 12.4393882230095, places=10)
+        self.assertAlmostEqual(events.eigenvalue[0].real, 0.0, places=12)
 
     def test_stable_ranges_are_a_table(self):
         ranges = self.file.eigentrail.stable_ranges
         self.assertEqual(ranges[["kind", "cause_from", "cause_to"]].values.tolist(), [["stable", "start", "flutter"]])
-        self.assertEqual(ranges["to"][0], self.file.eigentrail.events.omega[1])
+        self.assertEqual(ranges["to"][0], self.file.eigentrail.events.omega[0])
 
     def test_wrong_requests_say_what_is_expected(self):
         sel = self.file.eigentrail.sel

@@ -337,7 +337,7 @@ STATES = [
 ROWS = FORM + ATTRIBUTES + SHAPES + NUMBERS + STATES
 
 # Datasets that no command but the report, or none at all, needs.
-NOT_READ = {"frequency", "damping_ratio", "eigenvalue_derivative", "coordinate_unit", "kinetic_energy_share", "motion",
+NOT_READ = {"frequency", "damped_frequency", "damping_ratio", "eigenvalue_derivative", "coordinate_unit", "kinetic_energy_share", "motion",
             "scene_parameter_unit", "node", "step", "function", "end", "order", "event", "mode_name", "constraint",
             "stable_from"}
 FOR_PAGES = {"event_node", "mode_shape"}

@@ -38,9 +38,9 @@ VALUES = [
     blade("negative mass", 'mass = "mass"', '§mass = "-mass"', "[[point]] 1 mass: must not be negative; found -50"),
     blade("slightly negative mass", 'mass = "mass"', '§mass = "-1e-9*mass"',
           "[[point]] 1 mass: must not be negative; found -5.0000000000000004e-08 where the trace begins"),
-    blade("mass negative at the start only", 'mass = "mass"', '§mass = "mass - omega"',
+    blade("mass negative at the start only", 'mass = "mass"', '§mass = "mass - drag*omega/2"',
           "[[point]] 1 mass: must not be negative; found -50"),
-    blade("mass negative at the end only", 'mass = "mass"', '§mass = "mass - 1000/omega"',
+    blade("mass negative at the end only", 'mass = "mass"', '§mass = "mass - 500*drag/omega"',
           "[[point]] 1 mass: must not be negative; found -150"),
     blade("rod without length", 'length = "length"', '§length = "length - 5"',
           "[[rod]] 1 length: must be positive; found 0"),
@@ -69,8 +69,8 @@ def not_finite(name, expression, found, where=" where the trace begins"):
     return coefficient(name, expression, "is not a finite number; found ", found + where)
 
 
-def unit(name, text):
-    return blade(name, 'unit = "rad/s"', f'§unit = "{text}"', f"[parameters] omega: unit '{text}' is not known", "N m^-1")
+def unit(name, text, suggestion="N m^-1"):
+    return blade(name, 'unit = "rad/s"', f'§unit = "{text}"', f"[parameters] omega: unit '{text}' is not known", suggestion)
 
 
 def parameter(name, line, *fragments):
@@ -131,9 +131,9 @@ NUMBERS = [
     not_finite("division by zero", "1 / 0", "inf"),
     not_finite("zero by zero", "0 / 0", "nan"),
     not_finite("division by a difference that vanishes", "1 / (drag - 2)", "inf"),
-    not_finite("division by zero at the start", "1 / (omega - 100)", "inf"),
-    not_finite("division by zero at the end", "1 / (omega - 5)", "inf", " where the trace ends"),
-    not_finite("root that is not real within the range", "sqrt((omega - 30)*(omega - 60))", "nan",
+    not_finite("division by zero at the start", "drag / (omega - 100)", "inf"),
+    not_finite("division by zero at the end", "drag / (omega - 5)", "inf", " where the trace ends"),
+    not_finite("root that is not real within the range", "sqrt(drag*(omega - 30)*(omega - 60))", "nan",
                " within the range of the trace"),
     not_finite("logarithm of zero", "log(0)", "-inf"),
     not_finite("logarithm of a negative number", "log(-drag)", "nan"),
@@ -142,7 +142,7 @@ NUMBERS = [
     not_finite("arc sine of two", "asin(drag)", "nan"),
     not_finite("overflow of an exponential", "exp(1000)", "inf"),
     not_finite("overflow of a product", "1e200 * 1e200", "inf"),
-    not_finite("overflow of a power", "omega^200", "inf"),
+    not_finite("overflow of a power", "drag*omega^200", "inf"),
     blade("nan as a coefficient", 'coefficient = "drag"', "§coefficient = nan",
           "[[drag]] 1 coefficient: expected a finite number"),
     blade("infinite mass", 'mass = "mass"', "§mass = inf", "[[point]] 1 mass: expected a finite number"),
@@ -185,10 +185,10 @@ UNITS = [
     unit("unit with a power that is missing", "s^"),
     unit("unit with a power of a half", "s^0.5"),
     unit("unit with a power too large", "s^13"),
-    unit("unit with parentheses", "1/(s)"),
-    unit("unit in capitals", "RPM"),
-    unit("unit written out", "radians/second"),
-    unit("power without a sign", "s-1"),
+    unit("unit with parentheses", "1/(s)", "did you mean '1/s'?"),
+    unit("unit in capitals", "RPM", "did you mean 'rpm'?"),
+    unit("unit written out", "radians/second", "did you mean 'rad/s'?"),
+    unit("power without a sign", "s-1", "did you mean 's^-1'?"),
     unit("number as a factor of a unit", "2 rad/s"),
     unit("unit without a letter before its power", "^2"),
 ]
@@ -204,9 +204,6 @@ PARAMETERS = [
     parameter("name with a space", '§"blade mass" = 1.0', "[parameters] blade mass:", "letters, digits and '_'"),
     parameter("name with a letter that is not ASCII", '§"ω" = 1.0', "[parameters] ω:", "letters, digits and '_'"),
     parameter("name that is split by a point", "§a.b = 1.0", "[parameters] a: expected value ="),
-    parameter("unused definition", '§spare = "2 * mass"', "[parameters] spare: nothing in the scene uses this parameter"),
-    parameter("parameter that only an unused one uses", '§a = 1.0\nb = "a"',
-              "[parameters] a: nothing in the scene uses this parameter"),
     parameter("definition with an unknown parameter", '§spare = "2 * masss"', "[parameters] spare:", "at character 5:",
               "did you mean 'mass'?"),
     parameter("definition that is empty", '§spare = ""', "[parameters] spare:", "expression ends"),

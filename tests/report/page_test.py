@@ -168,7 +168,7 @@ class Page(CommandTest):
             at = np.interp(after[:, 0][np.argsort(after[:, 0])], before[:, 0][np.argsort(before[:, 0])], before[:, 1][np.argsort(before[:, 0])])
             np.testing.assert_allclose(after[:, 1][np.argsort(after[:, 0])], factor * at, rtol=1e-2)
             title = self.driver.execute_script("return document.querySelector('.campbell').layout.yaxis.title.text")
-            self.assertEqual(title, f"Im s, {unit}")
+            self.assertEqual(title, f"damped frequency Im s, {unit}")
 
     def test_harmonics_are_rays_of_the_excitation(self):
         self.blade()

@@ -45,8 +45,8 @@ TEST_F(TableReaderTest, ExpressionIsANumberOrATextOfParameters) {
   EXPECT_EQ(value(read("x = 2.5\n").expression("x")), 2.5);
   EXPECT_EQ(value(read("x = 3\n").expression("x")), 3.0);
   EXPECT_EQ(value(read("x = \"mass * length^2\"\n").expression("x")), 4.5);
-  EXPECT_EQ(value(read("x = 1\n").expression("y", 7.0)), 7.0) << "the default of an absent key";
-  EXPECT_EQ(value(read("x = 1\n").expression("x", 7.0)), 1.0);
+  EXPECT_EQ(value(read("x = 1\n").expression_or("y", 7.0)), 7.0) << "the default of an absent key";
+  EXPECT_EQ(value(read("x = 1\n").expression_or("x", 7.0)), 1.0);
 }
 
 TEST_F(TableReaderTest, ParametersThatExpressionsNameAreUsed) {
@@ -140,7 +140,7 @@ TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
 TEST_F(TableReaderTest, FinishRejectsKeysThatNobodyAskedForAndNamesTheNearest) {
   TableReader& reader = read("mass = 1\n lenght = 2\n");
   reader.expression("mass");
-  reader.expression("length", 1.0);
+  reader.expression_or("length", 1.0);
   EXPECT_EQ(input_error([&] { reader.finish(); }),
             "test.toml:7:2: [element] lenght: unknown key; did you mean 'length'?");
 }
@@ -148,7 +148,7 @@ TEST_F(TableReaderTest, FinishRejectsKeysThatNobodyAskedForAndNamesTheNearest) {
 TEST_F(TableReaderTest, FinishListsTheKnownKeysWhenNoneIsNear) {
   TableReader& reader = read("colour = \"red\"\n");
   reader.has("mass");
-  reader.expression("length", 1.0);
+  reader.expression_or("length", 1.0);
   EXPECT_EQ(input_error([&] { reader.finish(); }),
             "test.toml:6:1: [element] colour: unknown key; known: mass, length");
 }

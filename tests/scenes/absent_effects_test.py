@@ -28,7 +28,7 @@ class AbsentEffectsTest(ProgramTest):
         for scene in self.scenes():
             with self.subTest(scene.name):
                 active, absent = formulas(self.run_well("explain", scene))
-                summary = self.run_well("trace", scene, "-o", "x.h5", "--force")
+                summary = self.run_well("trace", scene, "-o", "x.h5", "--force", "--verbose")
                 line = re.search(r"evaluations  (.*)", summary).group(1)
                 evaluated = {item.rsplit(" ", 1)[0] for item in line.split(", ")}
                 self.assertEqual(evaluated, set(active))

@@ -1,6 +1,7 @@
 """The overhung disc: whirl frequencies with gyroscopic splitting, and critical speeds."""
 
 import math
+import re
 import unittest
 
 import numpy as np
@@ -23,11 +24,11 @@ def whirl(p):
     return 1j * np.abs(s.imag)  # backward whirl has Im < 0
 
 
-def critical_speeds(p, harmonic):
+def critical_speeds(p, harmonic, directions=("forward", "backward")):
     """Whirl with w = +-n omega: a quadratic in omega^2 for either direction."""
     k11, k12, k22 = stiffness(p)
     n, speeds = harmonic, []
-    for polar in (p["polar"], -p["polar"]):  # forward, backward
+    for polar in (p["polar"] * {"forward": 1, "backward": -1}[direction] for direction in directions):
         inertia = n * polar - n**2 * p["diametral"]
         squares = np.roots([-p["mass"] * n**2 * inertia, k11 * inertia - p["mass"] * n**2 * k22, k11 * k22 - k12**2])
         speeds += [math.sqrt(x) for x in squares if x > 0.0]
@@ -56,6 +57,28 @@ class OverhungDisc(RotorTest):
         self.assertEqual(len(found), len(expected), (found, expected))
         self.assertGreater(len(found), 3)
         np.testing.assert_allclose(found, expected, rtol=CLOSE)
+
+    def table_of_critical_speeds(self, *options, old="", new=""):
+        """(harmonic, direction, speed) of the rows of the summary."""
+        self.write("disc.toml", self.scene_text().replace(old, new))
+        summary = self.run_well("trace", "disc.toml", "--force", *options)
+        rows = re.findall(r"^ +(\d)x, (\w+) +omega = (\S+) ", summary, re.MULTILINE)
+        return [(int(n), direction, float(speed)) for n, direction, speed in rows]
+
+    def test_critical_speeds_are_forward_or_backward(self):
+        found = self.table_of_critical_speeds()
+        self.assertEqual(len(found), 6)
+        for n, direction, speed in found:
+            least = min(abs(speed - omega) for omega in critical_speeds(self.parameters(), n, [direction]))
+            self.assertLess(least, CLOSE * speed, (n, direction, speed))
+        self.assertEqual(found, sorted(found, key=lambda row: row[2]))
+
+    def test_direction_is_told_by_the_sense_of_the_spin(self):
+        """The disc turns the other way: the same speeds, and the same words."""
+        there = self.table_of_critical_speeds()
+        back = self.table_of_critical_speeds(old='speed = "omega"', new='speed = "-omega"')
+        self.assertEqual([row[:2] for row in back], [row[:2] for row in there])
+        np.testing.assert_allclose([row[2] for row in back], [row[2] for row in there], rtol=CLOSE)
 
     def test_disc_that_does_not_spin_has_pairs_of_equal_frequencies(self):
         s = np.sort(self.spectra(self.trace_scene(), [0.0])[0].imag)

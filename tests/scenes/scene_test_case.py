@@ -71,7 +71,7 @@ class SceneTest(CommandTest):
         active = re.findall(r"^ +(\w+) +\d+  ", named[named.index("effects"):], re.MULTILINE)
         self.assertEqual(sorted(active), sorted(effects))
         self.assertFalse(set(absent.strip().split(", ")) & set(effects))
-        summary = self.run_well("trace", "effects.toml", "-o", "effects.h5", "--force")
+        summary = self.run_well("trace", "effects.toml", "-o", "effects.h5", "--force", "--verbose")
         counted = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
         counts = {name: int(count) for name, count in (entry.split() for entry in counted.split(", "))}
         self.assertEqual(sorted(counts), sorted(effects))

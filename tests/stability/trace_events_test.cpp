@@ -100,8 +100,9 @@ TEST(TraceEvents, FindResonancesInTheUnitOfTheTracedParameter) {
 TEST(TraceEvents, FindExtremaOfTheDampingRatio) {
   for (const double sign : {1.0, -1.0}) {
     // c = 1 +- (p - 0.3)^2.
-    const auto events =
-        events_of(oscillator({.c0 = 1.0 + sign * 0.09, .c1 = -0.6 * sign, .c2 = sign}), EventKind::extremum);
+    const auto events = events_of(
+        oscillator({.c0 = 1.0 + sign * 0.09, .c1 = -0.6 * sign, .c2 = sign, .events = "extrema = true"}),
+        EventKind::extremum);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].p, 0.3, 1e-8);
     EXPECT_NEAR(events[0].value, 0.25, 1e-12);
@@ -109,15 +110,15 @@ TEST(TraceEvents, FindExtremaOfTheDampingRatio) {
   }
 }
 
-TEST(TraceEvents, ExtremaMayBeSwitchedOff) {
-  const auto events =
-      events_of(oscillator({.c0 = 1.0, .c2 = 1.0, .events = "extrema = false"}), EventKind::extremum);
+TEST(TraceEvents, ExtremaAreNotSoughtUnlessAskedFor) {
+  const auto events = events_of(oscillator({.c0 = 1.0, .c2 = 1.0}), EventKind::extremum);
   EXPECT_TRUE(events.empty());
 }
 
 TEST(TraceEvents, ConstantDampingHasNoExtrema) {
   for (const double c : {0.0, 0.1, 3.9})
-    EXPECT_TRUE(events_of(oscillator({.c0 = c}), EventKind::extremum).empty()) << c;
+    EXPECT_TRUE(events_of(oscillator({.c0 = c, .events = "extrema = true"}), EventKind::extremum).empty())
+        << c;
 }
 
 /// c = (p - 0.3)^2 - depth: unstable between 0.3 -+ sqrt(depth), however short that is.

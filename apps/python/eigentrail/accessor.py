@@ -24,8 +24,8 @@ class Eigentrail:
     def sel(self, mode=None, **at):
         """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
 
-        Returns a Dataset of eigenvalue, frequency, damping_ratio and certified along parameter and mode, for a sampled family
-        also of interpolation_error and digits_error (1/s), the bounds of the errors that come from the samples. The values may
+        Returns a Dataset of eigenvalue, natural_frequency abs(s) (also as `frequency`), damped_frequency abs(Im s),
+        damping_ratio and certified along parameter and mode, for a sampled family also of interpolation_error and digits_error (1/s), the bounds of the errors that come from the samples. The values may
         be a number (then without dimension), a list, an array, or a DataArray, whose dimension is kept. If the path
         turns back, there is also a dimension `passage`: the first, second, ... place of the path with the value; NaN
         where there are fewer. `mode` is a label ("mode 1") or a name ("blade lag"), or a list of these.

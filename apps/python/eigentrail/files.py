@@ -26,7 +26,7 @@ def open(path):
         kind = _checked_format(path, file.attrs)
         data = file.load()
     if kind == "eigentrail-loci":
-        data = _with_event_kinds(data)
+        data = _with_frequencies(_with_event_kinds(data))
     return data.set_coords([name for name in COORDINATES[kind] if name in data])
 
 
@@ -49,6 +49,16 @@ def _checked_format(path, attributes):
         raise ValueError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
                          "take the reader that came with the program that wrote it")
     return kind
+
+
+def _with_frequencies(data):
+    """Both frequencies by their names: `natural_frequency` abs(s), which the file calls `frequency`, and `damped_frequency`
+    abs(Im s), which files of earlier versions do not hold."""
+    data = data.assign(natural_frequency=data.frequency)
+    if "damped_frequency" not in data:
+        names = {"long_name": "damped frequency abs(Im(s))", "units": "rad/s"}
+        data = data.assign(damped_frequency=np.abs(data.eigenvalue.imag).assign_attrs(names))
+    return data
 
 
 def _with_event_kinds(data):

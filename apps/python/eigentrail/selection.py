@@ -62,7 +62,8 @@ class Selection:
     def _dataset(self, s, certified, errors, dimension, values):
         loci = self._loci
         with np.errstate(invalid="ignore"):
-            columns = {"eigenvalue": s, "frequency": np.abs(s), "damping_ratio": -s.real / np.abs(s),
+            columns = {"eigenvalue": s, "frequency": np.abs(s), "natural_frequency": np.abs(s),
+                       "damped_frequency": np.abs(s.imag), "damping_ratio": -s.real / np.abs(s),
                        "certified": certified, **errors}
         dims = (dimension, "passage", "mode")
         labels = {name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}

@@ -21,7 +21,7 @@ struct EventOptions {
   /// The excitation frequency in rad/s as a function of the parameters' SI values; present if a multiple of
   /// it is requested.
   std::optional<Expression> excitation = {};
-  bool extrema = true;  ///< whether extrema of the damping ratio are searched for
+  bool extrema = false;  ///< whether extrema of the damping ratio are searched for
 
   /// The values requested of one kind.
   std::vector<double> values(EventKind kind) const;

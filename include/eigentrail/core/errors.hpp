@@ -26,6 +26,11 @@ class InputError : public std::runtime_error {
 /// of `name`, rounded up), with at least one edit allowed, or if `name` has more than 200 characters.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
+/// Whether `name` is `known` with a usual typing error: other capitals, one letter left out or added, two
+/// neighbours swapped. Names shorter than four characters, and names that differ in digits, as those of
+/// siblings do (k1, k2), are no misprints.
+bool is_misprint(std::string_view name, std::string_view known);
+
 /// "did you mean 'x'?" if a candidate is close, else "known: " with the first 100 candidates.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 

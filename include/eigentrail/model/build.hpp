@@ -25,7 +25,7 @@ struct ModelRequest {
 
 /// Builds the model that a scene describes: a multibody system, or a family of matrices if the scene has
 /// [matrix_family] or [sampled_family]. Throws InputError for every fault of the scene, including unknown
-/// keys and unused parameters.
+/// keys and misspelt parameters.
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request);
 
 /// Name of the parameter that multiplies the forces of an effect; no parameter of a scene can have this name.

@@ -76,6 +76,8 @@ struct ModelDescription {
   Parameters parameters;
   /// What is known of the model's data, for users: a label and a text each ("digits", "4 significant").
   std::vector<std::pair<std::string, std::string>> data = {};
+  /// Indices of the parameters on which nothing in the scene depends.
+  std::vector<int> unused_parameters = {};
 };
 
 /// Residual of the steady equations A^T lambda - f(x, 0, p) = 0 and c(x, p) = 0 as power series (Eqs. 14a,

@@ -83,6 +83,9 @@ class Expression {
 
   bool is_constant() const { return parameters_.empty(); }
 
+  /// Its instructions in postfix notation: operands before their operation.
+  const std::vector<Instruction>& code() const { return code_; }
+
   /// Number of its instructions: numbers, parameters and operations.
   std::size_t size() const { return code_.size(); }
 

@@ -9,6 +9,7 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/types.hpp"
+#include "eigentrail/scene/dimension.hpp"
 #include "eigentrail/scene/expression.hpp"
 
 namespace eigentrail {
@@ -18,8 +19,12 @@ struct Parameter {
   double value = 0.0;   ///< in `unit`; not used if the parameter is derived
   std::string unit;     ///< as written; empty: SI or dimensionless
   double factor = 1.0;  ///< SI value = factor * value
-  /// Derived parameter: its value in `unit`, from the SI values of the others.
+  /// Of `unit`; absent if the parameter has no unit. Such a parameter fits anywhere.
+  std::optional<Dimension> dimension = {};
+  bool is_angle = false;  ///< whether `unit` contains rev, rpm, Hz or deg: see Unit::angle
+  /// Derived parameter, from the SI values of the others: its value in `unit`, or its SI value.
   std::optional<Expression> definition = {};
+  bool definition_is_si = false;
   SourceLocation where = {};
 };
 
@@ -42,6 +47,7 @@ class Parameters {
 
   std::size_t size() const { return list_.size(); }
   const Parameter& operator[](std::size_t i) const { return list_[i]; }
+  const std::vector<Parameter>& list() const { return list_; }
   const std::vector<std::string>& names() const { return names_; }
   std::optional<int> index(std::string_view name) const;
 
@@ -56,7 +62,8 @@ class Parameters {
   void to_si(std::span<Scalar> values) const {
     for (std::size_t i = 0; i < list_.size(); ++i) values[i] = values[i] * list_[i].factor;
     for (const int i : derived_order_) {
-      values[i] = list_[i].definition->evaluate(std::span<const Scalar>(values)) * list_[i].factor;
+      const double factor = list_[i].definition_is_si ? 1.0 : list_[i].factor;
+      values[i] = list_[i].definition->evaluate(std::span<const Scalar>(values)) * factor;
     }
   }
 

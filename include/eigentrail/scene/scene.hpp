@@ -32,6 +32,9 @@ Scene parse_scene(std::string text, const std::string& path);
 /// An error at a position in the scene: "path:line:column: message".
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message);
 
+/// The unit in which a key wants its numbers; empty: any. "" is a number without unit.
+using WantedUnit = std::optional<std::string_view>;
+
 /// A name, or a fixed position given by three coordinates.
 using NameOrPosition = std::variant<std::string, std::array<Expression, 3>>;
 
@@ -45,21 +48,24 @@ class TableReader {
 
   bool has(const std::string& key);
 
+  // Expressions whose dimension is known must have that of `unit`; plain numbers and parameters without a
+  // unit are SI values of it.
+
   /// An expression of the parameters: a number, or a text such as "2*pi*rpm/60". `otherwise` is the value if
   /// the key is absent.
-  Expression expression(const std::string& key);
-  Expression expression(const std::string& key, double otherwise);
+  Expression expression(const std::string& key, WantedUnit unit = {});
+  Expression expression_or(const std::string& key, double otherwise, WantedUnit unit = {});
 
   /// A list of expressions; a single expression counts as a list of one.
-  std::vector<Expression> list(const std::string& key);
+  std::vector<Expression> list(const std::string& key, WantedUnit unit = {});
 
   /// Three expressions: [x, y, z].
-  std::array<Expression, 3> vector(const std::string& key);
+  std::array<Expression, 3> vector(const std::string& key, WantedUnit unit = {});
 
-  NameOrPosition name_or_position(const std::string& key);
+  NameOrPosition name_or_position(const std::string& key, WantedUnit unit = {});
 
   /// A matrix, a list of rows; a plain list of numbers is one row.
-  std::vector<std::vector<Expression>> matrix(const std::string& key);
+  std::vector<std::vector<Expression>> matrix(const std::string& key, WantedUnit unit = {});
 
   /// Whether the value of a key is a table; and a reader for it.
   bool is_table(const std::string& key);
@@ -91,8 +97,10 @@ class TableReader {
   const Value* find(const std::string& key);
   const Value& require(const std::string& key, const std::string& expected);
   const Array& items(const Value& value, const std::string& key, const std::string& expected);
-  Expression to_expression(const Value& value, const std::string& key);
-  std::array<Expression, 3> to_vector(const Value& value, const std::string& key);
+  Expression to_expression(const Value& value, const std::string& key, WantedUnit unit);
+  void check_dimension(const Expression& expression, const std::string& key, const std::string& text,
+                       WantedUnit unit) const;
+  std::array<Expression, 3> to_vector(const Value& value, const std::string& key, WantedUnit unit);
 
   const Scene& scene_;
   const Table& table_;
@@ -104,8 +112,11 @@ class TableReader {
 /// The tables of an array of tables ("[[rod]]"); a single "[rod]" counts as one. Empty if the key is absent.
 std::vector<const Table*> tables(const Scene& scene, const std::string& key);
 
-/// Throws InputError if a parameter occurs neither in `used` (filled by TableReader) nor in the definition of
-/// a parameter in use.
-void reject_unused_parameters(const Scene& scene, const std::set<int>& used);
+/// Indices of the parameters that occur neither in `used` (filled by TableReader) nor in the definition of a
+/// parameter in use. Throws InputError if the name of one looks like a misprint of one in use.
+std::vector<int> unused_parameters(const Scene& scene, const std::set<int>& used);
+
+/// The error, or warning, about a parameter that nothing uses.
+InputError unused_error(const Scene& scene, int parameter);
 
 }  // namespace eigentrail

@@ -44,7 +44,7 @@ std::string damping_remark(const EventFacts& facts) {
 }
 
 std::string resonance_remark(const EventFacts& facts) {
-  return "harmonic " + rounded(facts.value) + turns(facts, ", outgrows it", ", falls behind it");
+  return "critical speed " + rounded(facts.value) + "x" + turns(facts, ", outgrows it", ", falls behind it");
 }
 
 std::string extremum_remark(const EventFacts& facts) {

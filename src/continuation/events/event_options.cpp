@@ -1,10 +1,10 @@
 #include "eigentrail/continuation/event_options.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/expression_dimension.hpp"
 
 namespace eigentrail {
 namespace {
@@ -25,23 +25,18 @@ std::vector<double> read_numbers(TableReader& table, const EventRequest& request
   return values;
 }
 
-/// The traced parameter as the excitation frequency, in rad/s. Fails if its unit is not one of a frequency.
-/// Parameters in units of angular velocity, and those without a unit, are in rad/s by their SI value; hertz
-/// need the factor 2 pi.
+/// The traced parameter as the excitation frequency: its SI value in rad/s. Fails if its unit is not one of a
+/// frequency. A parameter without a unit is in rad/s.
 Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
-  constexpr std::array<std::string_view, 9> angular{"",    "rad/s", "rad s^-1", "1/s",   "s^-1",
-                                                    "rpm", "rev/s", "deg/s",    "mrad/s"};
-  constexpr std::array<std::string_view, 2> turns{"Hz", "kHz"};
   const auto index = scene.parameters.index(traced);
-  const std::string unit = index ? scene.parameters[static_cast<std::size_t>(*index)].unit : "";
-  const auto is_one_of = [&](const auto& units) {
-    return std::find(units.begin(), units.end(), unit) != units.end();
-  };
-  if (!is_one_of(angular) && !is_one_of(turns)) {
-    table.fail("harmonics", "of what frequency? '" + traced + "' is in " + unit +
+  const Expression frequency = Expression::parse(traced, scene.parameters.names());
+  const std::string fault = dimension_fault(frequency, scene.parameters.list(), "rad/s");
+  if (!fault.empty()) {
+    table.fail("harmonics", "of what frequency? '" + traced + "' is in " +
+                                scene.parameters[static_cast<std::size_t>(*index)].unit +
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
   }
-  return Expression::parse((is_one_of(turns) ? "2 * pi * " : "") + traced, scene.parameters.names());
+  return frequency;
 }
 
 }  // namespace
@@ -72,7 +67,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
   }
   if (table.has("excitation")) {
     if (!is_excited) table.fail("excitation", "is of no use without `harmonics`");
-    options.excitation = table.expression("excitation");
+    options.excitation = table.expression("excitation", "rad/s");
   } else if (is_excited && scene.parameters.index(traced)) {
     // A traced parameter that does not exist is reported where the other options are read.
     options.excitation = traced_frequency(scene, traced, table);

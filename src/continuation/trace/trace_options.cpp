@@ -10,6 +10,7 @@
 #include "continuation/trace/mode_choice_option.hpp"
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/measure.hpp"
 
 namespace eigentrail {
 namespace {
@@ -109,9 +110,18 @@ class OptionReader {
       table_.fail(key, "expected a whole number or \"" + word_for_absent + "\", found \"" + text + "\"");
   }
 
-  /// A plain number is in the parameter's unit; an expression of parameters is an SI value.
+  /// A plain number is in the parameter's unit, a text may have a unit of its own ("100 Hz"); an expression
+  /// of parameters is an SI value.
   double number(const char* key) {
-    const Expression expression = table_.expression(key);
+    const Parameter* traced = in_parameter_unit(key);
+    if (traced != nullptr && is_text(key)) {
+      const auto measure = parse_measure(table_.text(key));
+      const UnitValue found = measure ? value_in_unit_of(*traced, *measure) : UnitValue{};
+      if (!found.fault.empty()) table_.fail(key, found.fault);
+      if (measure && std::isfinite(found.value)) return found.value;
+    }
+    const bool has_unit = traced != nullptr && traced->dimension;
+    const Expression expression = table_.expression(key, has_unit ? WantedUnit(traced->unit) : WantedUnit());
     const double value = this->value(expression, key);
     if (!std::isfinite(value)) table_.fail(key, "is not a finite number");
     return value;
@@ -123,12 +133,16 @@ class OptionReader {
     scene_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
     const double value =
         expression.evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
-    const bool in_parameter_unit =
-        std::set<std::string_view>{"from", "to", "first_step", "max_step"}.contains(key);
-    const auto traced =
-        table_.has("parameter") ? scene_.parameters.index(table_.text("parameter")) : std::nullopt;
-    return in_parameter_unit && traced ? value / scene_.parameters[static_cast<std::size_t>(*traced)].factor
-                                       : value;
+    const Parameter* traced = in_parameter_unit(key);
+    return traced != nullptr ? value / traced->factor : value;
+  }
+
+  /// The traced parameter, if a key is in its unit.
+  const Parameter* in_parameter_unit(const std::string& key) {
+    const bool of_range = std::set<std::string_view>{"from", "to", "first_step", "max_step"}.contains(key);
+    if (!of_range || !table_.has("parameter")) return nullptr;
+    const auto traced = scene_.parameters.index(table_.text("parameter"));
+    return traced ? &scene_.parameters[static_cast<std::size_t>(*traced)] : nullptr;
   }
 
   int whole_number(const char* key) {
@@ -303,6 +317,10 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purp
     points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
   }
   setup.model = build_model(setup.scene, {points, used, options.without, purpose == Purpose::strengths});
+  for (const int unused : setup.model->description().unused_parameters) {
+    if (unused == setup.traced() && purpose != Purpose::operating_point)
+      throw unused_error(setup.scene, unused);
+  }
   return setup;
 }
 

@@ -70,7 +70,7 @@ class LociView {
     const names = element("input", { type: "checkbox", checked: true, change: () => { this.settings.eventNames = names.checked; this.draw(); } });
     const colours = this.files.length > 1 ? { file: "file", parameter: "parameter", mode: "mode" } : { parameter: "parameter", mode: "mode" };
     return element("div", { class: "controls" },
-      this.select("Frequency", { imag: "Im s", abs: "abs(s)" }, "imag", set("frequency")),
+      this.select("Frequency", { imag: "damped, Im s", abs: "natural, abs(s)" }, "imag", set("frequency")),
       this.select("in", Object.fromEntries(Object.keys(FREQUENCY_UNITS).map((unit) => [unit, unit])), "rad/s", (unit) => {
         this.settings.unitFactor = FREQUENCY_UNITS[unit];
         set("unit")(unit);
@@ -268,8 +268,8 @@ class LociView {
     return [file.modeText(mode), this.files.length > 1 ? file.data.name : "",
       `${this.parameter.name} = ${withUnit(number(file.path.parameterAt(place), 8), this.parameter.unit)}`,
       `s = ${complexText(...s, 8)} 1/s`,
-      `${settings.frequency === "abs" ? "abs(s)" : "Im s"} = ${number(frequency, 8)} ${settings.unit}`,
-      `damping ratio ${number(dampingRatio(...s), 6)}`, this.errorText(file, mode, place), doubtful ? "identity not certified here" : ""];
+      `${frequencyName(settings)} = ${number(frequency, 8)} ${settings.unit}`,
+      dampingText(...s), this.errorText(file, mode, place), doubtful ? "identity not certified here" : ""];
   }
 
   errorText(file, mode, place) {
@@ -352,7 +352,7 @@ class LociView {
       margin: { l: 58, r: right, t: 40 + (files.length > 1 ? 7 * files.length : 0), b: 46 }, shapes: rangeShapes(files),
       legend: { orientation: "h", x: 0, y: 1.01 + (files.length > 1 ? 0.012 * files.length : 0), yanchor: "bottom", font: { size: 11.5 } },
       xaxis: figureAxis(axisName(this.parameter), { range: x, anchor: "y2", zeroline: false }),
-      yaxis: figureAxis(`${settings.frequency === "abs" ? "abs(s)" : "Im s"}, ${settings.unit}`, { range: y, domain: [0.38, 1] }),
+      yaxis: figureAxis(`${frequencyName(settings)}, ${settings.unit}`, { range: y, domain: [0.38, 1] }),
       yaxis2: figureAxis(settings.damping === "real" ? "Re s, 1/s" : "damping ratio", { range: y2, domain: [0, 0.3], zerolinewidth: 1.5 }),
     });
     Plotly.react(this.campbell, traces, layout, figureConfig("campbell"));

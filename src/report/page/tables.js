@@ -64,7 +64,7 @@ class ModeTable {
   }
 
   update(place, settings, isActive, isIsolated) {
-    this.frequencyHead.textContent = `${settings.frequency === "abs" ? "abs(s)" : "Im s"}, ${settings.unit}`;
+    this.frequencyHead.textContent = `${frequencyName(settings)}, ${settings.unit}`;
     for (const { file, mode, button, values, row } of this.entries) {
       const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
       const frequency = s && (settings.frequency === "abs" ? Math.hypot(...s) : Math.abs(s[1])) * settings.unitFactor;

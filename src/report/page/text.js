@@ -29,6 +29,15 @@ function complexText(real, imag, digits = 7) {
   return `${number(real, digits)} ${imag < 0 ? "−" : "+"} ${number(Math.abs(imag), digits)}j`;
 }
 
+/** What the frequency axis shows, by its name. */
+const frequencyName = (settings) => (settings.frequency === "abs" ? "natural frequency abs(s)" : "damped frequency Im s");
+
+/** Damping ratio and logarithmic decrement of an eigenvalue, which a real one does not have. */
+function dampingText(real, imag) {
+  const decrement = imag === 0 ? "" : `, logarithmic decrement ${number((-2 * Math.PI * real) / Math.abs(imag), 6)}`;
+  return `damping ratio ${number(dampingRatio(real, imag), 6)}${decrement}`;
+}
+
 /** Escapes a text for Plotly, which interprets some markup in texts. */
 function plotText(text) {
   return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");

@@ -1,0 +1,194 @@
+#include "trace_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "eigentrail/core/text.hpp"
+#include "frequency_unit.hpp"
+#include "output.hpp"
+#include "projection_info.hpp"
+#include "ranges.hpp"
+#include "whirl.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+/// Prints the largest errors that the data of the model cause, relative to max(|s|, reference).
+void print_data_errors(const DataErrors& errors, const RecordedPath& path, double reference) {
+  const auto largest = [&](const Matrix& bounds, Eigen::Index& at) {
+    double most = 0.0;
+    for (Eigen::Index step = 0; step < bounds.rows(); ++step) {
+      for (Eigen::Index mode = 0; mode < bounds.cols(); ++mode) {
+        const double size = std::max(std::abs(path.eigenvalues(step, mode)), reference);
+        const double relative = bounds(step, mode) / size;
+        if (!(relative > most)) continue;
+        most = relative;
+        at = mode;
+      }
+    }
+    return most;
+  };
+  const auto text = [&](const char* what, const Matrix& bounds) {
+    Eigen::Index mode = 0;
+    const double most = largest(bounds, mode);
+    return std::string(what) + " up to " + rounded(most, 2) + " (mode " + std::to_string(mode + 1) + ")";
+  };
+  std::printf("  data  relative error of eigenvalues %s",
+              text("between samples", errors.interpolation).c_str());
+  if (errors.digits.array().isNaN().all() || !((errors.digits.array() > 0.0).any())) {
+    std::printf("\n");
+  } else {
+    std::printf(", %s\n", text("from their digits", errors.digits).c_str());
+  }
+}
+
+void print_heading(const TraceSummary& trace) {
+  const TraceOptions& options = trace.setup.options;
+  const TraceResult& result = trace.result;
+  const std::string& unit = trace.setup.model->description().parameters.at(options.parameter).unit;
+  if (!trace.setup.scene.title.empty()) std::printf("%s\n", printable(trace.setup.scene.title).c_str());
+  std::printf("  %s  %s -> %s%s, tolerance %s, %s, %d of %d modes, %lld freedoms\n",
+              options.parameter.c_str(), exact_text(options.from).c_str(), exact_text(result.reached).c_str(),
+              (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),
+              order_text(result.order, !options.order).c_str(), result.n_modes, result.n_available,
+              static_cast<long long>(result.n_independent));
+  if (const Projection* projection = trace.setup.model->projection())
+    print_projection(*projection, options.parameter);
+  if (result.n_infinite > 0) {
+    std::printf("  %d infinite eigenvalues at the start are not followed (singular mass)\n",
+                result.n_infinite);
+  }
+}
+
+/// Frequency and damping of an eigenvalue. A real one has no frequency: its rate stands for the damping.
+std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, double reference) {
+  if (std::isnan(s.real())) return {"-", "-"};
+  if (!std::isfinite(s.real())) return {"infinite", "-"};
+  s = without_rounding(s, reference);
+  if (s.imag() == 0.0) return {"-", rounded(s.real(), 6) + " 1/s"};
+  return {rounded(std::abs(s.imag()) / unit.factor, 6),
+          rounded(-100.0 * s.real() / std::abs(s) + 0.0, 4) + " %"};
+}
+
+void print_modes(const TraceSummary& trace, const FrequencyUnit& unit) {
+  const Matrix::Index last = trace.path.eigenvalues.rows() - 1;
+  std::vector<std::vector<std::string>> rows{
+      {"mode", unit.name + " at " + exact_text(trace.setup.options.from), "damping",
+       unit.name + " at " + exact_text(trace.result.reached), "damping", "what moves"}};
+  // A mode that was found on the step at which the trace was stopped has no column yet.
+  const int columns = std::min(trace.result.n_columns, static_cast<int>(trace.path.eigenvalues.cols()));
+  for (int mode = 0; mode < columns; ++mode) {
+    // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
+    if (trace.path.eigenvalues.col(mode).array().isNaN().all()) continue;
+    std::vector<std::string> row{std::to_string(mode + 1)};
+    for (const Matrix::Index at : {Matrix::Index{0}, last}) {
+      const auto cells = motion_cells(trace.path.eigenvalues(at, mode), unit, trace.result.s_ref);
+      row.insert(row.end(), cells.begin(), cells.end());
+    }
+    row.push_back(cell_text(trace.mode_names[static_cast<std::size_t>(mode)]));
+    rows.push_back(std::move(row));
+  }
+  print_table(rows);
+}
+
+/// A special point, and the interval in which it lies if the data have errors.
+struct Found {
+  Event event;
+  std::string interval;
+};
+
+/// The special points, sorted by the parameter.
+std::vector<Found> sorted_events(const TraceSummary& trace) {
+  std::vector<Found> found;
+  for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
+    found.push_back({trace.result.events[i], ""});
+    Event& event = found.back().event;
+    event.s = without_rounding(event.s, trace.result.s_ref);
+    event.p = without_rounding(event.p, trace.setup.options.from, trace.setup.options.to);
+    if (trace.errors != nullptr && std::isfinite(trace.errors->intervals[i].from))
+      found.back().interval =
+          interval_text(trace.errors->intervals[i], trace.setup.options.from, trace.result.reached);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.event.p < b.event.p; });
+  return found;
+}
+
+bool is_onset(EventKind kind) {
+  return kind == EventKind::flutter || kind == EventKind::divergence;
+}
+
+/// "1x, forward" for a resonance with the first harmonic; its mode, frequency and damping.
+std::vector<std::string> critical_speed_row(const TraceSummary& trace, const Found& found,
+                                            const FrequencyUnit& unit) {
+  const Event& event = found.event;
+  const std::string whirl = whirl_direction(trace.setup, event);
+  const auto cells = motion_cells(event.s, unit, 0.0);
+  return {"    " + rounded(event.value) + "x" + (whirl.empty() ? "" : ", " + whirl),
+          trace.setup.options.parameter + " = " + rounded(event.p, 12),
+          modes_text(event),
+          cells[0] + " " + unit.name,
+          "damping " + cells[1],
+          found.interval};
+}
+
+void print_rows(const char* heading, const std::vector<std::vector<std::string>>& rows) {
+  if (rows.empty()) return;
+  std::printf("  %s\n", heading);
+  print_table(rows);
+}
+
+/// Prints onsets of instability first, then critical speeds, then all others.
+void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) {
+  const std::string& parameter = trace.setup.options.parameter;
+  std::vector<std::vector<std::string>> onsets, critical, others;
+  for (const Found& found : sorted_events(trace)) {
+    if (found.event.kind == EventKind::resonance) {
+      critical.push_back(critical_speed_row(trace, found, unit));
+      continue;
+    }
+    std::vector<std::string> row = event_row(found.event, parameter);
+    std::string& remark = row.back();
+    remark += (remark.empty() || found.interval.empty() ? "" : ", ") + found.interval;
+    (is_onset(found.event.kind) ? onsets : others).push_back(std::move(row));
+  }
+  print_rows("onset of instability", onsets);
+  print_rows("critical speeds", critical);
+  print_rows("other special points", others);
+  for (const std::string& note : trace.result.notes) std::printf("  note  %s\n", note.c_str());
+}
+
+/// To which modes the stable ranges refer, in words; empty if to all.
+std::string followed_modes(const TraceResult& result) {
+  if (result.n_modes == result.n_available) return "";
+  return std::to_string(result.n_modes) + " of " + std::to_string(result.n_available) + " modes followed";
+}
+
+/// How much of the loci is certified.
+std::string identity_text(const TraceSummary& trace) {
+  const TraceResult& result = trace.result;
+  if (!trace.setup.options.certify) return "identity of modes not certified (--no-certify)";
+  if (result.certified_steps == result.mode_steps) return "identity of modes certified on every step";
+  return "identity of modes NOT certified on " + std::to_string(result.mode_steps - result.certified_steps) +
+         " of " + std::to_string(result.mode_steps) + " mode steps; info and the file say where";
+}
+
+}  // namespace
+
+void print_summary(const TraceSummary& trace, bool verbose) {
+  const TraceOptions& options = trace.setup.options;
+  const FrequencyUnit unit =
+      frequency_unit(trace.setup.model->description().parameters.at(options.parameter));
+  print_heading(trace);
+  print_modes(trace, unit);
+  if (trace.errors != nullptr) print_data_errors(*trace.errors, trace.path, trace.result.s_ref);
+  print_special_points(trace, unit);
+  print_permanent(trace.path, {options.tolerance, trace.result.s_ref}, trace.mode_names);
+  print_ranges(trace.ranges, options.parameter, followed_modes(trace.result));
+  std::printf("  work  %d points, %s s; %s\n", trace.result.nodes, rounded(trace.result.seconds, 3).c_str(),
+              identity_text(trace).c_str());
+  if (verbose) print_figures_of_work(trace);
+}
+
+}  // namespace eigentrail::app

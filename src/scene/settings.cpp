@@ -1,0 +1,96 @@
+#include "eigentrail/scene/settings.hpp"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/measure.hpp"
+#include "eigentrail/scene/units.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Offset in bytes of a line and column, which count characters from 1.
+std::size_t offset_of(const std::string& text, const toml::source_position& at) {
+  std::size_t offset = 0;
+  for (unsigned line = 1; line < at.line; ++line) offset = text.find('\n', offset) + 1;
+  const auto continues = [&](std::size_t i) {
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
+  };
+  for (unsigned column = 1; column < at.column; ++column) {
+    ++offset;
+    while (continues(offset)) ++offset;
+  }
+  return offset;
+}
+
+/// The text with the value of a parameter replaced. `text` has been parsed before, and declares it.
+std::string with_value(const std::string& text, const std::string& name, const std::string& value) {
+  const toml::table root = toml::parse(text);
+  const toml::node* node = root["parameters"][name].node();
+  if (const auto* fields = node->as_table()) node = fields->get("value");
+  const std::size_t begin = offset_of(text, node->source().begin);
+  const std::size_t end = offset_of(text, node->source().end);
+  return text.substr(0, begin) + value + text.substr(end);
+}
+
+/// The value as TOML: a number in the unit of the parameter, or an expression in quotes.
+std::string as_toml(const Scene& scene, const Parameter& parameter, const std::string& value,
+                    const std::string& label) {
+  if (const auto measure = parse_measure(value)) {
+    const UnitValue found = value_in_unit_of(parameter, *measure);
+    if (!found.fault.empty()) throw InputError(label + ": " + found.fault);
+    if (!std::isfinite(found.value)) throw InputError(label + ": expected a finite number, found " + value);
+    return exact_text(found.value);
+  }
+  try {
+    (void)Expression::parse(value, scene.parameters.names());
+  } catch (const ExpressionError& error) {
+    throw InputError(label + ": in \"" + value + "\" at character " + std::to_string(error.offset + 1) +
+                     ": " + error.what());
+  }
+  return "\"" + value + "\"";
+}
+
+/// Whether the scene declares a parameter; that of a family of matrices need not be declared.
+bool declares(const Scene& scene, const std::string& name) {
+  const Value* parameters = scene.root.find("parameters");
+  const auto* table = parameters == nullptr ? nullptr : std::get_if<Table>(&parameters->data);
+  return table != nullptr && table->find(name) != nullptr;
+}
+
+}  // namespace
+
+ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings) {
+  ChangedScene changed{std::move(scene), {}};
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const auto trimmed = [](std::string text) {
+      text.erase(0, text.find_first_not_of(' '));
+      text.erase(text.find_last_not_of(' ') + 1);
+      return text;
+    };
+    const std::string name = trimmed(setting.substr(0, equals));
+    const std::string value = equals == std::string::npos ? "" : trimmed(setting.substr(equals + 1));
+    if (name.empty() || value.empty())
+      throw InputError("--set " + setting + ": expected NAME=VALUE, such as --set drag=20");
+    const std::string label = "--set " + name;
+    const std::vector<std::string>& names = changed.scene.parameters.names();
+    if (!declares(changed.scene, name)) {
+      const bool traced = changed.scene.parameters.index(name).has_value();
+      const std::string meant = traced ? "" : nearest_name(name, names);
+      if (!meant.empty())
+        throw InputError(label + ": no parameter is called '" + name + "'; did you mean '" + meant + "'?");
+      changed.warnings.push_back(label +
+                                 (traced ? ": has no effect: its values are those of the trace"
+                                         : ": the scene has no parameter of this name; it has no effect"));
+      continue;
+    }
+    const std::string toml = as_toml(changed.scene, changed.scene.parameters.at(name), value, label);
+    changed.scene = parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path);
+  }
+  return changed;
+}
+
+}  // namespace eigentrail

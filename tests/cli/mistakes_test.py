@@ -1,0 +1,132 @@
+"""Mistakes that are made by hand on the first day. Each message names the place and says what to do.
+
+Each row is the mistake, what is written in place of what, and what the message must contain. In a scene "§" stands where the
+message must point; it is taken out before the run.
+"""
+
+import unittest
+
+from command_test_case import CommandTest
+from program import BLADE, EXIT_DONE, each_case, edited
+
+BODIES = """
+[[body]]
+name = "a"
+mass = 1
+position = [0, 0, 0]
+
+[[body]]
+name = "b"
+mass = 1
+position = [1, 0, 0]
+"""
+
+SCENES = [
+    # Expressions and texts.
+    ("expression without quotes", ('mass = "mass"', "mass = 2§*mass"), 'put expressions and names in quotes: mass = "2*mass"'),
+    ("name without quotes", ('mass = "mass"', "mass = §mass"), 'put expressions and names in quotes: mass = "mass"'),
+    ("expression in a list without quotes", ('["1 + length", 0, 0]', "[§length, 0, 0]"), "put expressions and names in quotes, each"),
+    ("list as one text", ('["1 + length", 0, 0]', '"[6, 0, 0]"'), "position: expected three numbers or expressions [x, y, z]",
+     "found a text"),
+    ("negative expression without quotes", ("drag   = 2.0", "drag   = §-mass"), 'put expressions and names in quotes: drag = "-mass"'),
+    ("quote that is not closed", ('name = "blade"', 'name = "blade§'), "a quote is opened here and never closed"),
+    ("two stars as a power", ('mass = "mass"', '§mass = "mass**2"'), "at character 6", "expected"),
+    ("missing times", ('mass = "mass"', '§mass = "2 mass"'), "at character 3: unexpected 'm'"),
+    ("misprint of a parameter", ('mass = "mass"', '§mass = "mas"'), "unknown parameter 'mas'; did you mean 'mass'?"),
+    # Numbers.
+    ("decimal comma", ("drag   = 2.0", "drag   = 2§,5"), "decimals have a point: drag = 2.5"),
+    ("number without its zero", ("drag   = 2.0", "drag   = §.5"), "write the zero before the point: 0.5"),
+    ("number that ends in a point", ("drag   = 2.0", "drag   = 2.§"), "write a digit behind the point: 2.0"),
+    ("number with its unit", ("mass   = 50.0", "mass   = 50 §kg"), 'written { value = 50, unit = "kg" }'),
+    ("numbers without commas", ("from = [1, 0, 0]", "from = [1 §0 0]"), "separated by commas"),
+    ("list in parentheses", ("from = [1, 0, 0]", "from = §(1, 0, 0)"), "lists stand in brackets"),
+    ("flag in capitals", ("to = 5.0", "to = 5.0\ncertify = §True"), "write true or false"),
+    # Tables and keys.
+    ("one bracket for two bodies", ("[[drag]]", BODIES.replace("[[body]]", "[body]").replace("[body]\nname = \"b\"",
+                                                                                         "§[body]\nname = \"b\"") + "[[drag]]"),
+     "two brackets each: [[body]]"),
+    ("brackets that are not closed", ("[[rod]]", "[[rod]§"), "close it with two brackets"),
+    ("colon for an equals sign", ('name = "blade"', 'name§: "blade"'), "write key = value"),
+    ("comment of another language", ("[[rod]]", "§// the rod\n[[rod]]"), "comments begin with #"),
+    ("key given twice", ("drag   = 2.0", "drag   = 2.0\ndrag   = §3.0"), "stands twice"),
+    ("misprint of a key", ('coefficient = "drag"', '§coeficient = "drag"'), "did you mean 'coefficient'?"),
+    ("misprint of a table", ("[[drag]]", "[[§darg]]"), "did you mean 'drag'?"),
+    ("misprint of a point", ('to = "blade"', '§to = "balde"'), "no point is called 'balde'; did you mean 'blade'?"),
+    ("key that is missing", ('length = "length"\n', ""), "[[rod]] 1 length: is missing"),
+    ("table in braces over two lines", ('{ value = 40.0, unit = "rad/s" }', '{ value = 40.0,§\n unit = "rad/s" }'),
+     "stands on one line"),
+    # Units.
+    ("unit in capitals", ('unit = "rad/s"', '§unit = "RPM"'), "unit 'RPM' is not known; did you mean 'rpm'?"),
+    ("unit without a space", ("drag   = 2.0", 'drag   = { value = 2, §unit = "Ns/m" }'), "did you mean 'N s/m'?"),
+    ("unit with seconds as sec", ('unit = "rad/s"', '§unit = "rad/sec"'), "did you mean 'rad/s'?"),
+    ("mass in newtons", ("mass   = 50.0", 'mass   = { value = 50, unit = "kN" }', 'mass = "mass"', '§mass = "mass"'),
+     '[[point]] 1 mass: "mass" is in kN, but kg is expected'),
+    ("damping in metres", ("drag   = 2.0", 'drag   = { value = 2, unit = "m" }', 'coefficient = "drag"', '§coefficient = "drag"'),
+     '[[drag]] 1 coefficient: "drag" is in m, but N s/m is expected'),
+    ("speed as a mass", ('mass = "mass"', '§mass = "omega"'), '"omega" is in rad/s, but kg is expected'),
+    ("sum of different things", ("mass   = 50.0", 'mass   = { value = 50, unit = "kg" }', 'mass = "mass"',
+                                 '§mass = "mass + omega"'), "adds kg and 1/s"),
+    ("hertz times two pi", ('unit = "rad/s"', 'unit = "Hz"', '[0, 0, "omega"]', '[0, 0, "2*pi*omega"]',
+                            "angular_velocity", "§angular_velocity"), "converts omega to radians twice", "leave out the factor"),
+    ("revolutions without their name", ('unit = "rad/s"', 'unit = "1/min"', "angular_velocity", "§angular_velocity"),
+     'write "rpm", "rev/s" or "rad/s"'),
+    # Values.
+    ("empty range", ("to = 5.0", "§to = 100.0"), "[trace] to: equals from (100): the range is empty"),
+    ("parameter that does not exist", ('parameter = "omega"', '§parameter = "Omega"'), "did you mean 'omega'?"),
+    ("negative mass", ("mass   = 50.0", "mass   = -50.0", 'mass = "mass"', '§mass = "mass"'), "mass: must not be negative; found -50"),
+    ("length of zero", ("length = 5.0", "length = 0.0", 'length = "length"', '§length = "length"'), "length: must be positive; found 0"),
+    ("vector of two numbers", ("from = [1, 0, 0]", "§from = [1, 0]"), "expected three numbers or expressions [x, y, z], found 2"),
+]
+
+COMMANDS = [
+    ("misprint of a command", ["trase", "scene.toml"], "unknown command 'trase'; did you mean 'trace'?"),
+    ("value without its unit's spelling", ["trace", "scene.toml", "--to", "5 RPM"], "[trace] to: unit 'RPM' is not known",
+     "did you mean 'rpm'?"),
+    ("value in another unit", ["spectrum", "scene.toml", "--at", "5 mm"], "--at 5 mm: 5 mm does not fit omega, which is in rad/s"),
+    ("setting without its value", ["trace", "scene.toml", "--set", "drag"], "--set drag: expected NAME=VALUE"),
+    ("misprint in a setting", ["trace", "scene.toml", "--set", "drg=3"], "--set drg: ", "did you mean 'drag'?"),
+    ("setting in another unit", ["trace", "scene.toml", "--set", "omega=3 kg"], "--set omega: 3 kg does not fit omega"),
+    ("picture for a page", ["report", "loci.h5", "-o", "page.png"], "ends in .html"),
+]
+
+
+@each_case([(name, edits, fragments) for name, edits, *fragments in SCENES])
+class MistakeInAScene(CommandTest):
+    def check(self, edits, fragments):
+        where = self.write_marked(BLADE, list(zip(edits[::2], edits[1::2])))
+        run = self.run_program("trace", "scene.toml")
+        self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where}")
+        self.assertFalse((self.folder / "scene.h5").exists())
+
+
+@each_case([(name, command, fragments) for name, command, *fragments in COMMANDS])
+class MistakeOnTheCommandLine(CommandTest):
+    def check(self, command, fragments):
+        self.write("scene.toml", BLADE)
+        if "loci.h5" in command:
+            self.trace(BLADE)
+        self.assert_refused(self.run_program(*command), fragments)
+
+
+class Harmless(CommandTest):
+    """What looks like a mistake and is none."""
+
+    def test_one_body_may_have_one_bracket(self):
+        self.write("scene.toml", edited(BLADE, "[[rod]]", "[rod]"))
+        self.run_well("trace", "scene.toml", "-q")
+
+    def test_output_has_the_name_of_the_scene(self):
+        self.write("scene.toml", BLADE)
+        self.assertIn("wrote scene.h5", self.run_well("trace", "scene.toml"))
+        self.assertIn("wrote scene.html", self.run_well("report", "scene.h5"))
+
+    def test_parameter_that_nothing_uses_is_a_warning(self):
+        self.write("scene.toml", edited(BLADE, "drag   = 2.0", "drag   = 2.0\nspare  = 1.0"))
+        run = self.run_program("trace", "scene.toml", "-q")
+        self.assertEqual(run.returncode, EXIT_DONE)
+        self.assertEqual(run.stderr, "eigentrail: warning: scene.toml:8:1: [parameters] spare: nothing in the scene uses this "
+                                     "parameter; remove it or use it\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
