@@ -51,8 +51,7 @@ bool certificate_may_cost(const RunCounts& counts, Eigen::Index n, double progre
   const auto work = [size](std::uint64_t factorizations, double vectors) {
     return static_cast<double>(factorizations) * size * size * (size / 3.0 + vectors);
   };
-  // A basis for all modes has size 2n.
-  const double certificate = counts.certificate_work + work(8 * counts.certificate_bases, solutions);
+  const double certificate = counts.certificate_work;
   const double others = work(counts.modes.factorizations + counts.event_factorizations, solutions_of_mode) +
                         work(8 * counts.modes.modal_bases, solutions_of_mode) +
                         static_cast<double>(counts.spectra) * spectrum_work * size * size * size;
