@@ -66,7 +66,8 @@ class StepPencil {
 /// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.
 /// `gap` is the distance to the nearest other known eigenvalue. It scales Lambda against Z in the norm of the
 /// unknowns (vec Z, vec Lambda / scale), scale = gap / 2 within limits. Factorizations are added to `counts`.
+/// `gave_up`, if given, is set to whether the tube was not followed to the end because it takes too much work.
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
-                  RunCounts& counts);
+                  RunCounts& counts, bool* gave_up = nullptr);
 
 }  // namespace eigentrail

@@ -35,10 +35,13 @@ double gap_of(const PathNode& node, std::size_t index) {
 
 }  // namespace
 
-std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all_count, RunCounts& counts) {
+std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all_count,
+                          std::vector<TrackTest>& tests, RunCounts& counts) {
   const StageTimer timer(counts.certificate_seconds);
   const PathNode& left = *step.left;
   const std::size_t count = left.tracks.size();
+  if (std::all_of(tests.begin(), tests.end(), [](TrackTest test) { return test == TrackTest::none; }))
+    return std::vector<bool>(count, false);
   std::vector<std::unique_ptr<const StepPencil>> pencils;
   const std::size_t parts = std::max<std::size_t>(left.pencil.parts.size(), 1);
   std::vector<bool> certified(count, false);
@@ -55,10 +58,13 @@ std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all
   std::vector<char> closed(certified.begin(), certified.end());
   std::atomic<std::size_t> first_open{count};
   const auto look = [&](std::size_t i) {
-    if (closed[i] != 0 || (!all_count && i > first_open)) return;
+    if (closed[i] != 0 || tests[i] == TrackTest::none || (!all_count && i > first_open)) return;
     const StepPencil& pencil = *pencils[static_cast<std::size_t>(left.tracks[i].pair.part)];
-    closed[i] = certify_step(pencil, left.tracks[i], step.right.tracks[i], gap_of(left, i), own[i]) ? 1 : 0;
-    if (closed[i] != 0) return;
+    bool gave_up = false;
+    closed[i] =
+        certify_step(pencil, left.tracks[i], step.right.tracks[i], gap_of(left, i), own[i], &gave_up) ? 1 : 0;
+    if (gave_up) tests[i] = TrackTest::lenient;
+    if (closed[i] != 0 || tests[i] != TrackTest::strict) return;
     for (std::size_t known = first_open; i < known && !first_open.compare_exchange_weak(known, i);) {
     }
   };
