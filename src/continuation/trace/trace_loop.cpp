@@ -284,8 +284,7 @@ Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
   tests_.clear();
   for (const Track& track : step.right.tracks)
     tests_.push_back(state_.steps.patience.test_of(track.lineage, certificate_budget(), costly));
-  return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_,
-                           state_.result.counts);
+  return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
 }
 
 bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {

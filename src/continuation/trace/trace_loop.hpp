@@ -69,7 +69,7 @@ class TraceLoop final : private Checkpoint {
   EventLog log_;
   EventSearch search_;
   std::vector<TrackTest> tests_;  ///< of the tracks of the last step that was judged
-  double reach_ = 3.0;  ///< see parting_reach; replaced when the order is known
+  double reach_ = 3.0;            ///< see parting_reach; replaced when the order is known
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_before_ = 0.0;  ///< wall time of the earlier runs that this one continues
 };
