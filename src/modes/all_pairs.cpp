@@ -34,7 +34,8 @@ ComplexMatrix with_blocks(const PairSet& pairs, ComplexMatrix Z, const ComplexMa
 }  // namespace
 
 ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const PairSet& pairs) {
-  ComplexMatrix slope = with_blocks(pairs, multiply_many(M, pairs.Z), pairs.Lambda);
+  ComplexMatrix slope = ComplexMatrix::Zero(pairs.Z.rows(), pairs.Z.cols());
+  if (!M.isZero(0.0)) slope = with_blocks(pairs, multiply_many(M, pairs.Z), pairs.Lambda);
   if (!C.isZero(0.0)) slope += multiply_many(C, pairs.Z);
   times_blocks(pairs, pairs.Lambda, slope);
   return slope + multiply_many(K, pairs.Z);
@@ -131,6 +132,7 @@ bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOption
   const auto factor = [&] {
     basis = ModalBasis::from(pencil, pairs);
     ++counts.modal_bases;
+    if (basis) basis->prepare_division(pairs);
     return basis.has_value();
   };
   if (!factor()) return false;
@@ -185,6 +187,7 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
   basis = ModalBasis::from(pencil, pairs);
   ++counts.modal_bases;
   if (!basis) return nullptr;
+  basis->prepare_division(pairs);
   const ComplexMatrix R = residual(pencil, pairs);
   corrected.clear();
   for (std::size_t i = 0; i < starts.size(); ++i) {

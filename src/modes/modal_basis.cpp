@@ -103,8 +103,6 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
   }
   basis.left_ = lu.solve(load);
   basis.right_ = V.topRows(n);
-
-  basis.prepare_division(pairs);
   return basis;
 }
 

@@ -10,31 +10,34 @@ const PathFrame frame{PathRange{0, 0.0, 10.0}};
 
 TEST(CertificatePatience, RejectsAtFirst) {
   const CertificatePatience patience;
-  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 5, true), Uncertified::is_rejected);
+  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 5, CertificateBudget::within), Uncertified::is_rejected);
   EXPECT_FALSE(patience.is_in_vain(0.0));
 }
 
 TEST(CertificatePatience, LetsShortStepsPassWhereStepsHaveShrunk) {
   const CertificatePatience patience;
   const double tiny = 0.9 * uncertified_share * 10.0;
-  EXPECT_EQ(patience.treatment(frame, tiny, 1.0, 5, true), Uncertified::passes);
-  EXPECT_EQ(patience.treatment(frame, -tiny, 1.0, 5, true), Uncertified::passes);
+  EXPECT_EQ(patience.treatment(frame, tiny, 1.0, 5, CertificateBudget::within), Uncertified::passes);
+  EXPECT_EQ(patience.treatment(frame, -tiny, 1.0, 5, CertificateBudget::within), Uncertified::passes);
   // All steps are as short: the model changes on so small a part of the range.
-  EXPECT_EQ(patience.treatment(frame, tiny, 2.0 * tiny, 5, true), Uncertified::is_rejected);
-  EXPECT_EQ(patience.treatment(frame, tiny, 0.0, 0, true), Uncertified::is_rejected) << "the first step";
+  EXPECT_EQ(patience.treatment(frame, tiny, 2.0 * tiny, 5, CertificateBudget::within),
+            Uncertified::is_rejected);
+  EXPECT_EQ(patience.treatment(frame, tiny, 0.0, 0, CertificateBudget::within), Uncertified::is_rejected)
+      << "the first step";
 }
 
 TEST(CertificatePatience, EndsAfterManyFailuresAndReturnsWithNewPoints) {
   CertificatePatience patience;
   int failures = 0;
-  while (patience.treatment(frame, 0.1, 1.0, 8, true) == Uncertified::is_rejected && failures < 1000) {
+  while (patience.treatment(frame, 0.1, 1.0, 8, CertificateBudget::within) == Uncertified::is_rejected &&
+         failures < 1000) {
     patience.count_failure();
     ++failures;
   }
   EXPECT_GT(failures, 10);
   EXPECT_LT(failures, 100);
-  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 8, true), Uncertified::passes_by_shape);
-  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 40, true), Uncertified::is_rejected);
+  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 8, CertificateBudget::within), Uncertified::passes_by_shape);
+  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 40, CertificateBudget::within), Uncertified::is_rejected);
 }
 
 TEST(CertificatePatience, FailuresOneAfterTheOtherOfAccurateStepsAreInVain) {
@@ -42,39 +45,66 @@ TEST(CertificatePatience, FailuresOneAfterTheOtherOfAccurateStepsAreInVain) {
   for (int i = 0; i < 3; ++i) patience.count_failure();
   EXPECT_TRUE(patience.is_in_vain(1e-4));
   EXPECT_FALSE(patience.is_in_vain(0.5)) << "a shorter step changes more than the certificate";
-  patience.count_step();
+  patience.count_step({}, {}, {});
   EXPECT_FALSE(patience.is_in_vain(1e-4));
 }
 
-TEST(CertificatePatience, LeavesOutTheTestIfItCostsTooMuch) {
+TEST(CertificatePatience, LetsStepsPassIfTheBudgetIsSpent) {
   const CertificatePatience patience;
-  EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 5, false), Uncertified::is_not_tested);
+  for (const CertificateBudget budget : {CertificateBudget::spent_in_vain, CertificateBudget::spent}) {
+    EXPECT_EQ(patience.treatment(frame, 0.1, 1.0, 5, budget), Uncertified::passes_by_shape);
+  }
+  EXPECT_EQ(patience.test_of(1, CertificateBudget::spent, true), TrackTest::none);
+  EXPECT_EQ(patience.test_of(1, CertificateBudget::spent_in_vain, true), TrackTest::strict) << "never failed";
 }
 
-TEST(CertificateMayCost, AFixedAmountAndAShareOfAllOtherWork) {
+TEST(CertificatePatience, TestsATrackThatFailsAfterPausesThatDouble) {
+  CertificatePatience patience;
+  std::vector<int> tested;
+  for (int step = 0; step < 40; ++step) {
+    const TrackTest test = patience.test_of(7, CertificateBudget::within, true);
+    EXPECT_EQ(test == TrackTest::strict, step == 0) << "only a track that did not fail rejects steps";
+    EXPECT_EQ(patience.test_of(8, CertificateBudget::within, true), TrackTest::strict);
+    EXPECT_EQ(patience.test_of(7, CertificateBudget::within, false), TrackTest::strict) << "a small model";
+    EXPECT_EQ(patience.test_of(7, CertificateBudget::spent_in_vain, true) == TrackTest::none, step > 0);
+    if (test != TrackTest::none) tested.push_back(step);
+    patience.count_step({7, 8}, {test, TrackTest::strict}, {false, true});
+  }
+  EXPECT_EQ(tested, (std::vector<int>{0, 1, 3, 7, 15, 31}));
+  patience.count_step({7, 8}, {TrackTest::lenient, TrackTest::strict}, {true, true});
+  EXPECT_EQ(patience.test_of(7, CertificateBudget::within, true), TrackTest::strict) << "certified again";
+}
+
+TEST(CertificateBudget, IsAFixedAmountAndAShareOfAllOtherWork) {
   RunCounts counts;
   const auto count = [&counts](double factorizations, double n) {
     counts.certificate_work = factorizations * n * n * (n / 3.0 + 30.0);
   };
+  const auto at = [&counts](Eigen::Index n, double progress) {
+    return certificate_budget(counts, n, progress);
+  };
   count(4000, 24);
-  EXPECT_TRUE(certificate_may_cost(counts, 24, 0.0)) << "small";
-  count(400, 224);
-  EXPECT_FALSE(certificate_may_cost(counts, 224, 0.1));
-  EXPECT_TRUE(certificate_may_cost(counts, 224, 1.0));
+  EXPECT_EQ(at(24, 0.0), CertificateBudget::within) << "small";
+  count(150, 224);
+  EXPECT_EQ(at(224, 0.1), CertificateBudget::spent);
+  EXPECT_EQ(at(224, 1.0), CertificateBudget::within);
   count(50000, 224);
-  EXPECT_FALSE(certificate_may_cost(counts, 224, 1.0));
-  counts.modes.factorizations = 200000;
-  EXPECT_TRUE(certificate_may_cost(counts, 224, 1.0));
+  EXPECT_EQ(at(224, 1.0), CertificateBudget::spent);
+  counts.modes.factorizations = 300000;
+  EXPECT_EQ(at(224, 1.0), CertificateBudget::within);
 }
 
-TEST(CertificateMayCost, LessWhereItDoesNotClose) {
+TEST(CertificateBudget, IsLessWhereItDoesNotClose) {
   RunCounts counts;
-  counts.certificate_work = 2e9;
-  EXPECT_TRUE(certificate_may_cost(counts, 24, 1.0));
-  counts.certificate_in_vain = 1.1e9;
-  EXPECT_TRUE(certificate_may_cost(counts, 24, 1.0)) << "most of it was useful";
-  counts.certificate_in_vain = 1.8e9;
-  EXPECT_FALSE(certificate_may_cost(counts, 24, 1.0));
+  counts.certificate_work = 9e8;
+  EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::within);
+  counts.certificate_in_vain = 2e8;
+  EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::within) << "most of it was useful";
+  EXPECT_TRUE(is_costly_in_vain(counts));
+  counts.certificate_in_vain = 8e8;
+  EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::spent_in_vain);
+  counts.certificate_in_vain = 0.0;
+  EXPECT_FALSE(is_costly_in_vain(counts));
 }
 
 /// Two failures before every step: they add up.
@@ -84,7 +114,7 @@ TEST(CertificatePatience, CountsFailuresOfEarlierStepsLess) {
     patience.count_failure();
     patience.count_failure();
     EXPECT_EQ(patience.is_in_vain(0.0), step > 0);
-    patience.count_step();
+    patience.count_step({}, {}, {});
   }
 }
 

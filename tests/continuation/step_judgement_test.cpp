@@ -13,8 +13,9 @@ namespace {
 using Kind = Verdict::Kind;
 
 Verdict verdict_on(PlantedSearch& planted, const Step& step,
-                   Uncertified uncertified = Uncertified::is_rejected) {
-  return judge(planted.family.problem(), planted.frame, planted.options, step, uncertified,
+                   Uncertified uncertified = Uncertified::is_rejected, std::vector<TrackTest> tests = {}) {
+  tests.resize(step.right.tracks.size(), TrackTest::strict);
+  return judge(planted.family.problem(), planted.frame, planted.options, step, uncertified, tests,
                planted.family.counts);
 }
 
@@ -134,6 +135,25 @@ TEST(Judge, LetsAStepPassByTheShapesOfItsModes) {
   EXPECT_EQ(verdict.certified, (std::vector<bool>{false, false, true}));
 }
 
+/// Tracks that failed before pass by their shapes, and the step needs no shorter attempt.
+TEST(Judge, TracksThatMayFailDoNotRejectAStep) {
+  PlantedSearch planted(lines());
+  const PathNode left = planted.family.point(-1e-3, alone(on_lines(-1e-3)));
+  const auto step = [&] { return planted.step(left, 1e-3, alone(on_lines(1e-3))); };
+  for (const TrackTest test : {TrackTest::lenient, TrackTest::none}) {
+    const Verdict verdict = verdict_on(planted, step(), Uncertified::is_rejected, {test, test});
+    EXPECT_TRUE(verdict.accepted());
+    EXPECT_EQ(verdict.certified, (std::vector<bool>{false, false, true}));
+    EXPECT_EQ(verdict_on(planted, step(), Uncertified::is_rejected, {test}).kind, Kind::uncertified)
+        << "the second one may not";
+  }
+  planted.options.tolerance = 0.1;
+  const PathNode from = planted.family.point(-1e-3, alone({1.999 * j, 2.001 * j, 5.0 * j}));
+  const Step exchanged = planted.step(from, 1e-3, alone({1.999 * j, 2.001 * j, 5.0 * j}));
+  EXPECT_EQ(verdict_on(planted, exchanged, Uncertified::is_rejected, {TrackTest::none, TrackTest::none}).kind,
+            Kind::mismatch);
+}
+
 TEST(MayStayUncertified, IsAShareOfTheRangeOfTheCoordinate) {
   PathFrame frame{PathRange{0, 2.0, -2.0}};
   EXPECT_TRUE(may_stay_uncertified(frame, -4.0 * uncertified_share));
@@ -176,7 +196,9 @@ TEST(Judge, FindsThatAnEquilibriumLiesOnAnotherPath) {
   TraceOptions options = on_this.setting.options;
   options.certify = false;
   const auto verdict_to = [&](const PathNode& right) {
-    return judge(on_this.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, on_this.counts);
+    std::vector<TrackTest> tests(right.tracks.size(), TrackTest::strict);
+    return judge(on_this.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, tests,
+                 on_this.counts);
   };
   const Verdict verdict = verdict_to(on_other.at(20.5));
   EXPECT_EQ(verdict.kind, Kind::no_equilibrium);
@@ -195,8 +217,9 @@ TEST(Judge, RoundingOfAnEquilibriumThatDoesNotMoveIsNoOtherPath) {
   right.path.x.col(1) += 1e-7 * Vector::LinSpaced(n, 1.0, -1.0);
   TraceOptions options = hanging.setting.options;
   options.certify = false;
+  std::vector<TrackTest> tests(right.tracks.size(), TrackTest::strict);
   const Verdict verdict =
-      judge(hanging.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, hanging.counts);
+      judge(hanging.problem, frame, options, {&left, right, 0.5}, Uncertified::passes, tests, hanging.counts);
   EXPECT_NE(verdict.kind, Kind::no_equilibrium);
 }
 

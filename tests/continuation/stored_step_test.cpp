@@ -48,12 +48,18 @@ TEST(StoredStep, WithoutACertificateIsNotCertified) {
   for (const DenseBlock& block : lines.stored({}).blocks) EXPECT_FALSE(block.certified);
 }
 
+/// Strict tests of so many tracks.
+std::vector<TrackTest> strict(std::size_t count) {
+  return std::vector<TrackTest>(count, TrackTest::strict);
+}
+
 TEST(Certify, ClosesOnASmoothStep) {
   Lines lines;
   RunCounts counts;
-  EXPECT_EQ(certify(lines.planted.family.problem(), lines.step, false, counts),
+  std::vector<TrackTest> tests = strict(2);
+  EXPECT_EQ(certify(lines.planted.family.problem(), lines.step, false, tests, counts),
             (std::vector<bool>{true, true}));
-  EXPECT_GT(counts.certificate_factorizations, 0U);
+  EXPECT_GT(counts.certificate_bases + counts.certificate_factorizations, 0U);
 }
 
 /// Two single modes exchanged on the right end: no tube leads from one to the other. Behind the first that
@@ -64,8 +70,25 @@ TEST(Certify, DoesNotCloseBetweenDifferentModes) {
   Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
   std::swap(step.right.tracks[0], step.right.tracks[1]);
   RunCounts counts;
-  EXPECT_EQ(certify(planted.family.problem(), step, true, counts), (std::vector<bool>{false, false, true}));
-  EXPECT_EQ(certify(planted.family.problem(), step, false, counts), (std::vector<bool>{false, false, false}));
+  std::vector<TrackTest> tests = strict(3);
+  EXPECT_EQ(certify(planted.family.problem(), step, true, tests, counts),
+            (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts),
+            (std::vector<bool>{false, false, false}));
+}
+
+/// The same where the first two may pass by their shapes: the third is tested all the same.
+TEST(Certify, GoesOnBehindATrackThatMayFail) {
+  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
+  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
+  Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
+  std::swap(step.right.tracks[0], step.right.tracks[1]);
+  RunCounts counts;
+  std::vector<TrackTest> tests{TrackTest::lenient, TrackTest::lenient, TrackTest::strict};
+  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts),
+            (std::vector<bool>{false, false, true}));
+  tests.assign(3, TrackTest::none);
+  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts), std::vector<bool>(3, false));
 }
 
 TEST(Certify, DoesNotDependOnTheNumberOfThreads) {
@@ -78,7 +101,8 @@ TEST(Certify, DoesNotDependOnTheNumberOfThreads) {
     PathProblem problem = planted.family.problem();
     problem.threads = threads;
     RunCounts counts;
-    EXPECT_EQ(certify(problem, step, false, counts), (std::vector<bool>{true, false, false}));
+    std::vector<TrackTest> tests = strict(3);
+    EXPECT_EQ(certify(problem, step, false, tests, counts), (std::vector<bool>{true, false, false}));
     work.push_back(counts.certificate_factorizations);
   }
   EXPECT_EQ(work[0], work[1]);

@@ -7,9 +7,10 @@
 //     Y >= |B F(U)|,     Z1 >= |I - B J|,     Z2 >= |B F''|
 //
 // are evaluated at sample points of the piece. If some r > 0 satisfies Y + Z1 r + Z2 r^2/2 <= r, exactly one
-// pair lies within r of U(t), on the whole piece. This neighbourhood of U(t) is called the tube, and the
-// tube closes if there is such an r. Pieces on which it does not close are halved. If it closes on all
-// pieces, no other pair can have been exchanged with this one.
+// pair lies within r of U(t), on the whole piece. Any norm serves; one that belongs to the piece makes the
+// bounds far smaller where eigenvalues are sensitive (adapted_norm.hpp, modal_bounds.hpp). This neighbourhood
+// of U(t) is called the tube, and the tube closes if there is such an r. Pieces on which it does not close
+// are halved. If it closes on all pieces, no other pair can have been exchanged with this one.
 //
 // The bounds are sampled, and norms are estimated by power iteration. The result is evidence, not a proof by
 // interval arithmetic.
@@ -66,7 +67,9 @@ class StepPencil {
 /// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.
 /// `gap` is the distance to the nearest other known eigenvalue. It scales Lambda against Z in the norm of the
 /// unknowns (vec Z, vec Lambda / scale), scale = gap / 2 within limits. Factorizations are added to `counts`.
+/// `gave_up`, if given, is set to whether the tube was not followed to the end because it takes too much
+/// work.
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
-                  RunCounts& counts);
+                  RunCounts& counts, bool* gave_up = nullptr);
 
 }  // namespace eigentrail

@@ -74,10 +74,10 @@ struct RunCounts {
   std::uint64_t spectra = 0;                     ///< full spectra by QZ
   std::uint64_t event_factorizations = 0;        ///< as ModeCounts::factorizations, for locating events
   std::uint64_t certificate_factorizations = 0;  ///< complex LU; n + k each, or n k + k^2 for small blocks
-  std::uint64_t certificate_bases = 0;           ///< inverses of size 2n, each for all modes at once
-  double certificate_work = 0.0;     ///< multiplications for the certificates of tracks one by one
-  double certificate_in_vain = 0.0;  ///< those of them for tracks that were not certified
-  double equilibrium_seconds = 0.0;  ///< solve and linearize
+  std::uint64_t certificate_bases = 0;  ///< inverses of size 2n, each for all modes of a part at once
+  double certificate_work = 0.0;        ///< multiplications for the certificate, about
+  double certificate_in_vain = 0.0;     ///< those of them for tracks that were not certified
+  double equilibrium_seconds = 0.0;     ///< solve and linearize
   double reduction_seconds = 0.0;
   double modes_seconds = 0.0;
   double differentiation_seconds = 0.0;

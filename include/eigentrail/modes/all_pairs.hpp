@@ -53,6 +53,9 @@ class ModalBasis {
   /// rows from N on to the conjugates of the complex columns, in the same order.
   ComplexMatrix coordinates(const ComplexMatrix& R) const;
 
+  /// To be called before `solve`, with the pairs of the basis.
+  void prepare_division(const PairSet& pairs);
+
   /// Changes dZ (n x N) and dLambda (blocks as in PairSet) of all pairs. They change the residuals of the
   /// pairs by R (n x N) and their normalizations by N (blocks as in PairSet), to first order.
   void solve(const PairSet& pairs, const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
@@ -78,7 +81,6 @@ class ModalBasis {
     Eigen::Index row, column, rows, columns;
     ComplexMatrix inverse;
   };
-  void prepare_division(const PairSet& pairs);
   void divide(ComplexMatrix& G) const;
   /// Z U for modal coordinates U, with the conjugates.
   ComplexMatrix vectors(const ComplexMatrix& U) const;

@@ -349,8 +349,12 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
 
 double CriteriaOnStep::rounding(std::size_t member, double t) {
   if (track_.size() == 1) return 0.0;
-  const Vector of_functions = rounding_margin * function_rounding(track_.pair.Lambda);
-  return root_errors(roots_.functions()(t), roots_(t), of_functions)[static_cast<Eigen::Index>(member)];
+  if (t != rounding_at_) {
+    const Vector of_functions = rounding_margin * function_rounding(track_.pair.Lambda);
+    roundings_ = root_errors(roots_.functions()(t), roots_(t), of_functions);
+    rounding_at_ = t;
+  }
+  return roundings_[static_cast<Eigen::Index>(member)];
 }
 
 double axis_width(const CriterionThresholds& thresholds, const Track& track) {

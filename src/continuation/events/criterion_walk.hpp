@@ -2,6 +2,8 @@
 // of the path and the mode are computed anew at every iterate.
 #pragma once
 
+#include <cmath>
+
 #include "continuation/events/event_search.hpp"
 #include "continuation/step/step.hpp"
 #include "continuation/tracks/strands.hpp"
@@ -54,7 +56,9 @@ class CriteriaOnStep {
   const Track& track_;
   StrandSampler roots_;
   const HermiteInterpolant& excitation_;
-  double departing_ = 0.0;  ///< where the eigenvalues can be distinguished, in steps; may be negative
+  double rounding_at_ = NAN;  ///< place of `roundings_`
+  Vector roundings_;          ///< those of all members there
+  double departing_ = 0.0;    ///< where the eigenvalues can be distinguished, in steps; may be negative
   double begin_ = 0.0;
 };
 

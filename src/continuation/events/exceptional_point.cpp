@@ -26,50 +26,86 @@ constexpr double growth = 1.6;
 /// one, and of what it moved.
 constexpr double certain = 0.2;
 
-/// A matrix series and its derivatives at a complex place.
-struct Jet {
-  ComplexMatrix value, slope, curvature;
-};
+/// A matrix series at a complex place. Its derivatives are formed only of the vectors that they are applied
+/// to.
+class SeriesAt {
+ public:
+  SeriesAt(const MatrixSeries& series, Complex h) : series_(series), h_(h) {}
 
-Jet jet_of(const MatrixSeries& series, Complex h) {
-  const Eigen::Index n = series[0].rows();
-  Jet jet{ComplexMatrix::Zero(n, n), ComplexMatrix::Zero(n, n), ComplexMatrix::Zero(n, n)};
-  for (std::size_t k = series.size(); k-- > 0;) {
-    jet.curvature = h * jet.curvature + 2.0 * jet.slope;
-    jet.slope = h * jet.slope + jet.value;
-    jet.value = h * jet.value;
-    jet.value += series[k].cast<Complex>();
+  /// Adds `factor` times the matrix.
+  void add_to(Complex factor, Matrix& real, Matrix& imag) const {
+    for (const Matrix& coefficient : series_) {
+      if (!coefficient.isZero(0.0)) {
+        real += factor.real() * coefficient;
+        imag += factor.imag() * coefficient;
+      }
+      factor *= h_;
+    }
   }
-  return jet;
-}
+
+  /// The products of the matrix and of its derivatives with vectors.
+  struct Jet {
+    ComplexMatrix value, slope, curvature;
+  };
+  Jet times(const ComplexMatrix& v) const {
+    const ComplexMatrix none = ComplexMatrix::Zero(v.rows(), v.cols());
+    Jet jet{none, none, none};
+    for (std::size_t k = series_.size(); k-- > 0;) {
+      jet.curvature = h_ * jet.curvature + 2.0 * jet.slope;
+      jet.slope = h_ * jet.slope + jet.value;
+      jet.value = h_ * jet.value;
+      if (!series_[k].isZero(0.0)) jet.value += multiply(series_[k], v);
+    }
+    return jet;
+  }
+
+ private:
+  const MatrixSeries& series_;
+  Complex h_;
+};
 
 /// P(mu, h) = mu^2 A + mu B + C with its derivatives.
 class PencilAt {
  public:
   PencilAt(const ReducedPencil& pencil, Chart chart, Complex h)
-      : second_(jet_of(chart == Chart::finite ? pencil.M : pencil.K, h)),
-        first_(jet_of(pencil.C, h)),
-        zeroth_(jet_of(chart == Chart::finite ? pencil.K : pencil.M, h)) {}
+      : second_(chart == Chart::finite ? pencil.M : pencil.K, h),
+        first_(pencil.C, h),
+        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h) {}
 
-  ComplexMatrix value(Complex mu) const {
-    return mu * mu * second_.value + mu * first_.value + zeroth_.value;
+  /// Writes P into a block.
+  void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const {
+    Matrix real = Matrix::Zero(block.rows(), block.cols()), imag = real;
+    second_.add_to(mu * mu, real, imag);
+    first_.add_to(mu, real, imag);
+    zeroth_.add_to(1.0, real, imag);
+    block.real() = real;
+    block.imag() = imag;
   }
-  ComplexMatrix by_mu(Complex mu, const ComplexMatrix& v) const {
-    return 2.0 * mu * (second_.value * v) + first_.value * v;
-  }
-  ComplexMatrix by_mu_twice(const ComplexMatrix& v) const { return 2.0 * (second_.value * v); }
-  ComplexMatrix by_h(Complex mu, const ComplexMatrix& v) const {
-    return mu * mu * (second_.slope * v) + mu * (first_.slope * v) + zeroth_.slope * v;
-  }
-  ComplexMatrix by_h_twice(Complex mu, const ComplexMatrix& v) const {
-    return mu * mu * (second_.curvature * v) + mu * (first_.curvature * v) + zeroth_.curvature * v;
-  }
-  ComplexMatrix by_both(Complex mu, const ComplexMatrix& v) const {
-    return 2.0 * mu * (second_.slope * v) + first_.slope * v;
-  }
+
+  /// The products of derivatives of P with vectors.
+  class Products {
+   public:
+    Products(const PencilAt& pencil, Complex mu, const ComplexMatrix& v)
+        : mu_(mu),
+          second_(pencil.second_.times(v)),
+          first_(pencil.first_.times(v)),
+          zeroth_(pencil.zeroth_.times(v)) {}
+
+    ComplexMatrix by_mu() const { return 2.0 * mu_ * second_.value + first_.value; }
+    ComplexMatrix by_mu_twice() const { return 2.0 * second_.value; }
+    ComplexMatrix by_h() const { return mu_ * mu_ * second_.slope + mu_ * first_.slope + zeroth_.slope; }
+    ComplexMatrix by_h_twice() const {
+      return mu_ * mu_ * second_.curvature + mu_ * first_.curvature + zeroth_.curvature;
+    }
+    ComplexMatrix by_both() const { return 2.0 * mu_ * second_.slope + first_.slope; }
+
+   private:
+    Complex mu_;
+    SeriesAt::Jet second_, first_, zeroth_;
+  };
 
  private:
-  Jet second_, first_, zeroth_;
+  SeriesAt second_, first_, zeroth_;
 };
 
 using TwoByTwo = Eigen::Matrix2cd;
@@ -103,12 +139,15 @@ class Bordered {
   struct Values {
     Complex f, mu, h, mumu, muh, hh;
   };
-  enum class Derivatives { first, second };
+  enum class Derivatives { none, first, second_by_mu, second };
 
   Values at(const PencilAt& pencil, Complex mu, Derivatives wanted = Derivatives::second) {
     const Eigen::Index n = b_.rows();
     ComplexMatrix B(n + 2, n + 2);
-    B << pencil.value(mu), b_, c_.adjoint(), ComplexMatrix::Zero(2, 2);
+    pencil.write(mu, B.topLeftCorner(n, n));
+    B.topRightCorner(n, 2) = b_;
+    B.bottomLeftCorner(2, n) = c_.adjoint();
+    B.bottomRightCorner(2, 2).setZero();
     const ComplexLu lu(std::move(B));
     v_.resize(n, 2);
     ComplexMatrix w(n, 2);
@@ -120,19 +159,8 @@ class Bordered {
       G_.col(k) = right.tail(2);
       w.col(k) = left.head(n);
     }
-    const ComplexMatrix P_mu = pencil.by_mu(mu, v_), P_h = pencil.by_h(mu, v_);
-    const TwoByTwo G_mu = -w.adjoint() * P_mu, G_h = -w.adjoint() * P_h;
-    Values values{G_.determinant(), slope_of(G_, G_mu), slope_of(G_, G_h), 0.0, 0.0, 0.0};
-    if (wanted == Derivatives::second) {
-      const ComplexMatrix v_mu = change(lu, P_mu), v_h = change(lu, P_h);
-      const auto second = [&](const ComplexMatrix& P_xy, const ComplexMatrix& there) {
-        return TwoByTwo(-w.adjoint() * (P_xy + there));
-      };
-      values.mumu = mixed(G_, G_mu, G_mu, second(pencil.by_mu_twice(v_), 2.0 * pencil.by_mu(mu, v_mu)));
-      values.muh =
-          mixed(G_, G_mu, G_h, second(pencil.by_both(mu, v_), pencil.by_mu(mu, v_h) + pencil.by_h(mu, v_mu)));
-      values.hh = mixed(G_, G_h, G_h, second(pencil.by_h_twice(mu, v_), 2.0 * pencil.by_h(mu, v_h)));
-    }
+    Values values{G_.determinant(), 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (wanted != Derivatives::none) differentiate(pencil, mu, lu, w, wanted, values);
     if (v_.allFinite() && w.allFinite()) {
       c_ = orthonormal(v_);
       b_ = orthonormal(w);
@@ -149,6 +177,25 @@ class Bordered {
  private:
   static ComplexMatrix orthonormal(const ComplexMatrix& columns) {
     return columns.householderQr().householderQ() * ComplexMatrix::Identity(columns.rows(), columns.cols());
+  }
+
+  void differentiate(const PencilAt& pencil, Complex mu, const ComplexLu& lu, const ComplexMatrix& w,
+                     Derivatives wanted, Values& values) const {
+    const PencilAt::Products P(pencil, mu, v_);
+    const ComplexMatrix P_mu = P.by_mu(), P_h = P.by_h();
+    const TwoByTwo G_mu = -w.adjoint() * P_mu, G_h = -w.adjoint() * P_h;
+    values.mu = slope_of(G_, G_mu);
+    values.h = slope_of(G_, G_h);
+    if (wanted == Derivatives::first) return;
+    const auto second = [&](const ComplexMatrix& P_xy, const ComplexMatrix& there) {
+      return TwoByTwo(-w.adjoint() * (P_xy + there));
+    };
+    const PencilAt::Products of_mu(pencil, mu, change(lu, P_mu));
+    values.mumu = mixed(G_, G_mu, G_mu, second(P.by_mu_twice(), 2.0 * of_mu.by_mu()));
+    if (wanted == Derivatives::second_by_mu) return;
+    const PencilAt::Products of_h(pencil, mu, change(lu, P_h));
+    values.muh = mixed(G_, G_mu, G_h, second(P.by_both(), of_h.by_mu() + of_mu.by_h()));
+    values.hh = mixed(G_, G_h, G_h, second(P.by_h_twice(), 2.0 * of_h.by_h()));
   }
 
   /// The derivative of v by x from P_x v.
@@ -191,10 +238,10 @@ Complex between_eigenvalues(const PencilAt& pencil, Complex mu, Bordered& border
   constexpr int rounds = 10;       // f is a parabola in mu once the borders belong to the two
   constexpr double enough = 1e-9;  // relative: the last move. What is left, Newton's method for both corrects
   constexpr double farthest = 0.2;  // of mu, from the start: beyond that it is between others
-  bordered.at(pencil, mu);          // with borders that belong to nothing yet
+  bordered.at(pencil, mu, Bordered::Derivatives::none);  // with borders that belong to nothing yet
   const Complex start = mu;
   for (int i = 0; i < rounds; ++i) {
-    const auto f = bordered.at(pencil, mu);
+    const auto f = bordered.at(pencil, mu, Bordered::Derivatives::second_by_mu);
     const Complex move = -f.mu / f.mumu;
     if (!is_finite(move) || std::abs(mu + move - start) > farthest * std::abs(start)) return start;
     mu += move;
@@ -257,7 +304,7 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
     std::array<Complex, 2> slope_there{};
     for (std::size_t k = 0; k < 2; ++k) {
       const Complex predicted = before[k] + (next - share) * slope[k];
-      bordered[k].at(here, predicted, Bordered::Derivatives::first);
+      bordered[k].at(here, predicted, Bordered::Derivatives::none);
       const auto root = root_at(here, predicted, certain * std::abs(before[0] - before[1]), bordered[k]);
       if (!root) {
         mu = before;
@@ -298,7 +345,7 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
     bool followed = true;
     for (std::size_t k = 0; k < 2 && followed; ++k) {
       const double other = std::abs(mu[0] - mu[1]);
-      bordered[k].at(here, mu[k], Bordered::Derivatives::first);
+      bordered[k].at(here, mu[k], Bordered::Derivatives::none);
       const auto root = root_at(here, mu[k], (at_start ? 0.5 : certain) * other, bordered[k]);
       followed = root.has_value();
       if (followed) found[k] = *root;

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "continuation/step/adapted_norm.hpp"
 #include "continuation/step/jacobian_change.hpp"
 #include "continuation/step/shared_basis.hpp"
-#include "core/matrix_series.hpp"
 #include "core/products.hpp"
-#include "eigentrail/continuation/dense_output.hpp"
 
 namespace eigentrail {
 namespace {
@@ -24,14 +23,22 @@ constexpr double falling = 0.75;
 /// makes up for the rest.
 constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
+/// Directions that are stretched so that the norm of B A becomes less than 1. More cost more, and close more
+/// pieces of sensitive eigenvalues.
+constexpr int most_stretches = 3;
+/// A direction counts as mapped to at least this share of the norm, which bounds its stretch.
+constexpr double least_share = 1e-4;
 /// Factor on a norm estimate. With a larger value fewer steps are certified, with a smaller one the bounds
 /// may be too small and the evidence weaker.
 constexpr double norm_safety = 1.2;
 /// Factor on Z2, which is evaluated at the middle of a piece only and may be larger beside it.
 constexpr double curvature_safety = 1.5;
-/// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
-constexpr std::size_t most_samples = 64;
+/// Factor on an estimate of Z2 from a single vector.
+constexpr double rough_safety = 30.0;
 
+/// Multiplications for one tube, about 0.05 s: a large model has few halvings. With a larger value few tubes
+/// use up what the certificate may cost of all.
+constexpr double most_work = 4e7;
 /// Solutions with each factorization, about: only the budget of the certificate depends on it.
 constexpr double solutions = 30.0;
 
@@ -107,7 +114,12 @@ class Tube {
     fix_basis(W_, right_Z_, right_Lambda_);
   }
 
-  bool closes() { return closes(0.0, 1.0, 0, INFINITY); }
+  bool closes() {
+    before_ = counts_.certificate_work;
+    return closes(0.0, 1.0, 0, INFINITY);
+  }
+  /// Whether it would have taken too much work.
+  bool gave_up() const { return gave_up_; }
 
  private:
   /// The interpolated pair and pencil at one value of t.
@@ -156,6 +168,10 @@ class Tube {
     double Z1 = 0.0;
     if (piece_closes(begin, middle, end, Z1)) return true;
     if (depth == max_depth || (Z1 >= 1.0 && Z1 > falling * last)) return false;
+    if (counts_.certificate_work - before_ > most_work) {
+      gave_up_ = true;
+      return false;
+    }
     return closes(begin, middle, depth + 1, Z1) && closes(middle, end, depth + 1, Z1);
   }
 
@@ -186,26 +202,59 @@ class Tube {
   }
 
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
-  /// Y + Z1 r + Z2 r^2/2 <= r.
+  /// Y + Z1 r + Z2 r^2/2 <= r. Z1 is set to that of the begin, in the plain norm.
   template <class Inverse>
   bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
                     double& Z1) const {
-    double Y = 0.0;
-    const auto has_finite_defect = [&](const State& s) {
-      const double size = size_of_solved(B, residual(s));
-      Y = std::max(Y, size);
-      return std::isfinite(size);
-    };
-    if (!has_finite_defect(centre)) return false;
+    AdaptedNorm norm;
+    double largest = 0.0;
+    double Y = size_of_solved(B, residual(centre), norm);
+    if (!std::isfinite(Y)) return false;
     ComplexVector direction = start_vector(centre.Z.size() + centre.Lambda.size());
     for (const auto& [t, iterations] : samples) {
       const State s = state(t);
-      Z1 = std::max(Z1, norm_of_solved(B, B.change_to(s.place()), iterations, direction));
-      if (!(Z1 < 1.0) || !has_finite_defect(s)) return false;
+      const auto change = B.change_to(s.place());
+      double size = norm_of_solved(B, change, iterations, norm, direction);
+      if (t == samples.front().t) {
+        Z1 = size;
+        if (size >= 1.0) adapt(B, change, norm, size, direction);
+      }
+      largest = std::max(largest, size);
+      if (!(largest < 1.0)) return false;
+      Y = std::max(Y, size_of_solved(B, residual(s), norm));
     }
-    const double Z2 = curvature_safety * curvature(centre, B);
-    const double room = 1.0 - Z1;
-    return room * room > 2.0 * Z2 * Y;
+    const double stretched = norm.largest_factor();
+    if (stretched > 1.0) Y = std::max(Y, size_of_solved(B, residual(centre), norm));
+    const double room = 1.0 - largest;
+    return curvature_is_below(room * room / (2.0 * Y) / (stretched * stretched), centre, B, norm);
+  }
+
+  /// Changes the norm such that |B A| in it, `size`, becomes less than 1, if that is possible by stretching
+  /// few directions. `direction` is that which B A magnifies most.
+  template <class Inverse, class Operator>
+  static void adapt(const Inverse& B, const Operator& A, AdaptedNorm& norm, double& size,
+                    ComplexVector& direction) {
+    for (int i = 0; i < most_stretches && size >= 1.0; ++i) {
+      ComplexVector u = solved(B, A, norm, direction.normalized());
+      const double most = u.norm();
+      u /= most;
+      const double next = std::max(solved(B, A, norm, u).norm(), least_share * most);
+      // What the stretched direction leaves.
+      if (!(norm_safety * std::sqrt(most * next) < 1.0)) return;
+      norm.stretch(u, std::sqrt(most / next));
+      direction = start_vector(u.size());
+      size = norm_of_solved(B, A, power_iterations, norm, direction);
+    }
+  }
+
+  /// S^-1 B A S v, with the S of the norm.
+  template <class Inverse, class Operator>
+  static ComplexVector solved(const Inverse& B, const Operator& A, const AdaptedNorm& norm, ComplexVector v) {
+    norm.apply(v);
+    v = A.times(v);
+    B.apply(v);
+    norm.apply_inverse(v);
+    return v;
   }
 
   /// The ends come first, because they differ most from the middle. The direction that the operator magnifies
@@ -217,17 +266,19 @@ class Tube {
              {0.5 * (middle + end), further_iterations}}};
   }
 
-  /// |B F|.
+  /// |B F|; infinite if it is not a number.
   template <class Inverse>
-  static double size_of_solved(const Inverse& B, ComplexVector F) {
+  static double size_of_solved(const Inverse& B, ComplexVector F, const AdaptedNorm& norm) {
     B.apply(F);
-    return F.norm();
+    norm.apply_inverse(F);
+    const double size = F.norm();
+    return std::isfinite(size) ? size : INFINITY;
   }
 
-  /// Bound of |B F''|. F'' is bilinear in the changes of Z and Lambda; `equations` and `normalization` bound
-  /// its coefficients in both parts of F.
+  /// Whether Z2 >= |B F''|, of changes in the plain norm, is below a limit. F'' is bilinear in the changes of
+  /// Z and Lambda; `equations` and `normalization` bound its coefficients in both parts of F.
   template <class Inverse>
-  double curvature(const State& s, const Inverse& B) const {
+  bool curvature_is_below(double limit, const State& s, const Inverse& B, const AdaptedNorm& norm) const {
     const double mu = s.Lambda.norm();
     const double M = s.pencil.norm_M;
     const double scale = B.scale();
@@ -238,7 +289,13 @@ class Tube {
     weights.entries << Vector::Constant(s.Z.size(), equations),
         Vector::Constant(s.Lambda.size(), normalization);
     ComplexVector direction = start_vector(weights.entries.size());
-    return norm_of_solved(B, weights, power_iterations, direction);
+    // Far below the limit, as nearly always, one solution tells: |A v| is about |A| / sqrt(n) or more.
+    const auto n = static_cast<double>(direction.size());
+    ComplexVector once = weights.times(direction.normalized());
+    B.apply(once);
+    norm.apply_inverse(once);
+    if (rough_safety * std::sqrt(n) * once.norm() < limit) return true;
+    return curvature_safety * norm_of_solved(B, weights, power_iterations, norm, direction, true) < limit;
   }
 
   /// A real diagonal matrix.
@@ -257,117 +314,48 @@ class Tube {
   }
 
   /// Estimate of |B A|, times norm_safety, by power iteration from the direction v, which is overwritten with
-  /// the last one.
+  /// the last one. `from_plain`: A maps from the plain norm.
   template <class Inverse, class Operator>
-  static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, ComplexVector& v) {
-    double norm = 0.0;
+  static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const AdaptedNorm& norm,
+                               ComplexVector& v, bool from_plain = false) {
+    double size = 0.0;
     for (int i = 0; i < iterations; ++i) {
       v.normalize();
+      if (!from_plain) norm.apply(v);
       ComplexVector w = A.times(v);
       B.apply(w);
-      norm = std::max(norm, w.norm());
+      norm.apply_inverse(w);
+      size = std::max(size, w.norm());
+      norm.apply_inverse_adjoint(w);
       B.apply_adjoint(w);
       ComplexVector next = A.adjoint_times(w);
+      if (!from_plain) norm.apply_adjoint(next);
       const double length = next.norm();
-      if (!(length > 0.0)) return norm_safety * norm;
-      norm = std::max(norm, std::sqrt(length));
+      if (!(length > 0.0)) return norm_safety * size;
+      size = std::max(size, std::sqrt(length));
       v = std::move(next);
     }
-    return norm_safety * norm;
+    return norm_safety * size;
   }
 
   const StepPencil& pencil_;
   Chart chart_;
   ComplexMatrix W_, W1_;
   RunCounts& counts_;
+  double before_ = 0.0;  ///< work before this tube
+  bool gave_up_ = false;
   double gap_;
   std::vector<ComplexMatrix> left_Z_, left_Lambda_, right_Z_, right_Lambda_;
 };
 
 }  // namespace
 
-namespace {
-
-/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS.
-MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order) {
-  const auto count = static_cast<std::size_t>(order) + 1;
-  const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
-  return transposed_product(G, BG, std::min(count, BG.size() + G.size() - 1));
-}
-
-}  // namespace
-
-StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length, int part)
-    : left_(left),
-      left_pencil_(left.pencil.of(part)),
-      length_(length),
-      count_(0),
-      right_(right.pencil.of(part)) {
-  for (const ReducedPencil* pencil : {&left_pencil_, &std::as_const(right_)}) {
-    count_ =
-        std::max({count_, static_cast<Eigen::Index>(pencil->M.size()),
-                  static_cast<Eigen::Index>(pencil->C.size()), static_cast<Eigen::Index>(pencil->K.size())});
-  }
-  for (const Track& track : left.tracks) {
-    count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
-  }
-  if (left.basis.is_identity || left.basis.parts) return;  // both have the same basis
-  // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
-  // coordinates of the left point.
-  MatrixSeries overlap;
-  for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
-  if (overlap.size() > 1)
-    overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
-  const TangentBasis change{inverse_series(overlap), false};
-  const int order = static_cast<int>(count_) - 1;
-  if (right.linearization.K[0].is_sparse()) {  // a large model
-    right_ = {congruence(change.T, right.pencil.M, order), congruence(change.T, right.pencil.C, order),
-              congruence(change.T, right.pencil.K, order)};
-    return;
-  }
-  right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
-            project(change, right.pencil.K, order)};
-}
-
-bool StepPencil::has_constant_leading_matrix() const {
-  const bool constant_M = left_pencil_.M.size() == 1 && right_.M.size() == 1;
-  const bool constant_C = left_pencil_.C.size() == 1 && right_.C.size() == 1;
-  return constant_M && (constant_C || state_size(left_pencil_.M[0]) == 2 * left_pencil_.size());
-}
-
-Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
-                               const Vector& weights) const {
-  if (left.size() == 1 && right.size() == 1) return left[0];
-  Matrix sum = Matrix::Zero(left[0].rows(), left[0].cols());
-  for (std::size_t i = 0; i < left.size(); ++i) sum += weights[static_cast<Eigen::Index>(i)] * left[i];
-  for (std::size_t i = 0; i < right.size(); ++i)
-    sum += weights[count_ + static_cast<Eigen::Index>(i)] * right[i];
-  return sum;
-}
-
-std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
-  ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
-  ComplexMatrix right = left;
-  left.topRows(count_).setIdentity();
-  right.bottomRows(count_).setIdentity();
-  Vector weights = HermiteInterpolant(length_, left, right)(t).real();
-  ReducedPencil pencil{{interpolate(left_pencil_.M, right_.M, weights)},
-                       {interpolate(left_pencil_.C, right_.C, weights)},
-                       {interpolate(left_pencil_.K, right_.K, weights)}};
-  return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
-}
-
-std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
-  const std::lock_guard lock(mutex_);
-  const auto known = samples_.find(t);
-  if (known != samples_.end()) return known->second;
-  if (samples_.size() >= most_samples) samples_.clear();
-  return samples_.emplace(t, sample(t)).first->second;
-}
-
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
-                  RunCounts& counts) {
-  return Tube(pencil, left, right, gap, counts).closes();
+                  RunCounts& counts, bool* gave_up) {
+  Tube tube(pencil, left, right, gap, counts);
+  const bool closes = tube.closes();
+  if (gave_up != nullptr) *gave_up = tube.gave_up();
+  return closes;
 }
 
 }  // namespace eigentrail

@@ -1,5 +1,6 @@
 #include "continuation/step/certificate_patience.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace eigentrail {
@@ -21,14 +22,20 @@ constexpr double enough_failures = 2.5;
 constexpr double not_by_error = 1e-2;
 
 /// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
-/// range: about 1 s on a processor of 2020. Beyond, it may take this share of all other work.
-constexpr double free_work = 2.4e9;
+/// range: about 0.5 s on a processor of 2020. Beyond, it may take this share of all other work; a
+/// multiplication of the certificate takes about twice as long, as most are those of single solutions, not of
+/// factorizations.
+constexpr double free_work = 1e9;
 constexpr double free_at_start = 0.1;
-constexpr double share_of_work = 0.5;
+constexpr double share_of_work = 0.25;
 /// The same for what it may take in vain, for tracks that it does not certify: where it seldom closes it is
 /// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
-constexpr double free_in_vain = 1e9;
-constexpr double share_in_vain = 0.25;
+constexpr double free_in_vain = 4e8;
+constexpr double share_in_vain = 0.12;
+/// The work in vain, in multiplications, from which on a track that fails is tested on fewer steps: after one
+/// failure on the next one, then after pauses of 1, 3, 7 ... steps.
+constexpr double noticed_in_vain = 1e8;
+constexpr int most_doublings = 6;
 /// For each factorization, of n^3 / 3 multiplications, the certificate applies the inverse to about this many
 /// vectors, of n^2 each; the corrections of a mode take few.
 constexpr double solutions = 30.0;
@@ -39,27 +46,62 @@ constexpr double spectrum_work = 480.0;
 }  // namespace
 
 Uncertified CertificatePatience::treatment(const PathFrame& frame, double h, double longest, int points,
-                                           bool may_cost) const {
-  if (!may_cost) return Uncertified::is_not_tested;
+                                           CertificateBudget budget) const {
+  if (budget != CertificateBudget::within) return Uncertified::passes_by_shape;
   if (std::abs(h) <= shrunk * longest && may_stay_uncertified(frame, h)) return Uncertified::passes;
   const bool exhausted = all_ > free_attempts + attempts_share * points;
   return exhausted ? Uncertified::passes_by_shape : Uncertified::is_rejected;
 }
 
-bool certificate_may_cost(const RunCounts& counts, Eigen::Index n, double progress) {
+TrackTest CertificatePatience::test_of(std::uint64_t lineage, CertificateBudget budget, bool costly) const {
+  if (budget == CertificateBudget::spent) return TrackTest::none;
+  const auto known = std::find_if(failing_.begin(), failing_.end(),
+                                  [&](const Failing& one) { return one.lineage == lineage; });
+  if (known == failing_.end() || !costly) return TrackTest::strict;
+  return known->pause > 0 || budget == CertificateBudget::spent_in_vain ? TrackTest::none
+                                                                        : TrackTest::lenient;
+}
+
+void CertificatePatience::count_step(const std::vector<std::uint64_t>& lineages,
+                                     const std::vector<TrackTest>& tests,
+                                     const std::vector<bool>& certified) {
+  recent_ *= forgetting;
+  std::vector<Failing> failing;  // tracks that are gone are dropped
+  for (std::size_t i = 0; i < lineages.size() && i < tests.size() && i < certified.size(); ++i) {
+    if (certified[i]) continue;
+    const auto known = std::find_if(failing_.begin(), failing_.end(),
+                                    [&](const Failing& one) { return one.lineage == lineages[i]; });
+    Failing next = known == failing_.end() ? Failing{lineages[i]} : *known;
+    if (tests[i] == TrackTest::none) {
+      if (known == failing_.end()) continue;
+      next.pause = std::max(next.pause - 1, 0);
+    } else {
+      next.pause = (1 << std::min(next.failures, most_doublings)) - 1;
+      ++next.failures;
+    }
+    failing.push_back(next);
+  }
+  failing_ = std::move(failing);
+}
+
+CertificateBudget certificate_budget(const RunCounts& counts, Eigen::Index n, double progress) {
   const auto size = static_cast<double>(n);
   const auto work = [size](std::uint64_t factorizations, double vectors) {
     return static_cast<double>(factorizations) * size * size * (size / 3.0 + vectors);
   };
-  // A basis for all modes has size 2n.
-  const double certificate = counts.certificate_work + work(8 * counts.certificate_bases, solutions);
+  const double certificate = counts.certificate_work;
   const double others = work(counts.modes.factorizations + counts.event_factorizations, solutions_of_mode) +
                         work(8 * counts.modes.modal_bases, solutions_of_mode) +
                         static_cast<double>(counts.spectra) * spectrum_work * size * size * size;
   const double free = free_work * (free_at_start + (1.0 - free_at_start) * progress);
   const double useful = certificate - counts.certificate_in_vain;
-  return certificate <= free + share_of_work * others &&
-         counts.certificate_in_vain <= free_in_vain + share_in_vain * (others + useful);
+  if (certificate > free + share_of_work * others) return CertificateBudget::spent;
+  const bool in_vain = counts.certificate_in_vain > free_in_vain + share_in_vain * (others + useful);
+  return in_vain ? CertificateBudget::spent_in_vain : CertificateBudget::within;
+}
+
+bool is_costly_in_vain(const RunCounts& counts) {
+  return counts.certificate_in_vain > noticed_in_vain;
 }
 
 void CertificatePatience::count_failure() {

@@ -1,26 +1,42 @@
 // How long the certificate may shorten steps: where eigenvalues are very sensitive, no length makes it close.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "continuation/step/step_judgement.hpp"
 
 namespace eigentrail {
+
+/// What the work for the certificate so far leaves.
+enum class CertificateBudget {
+  within,
+  spent_in_vain,  ///< tracks whose certificate failed are not tested again for now
+  spent           ///< nothing is tested for now
+};
 
 class CertificatePatience {
  public:
   /// Visits all members, for saving and restoring the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.recent_, self.all_);
+    visit(self.recent_, self.all_, self.failing_);
   }
 
   /// What becomes of a step of length h whose certificate fails. `longest`: of the last steps. `points`: of
-  /// the trace so far. `may_cost`: whether the work for the certificate so far is within its limits.
-  Uncertified treatment(const PathFrame& frame, double h, double longest, int points, bool may_cost) const;
+  /// the trace so far.
+  Uncertified treatment(const PathFrame& frame, double h, double longest, int points,
+                        CertificateBudget budget) const;
+
+  /// How a track is tested on the next step. `costly`: whether the work in vain so far is noticeable at all;
+  /// else every track is tested on every step.
+  TrackTest test_of(std::uint64_t lineage, CertificateBudget budget, bool costly) const;
 
   /// Call when a step was rejected because its certificate failed.
   void count_failure();
-  /// Call when a step was taken.
-  void count_step() { recent_ *= forgetting; }
+  /// Call when a step was taken, with its tracks, how they were tested and whether they are certified.
+  void count_step(const std::vector<std::uint64_t>& lineages, const std::vector<TrackTest>& tests,
+                  const std::vector<bool>& certified);
 
   /// Whether the certificate has failed so often of late that it is not the length of the step that makes it
   /// fail. `error`: of the step / accepted error.
@@ -30,13 +46,29 @@ class CertificatePatience {
   /// With every step that is taken, earlier failures count less by this factor.
   static constexpr double forgetting = 0.5;
 
+  /// A track that was not certified when it was last tested.
+  struct Failing {
+    std::uint64_t lineage = 0;
+    int failures = 0;  ///< one after the other, on steps that were taken
+    int pause = 0;     ///< steps until the next test
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit(self.lineage, self.failures, self.pause);
+    }
+  };
+
   double recent_ = 0.0;  ///< failures of late
   int all_ = 0;          ///< failures so far
+  std::vector<Failing> failing_;
 };
 
-/// Whether the work for the certificate so far is within its limits: a fixed amount, which small models never
-/// reach, and half of all other work. `n`: freedoms. `progress`: share of the range that the trace has
+/// What is left of the limits of the work for the certificate: a fixed amount, which small models never
+/// reach, and a share of all other work. `n`: freedoms. `progress`: share of the range that the trace has
 /// covered.
-bool certificate_may_cost(const RunCounts& counts, Eigen::Index n, double progress);
+CertificateBudget certificate_budget(const RunCounts& counts, Eigen::Index n, double progress);
+
+/// Whether the work in vain so far is so large that tracks that fail are tested on fewer steps.
+bool is_costly_in_vain(const RunCounts& counts);
 
 }  // namespace eigentrail

@@ -4,72 +4,81 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/step/jacobian_change.hpp"
+#include "continuation/step/inverse_distance.hpp"
+#include "continuation/step/modal_bounds.hpp"
 #include "continuation/step/shared_basis.hpp"
+#include "core/matrix_series.hpp"
 #include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// A step is halved up to this often. Modes that fail then are tested one by one, which halves up to 6 times.
-constexpr int max_depth = 3;
-/// As in certificate.cpp: halving is given up for a mode whose Z1 >= 1 does not decrease to this share.
+/// A step is halved up to this often, as in certificate.cpp.
+constexpr int max_depth = 6;
+/// As in certificate.cpp: halving is given up for a track whose Z1 >= 1 does not decrease to this share.
 constexpr double falling = 0.75;
-/// As in certificate.cpp: factor on Z2, which is evaluated at the middle of a piece only.
-constexpr double curvature_safety = 1.5;
-/// If only this many modes are left uncertified, they are tested one by one: that costs less than another
-/// basis for all. Affects only the time.
-constexpr std::size_t few = 3;
+/// Largest rounding error of modal coordinates: the reciprocal condition of the basis is then 1e-4. In a
+/// worse one vectors are nearly parallel. Each mode can still be told from the others in its own norm, but
+/// not much farther on all of them meet, and a block of some of them no longer converges there. With a larger
+/// value they go on apart for longer, with a smaller one more of them are tested one by one.
+constexpr double most_parallel = 2e-11;
+
+/// Multiplications per piece, in cubes of the size of the basis: one inverse and the products at five places.
+/// Only the budget of the certificate depends on it.
+constexpr double work_of_piece = 6.0;
 
 /// Writes a matrix of one track into the columns of that track.
 void append(const ComplexMatrix& block, const PairSet::Place& place, ComplexMatrix& blocks) {
   blocks.block(0, place.first, block.rows(), block.cols()) = block;
 }
 
-/// Whether the tracks of a point are a basis of the state space, all in the finite chart.
-bool is_basis(const PathNode& node) {
+/// Whether tracks are a basis of the state space of a pencil with the leading matrix M.
+bool are_basis(const std::vector<const Track*>& tracks, const Matrix& M) {
   Eigen::Index columns = 0;
-  for (const Track& track : node.tracks) {
-    if (track.pair.chart != Chart::finite) return false;
-    columns += track.size() * (track.pair.is_real ? 1 : 2);
-  }
-  return columns == state_size(node.pencil.M[0]);
+  for (const Track* track : tracks) columns += track->size() * (track->pair.is_real ? 1 : 2);
+  return columns == state_size(M);
 }
 
-/// The certificates of all tracks on one step.
+/// Series of a track at one end of the step, in the normalization W and in the finite chart.
+PairSeries in_finite_chart(const Track& track, const PathNode& left, const ComplexMatrix& W) {
+  PairSeries series{in_basis_of(left, track.series.Z, track.pair.part), track.series.Lambda};
+  fix_basis(W, series.Z, series.Lambda);
+  if (track.pair.chart == Chart::reciprocal) series.Lambda = inverse_series(series.Lambda);
+  return series;
+}
+
+/// The certificates of all tracks of one part on one step.
 class ModalTube {
  public:
-  ModalTube(const StepPencil& pencil, const PathNode& right, RunCounts& counts)
+  /// `left` and `right` are the tracks of the part, at both ends.
+  ModalTube(const StepPencil& pencil, const std::vector<const Track*>& left,
+            const std::vector<const Track*>& right, RunCounts& counts)
       : pencil_(pencil), counts_(counts) {
-    const std::vector<Track>& tracks = pencil.left().tracks;
     Eigen::Index columns = 0, largest = 1;
-    for (const Track& track : tracks) {
-      places_.push_back({columns, track.size(), track.pair.is_real});
-      columns += track.size();
-      largest = std::max(largest, track.size());
+    for (const Track* track : left) {
+      places_.push_back({columns, track->size(), track->pair.is_real});
+      columns += track->size();
+      largest = std::max(largest, track->size());
     }
-    const std::size_t count = tracks.front().series.Z.size();
-    const Eigen::Index n = tracks.front().pair.Z.rows();
+    const std::size_t count = left.front()->series.Z.size();
+    const Eigen::Index n = left.front()->pair.Z.rows();
     for (auto* ends : {&Z_, &Lambda_})
       ends->assign(2 * count, ComplexMatrix::Zero(ends == &Z_ ? n : largest, columns));
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      std::vector<ComplexMatrix> Z = in_basis_of(pencil.left(), right.tracks[i].series.Z);
-      std::vector<ComplexMatrix> Lambda = right.tracks[i].series.Lambda;
-      fix_basis(tracks[i].pair.W, Z, Lambda);
-      const std::vector<ComplexMatrix> left_Z = in_basis_of(pencil.left(), tracks[i].series.Z);
-      for (std::size_t j = 0; j < count; ++j) {
-        append(left_Z[j], places_[i], Z_[j]);
-        append(tracks[i].series.Lambda[j], places_[i], Lambda_[j]);
-        append(Z[j], places_[i], Z_[count + j]);
-        append(Lambda[j], places_[i], Lambda_[count + j]);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const ComplexMatrix& W = left[i]->pair.W;
+      for (const bool at_end : {false, true}) {
+        const PairSeries series = in_finite_chart(*(at_end ? right : left)[i], pencil.left(), W);
+        for (std::size_t j = 0; j < count; ++j) {
+          append(series.Z[j], places_[i], Z_[at_end ? count + j : j]);
+          append(series.Lambda[j], places_[i], Lambda_[at_end ? count + j : j]);
+        }
       }
     }
   }
 
-  /// Per track, whether its tube closes; blocks of more than one are not tested.
+  /// Per track, whether its tube closes.
   std::vector<bool> closes() {
-    std::vector<bool> wanted(places_.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = places_[i].size == 1;
+    const std::vector<bool> wanted(places_.size(), true);
     std::vector<bool> closed = wanted;
     close(0.0, 1.0, 0, wanted, std::vector<double>(wanted.size(), INFINITY), closed);
     return closed;
@@ -96,79 +105,79 @@ class ModalTube {
              const std::vector<double>& last, std::vector<bool>& closed) {
     const double middle = 0.5 * (begin + end);
     std::vector<double> Z1(wanted.size(), INFINITY);
-    const std::vector<bool> here = piece(begin, middle, end, Z1);
+    const std::vector<bool> here = piece(begin, middle, end, wanted, Z1);
     std::vector<bool> open = wanted;
-    std::size_t left = 0;
+    bool is_done = true;
     for (std::size_t i = 0; i < open.size(); ++i) {
       open[i] = wanted[i] && closed[i] && !here[i];
-      if (open[i] && Z1[i] >= 1.0 && !(Z1[i] <= falling * last[i])) open[i] = closed[i] = false;
-      left += open[i] ? 1 : 0;
+      // Z1 decreases at best in proportion to the length of the piece.
+      const bool is_hopeless = !(Z1[i] < std::exp2(max_depth - depth)) ||
+                               (Z1[i] >= 1.0 && !(Z1[i] <= falling * last[i])) || depth == max_depth;
+      if (open[i] && is_hopeless) open[i] = closed[i] = false;
+      is_done = is_done && !open[i];
     }
-    if (left == 0) return;
-    if (depth == max_depth || left <= few) {
-      for (std::size_t i = 0; i < open.size(); ++i) closed[i] = closed[i] && !open[i];
-      return;
-    }
+    if (is_done) return;
     close(begin, middle, depth + 1, open, Z1, closed);
     close(middle, end, depth + 1, open, Z1, closed);
   }
 
-  /// Per track, whether its tube closes on one piece, without halving. Sets Z1.
-  std::vector<bool> piece(double begin, double middle, double end, std::vector<double>& Z1) {
+  /// Per track in `wanted`, whether its tube closes on one piece, without halving. Sets Z1.
+  std::vector<bool> piece(double begin, double middle, double end, const std::vector<bool>& wanted,
+                          std::vector<double>& Z1) {
     std::vector<bool> result(places_.size(), false);
     const Sampled centre = sampled_at(middle, nullptr);
-    const PairSet& set = centre.set;
-    const auto basis = ModalBasis::from(centre.sample->at, set);
-    ++counts_.certificate_bases;
-    if (!basis) return result;
-    const Matrix weights = distances(*basis, set).cwiseInverse();
-    Vector Y = defect(*basis, centre, weights);
-    Z1.assign(places_.size(), 0.0);
-    for (const double t : {begin, 0.5 * (begin + middle), 0.5 * (middle + end), end}) {
+    const auto basis = ModalBasis::from(centre.sample->at, centre.set);
+    count(static_cast<double>(state_size(centre.sample->at.M)));
+    if (!basis || basis->rounding() > most_parallel) return result;
+    std::vector<ModalSample> samples;
+    for (const double t : {begin, end, 0.5 * (begin + middle), middle, 0.5 * (middle + end)}) {
       const Sampled there = sampled_at(t, centre.sample.get());
-      Y = Y.cwiseMax(defect(*basis, there, weights));
-      const Vector bounds = change(*basis, there, set, weights);
-      for (std::size_t i = 0; i < Z1.size(); ++i) Z1[i] = std::max(Z1[i], bounds[places_[i].first]);
+      samples.push_back({-modal_residual(*basis, there, centre.set), modal_residual(*basis, there, there.set),
+                         there.set.Lambda - centre.set.Lambda});
     }
+    Vector sizes(static_cast<Eigen::Index>(places_.size()));
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      sizes[static_cast<Eigen::Index>(i)] = centre.set.block(centre.set.Lambda, places_[i]).norm();
+    const ModalPlaces places(places_, *basis);
+    const Matrix distances = inverse_distances(*basis, centre.set, wanted);
+    const ModalBounds bounds(places, samples, distances, sizes);
     for (std::size_t i = 0; i < result.size(); ++i) {
-      const Eigen::Index b = places_[i].first;
-      const double Z2 = curvature_safety * 2.0 * scale(weights, set, b) * weights.col(b).maxCoeff();
-      const double room = 1.0 - Z1[i];
-      result[i] = places_[i].size == 1 && Z1[i] < 1.0 && room * room > 2.0 * Z2 * Y[b];
+      if (!wanted[i]) continue;
+      const ModalBounds::Result of_track = bounds.of_track(i);
+      result[i] = of_track.closes;
+      Z1[i] = of_track.Z1;
     }
     return result;
   }
 
-  /// Distances |s_b - s_a| of the single mode in column b from the mode in row a; infinite for a = b. If a
-  /// belongs to a block, 1 / |(Lambda_a - s_b I)^-1|.
-  Matrix distances(const ModalBasis& basis, const PairSet& set) const {
-    Matrix d = Matrix::Constant(basis.size(), set.Z.cols(), INFINITY);
-    for (const PairSet::Place& b : places_) {
-      if (b.size > 1) continue;
-      const Complex s = set.Lambda(0, b.first);
-      for (const PairSet::Place& a : places_) {
-        const bool itself = a.first == b.first;
-        if (a.size == 1) {
-          const Complex other = set.Lambda(0, a.first);
-          if (!itself) d(a.first, b.first) = std::abs(s - other);
-          if (!a.is_real) d(basis.conjugate_row(a.first), b.first) = std::abs(s - std::conj(other));
-          continue;
-        }
-        const ComplexMatrix L = set.block(set.Lambda, a);
-        const ComplexMatrix I = ComplexMatrix::Identity(a.size, a.size);
-        const auto fill = [&](Eigen::Index row, const ComplexMatrix& block) {
-          d.col(b.first).segment(row, a.size).setConstant(1.0 / (block - s * I).inverse().norm());
-        };
-        fill(a.first, L);
-        if (!a.is_real) fill(basis.conjugate_row(a.first), L.conjugate());
-      }
-    }
-    return d;
+  void count(double size) {
+    ++counts_.certificate_bases;
+    counts_.certificate_work += work_of_piece * size * size * size;
   }
 
-  /// `scale` of the unknowns (vec Z, s / scale) of a mode, about half the distance to the nearest other one.
-  static double scale(const Matrix& weights, const PairSet& set, Eigen::Index b) {
-    return unknown_scale(1.0 / weights.col(b).maxCoeff(), std::abs(set.Lambda(0, b)));
+  /// Norms of the inverses of X -> D_a X - X Lambda_b, for every row of the coordinates, which belongs to a
+  /// pair a or to its conjugate, and every track b in `wanted`: 1 / |s_a - s_b| of two single modes. Zero for
+  /// a = b.
+  Matrix inverse_distances(const ModalBasis& basis, const PairSet& set,
+                           const std::vector<bool>& wanted) const {
+    Matrix inverse = Matrix::Zero(basis.size(), static_cast<Eigen::Index>(places_.size()));
+    std::vector<ComplexMatrix> T, conjugate;
+    for (const PairSet::Place& place : places_) {
+      T.push_back(triangular_form(set.block(set.Lambda, place)));
+      conjugate.push_back(T.back().conjugate());
+    }
+    for (std::size_t b = 0; b < places_.size(); ++b) {
+      if (!wanted[b]) continue;
+      auto column = inverse.col(static_cast<Eigen::Index>(b));
+      for (std::size_t a = 0; a < places_.size(); ++a) {
+        const PairSet::Place& place = places_[a];
+        if (a != b) column.segment(place.first, place.size).setConstant(inverse_distance(T[a], T[b]));
+        if (place.is_real) continue;
+        column.segment(basis.conjugate_row(place.first), place.size)
+            .setConstant(inverse_distance(conjugate[a], T[b]));
+      }
+    }
+    return inverse;
   }
 
   /// The interpolated pencil and pairs at a sample point.
@@ -194,59 +203,6 @@ class ModalTube {
     return basis.coordinates(place.from_leading.size() == 0 ? R : multiply_many(place.from_leading, R));
   }
 
-  /// Y of every mode.
-  static Vector defect(const ModalBasis& basis, const Sampled& there, const Matrix& weights) {
-    const PairSet& moved = there.set;
-    const ComplexMatrix F = modal_residual(basis, there, moved);
-    Vector Y(F.cols());
-    for (Eigen::Index b = 0; b < F.cols(); ++b) {
-      const double kappa = scale(weights, moved, b);
-      const double others = weights.col(b).cwiseAbs2().dot(F.col(b).cwiseAbs2());
-      Y[b] = std::sqrt(others + std::norm(F(b, b)) / (kappa * kappa));
-    }
-    return Y;
-  }
-
-  /// Z1 of every mode. The Jacobian at a sample differs from that at the middle by E(t), by the change of the
-  /// eigenvalue, and by the change of the vector.
-  Vector change(const ModalBasis& basis, const Sampled& there, const PairSet& set,
-                const Matrix& weights) const {
-    const PairSet& moved = there.set;
-    // -E(t), without the columns of the conjugates.
-    const ComplexMatrix E = modal_residual(basis, there, set);
-    const Eigen::Index columns = E.cols();
-    const Vector own = E.rowwise().squaredNorm();
-    Vector paired = Vector::Zero(E.rows());  // the same over the columns that have conjugates
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      if (basis.conjugate_row(c) >= 0) paired += E.col(c).cwiseAbs2();
-    }
-    // In a row, the columns of the conjugates hold the conjugates of the entries in the conjugate row.
-    Vector rows = own + paired;
-    ComplexVector diagonal(E.rows());
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      const Eigen::Index conjugate = basis.conjugate_row(c);
-      diagonal[c] = -E(c, c);
-      if (conjugate < 0) continue;
-      rows[c] = own[c] + paired[conjugate];
-      rows[conjugate] = own[conjugate] + paired[c];
-      diagonal[conjugate] = -std::conj(E(c, c));
-    }
-    Vector Z1 = Vector::Constant(columns, INFINITY);
-    for (const PairSet::Place& place : places_) {
-      if (place.size > 1) continue;
-      const Eigen::Index b = place.first;
-      const double kappa = scale(weights, moved, b);
-      const Complex shift = moved.Lambda(0, b) - set.Lambda(0, b);
-      const auto w2 = weights.col(b).array().square();
-      const auto coupling = E.col(b).cwiseAbs2().array();
-      const auto entries = rows.array() - coupling - diagonal.array().abs2() +
-                           (diagonal.array() - shift).abs2() + kappa * kappa * w2 * coupling;
-      const double others = (w2 > 0.0).select(w2 * entries.max(0.0), 0.0).sum();
-      Z1[b] = std::sqrt(others + (rows[b] - std::norm(E(b, b))) / (kappa * kappa));
-    }
-    return Z1;
-  }
-
   const StepPencil& pencil_;
   RunCounts& counts_;
   std::vector<PairSet::Place> places_;
@@ -255,9 +211,21 @@ class ModalTube {
 
 }  // namespace
 
-std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, RunCounts& counts) {
-  if (!is_basis(pencil.left())) return std::vector<bool>(right.tracks.size(), false);
-  return ModalTube(pencil, right, counts).closes();
+std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, int part, RunCounts& counts) {
+  const std::vector<Track>& tracks = pencil.left().tracks;
+  std::vector<bool> closed(tracks.size(), false);
+  std::vector<std::size_t> own;
+  std::vector<const Track*> at_left, at_right;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks[i].pair.part != part) continue;
+    own.push_back(i);
+    at_left.push_back(&tracks[i]);
+    at_right.push_back(&right.tracks[i]);
+  }
+  if (own.empty() || !are_basis(at_left, pencil.left().pencil.of(part).M[0])) return closed;
+  const std::vector<bool> of_part = ModalTube(pencil, at_left, at_right, counts).closes();
+  for (std::size_t i = 0; i < own.size(); ++i) closed[own[i]] = of_part[i];
+  return closed;
 }
 
 }  // namespace eigentrail

@@ -87,7 +87,7 @@ bool may_stay_uncertified(const PathFrame& frame, double h) {
 }
 
 Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOptions& options,
-              const Step& step, Uncertified uncertified, RunCounts& counts) {
+              const Step& step, Uncertified uncertified, std::vector<TrackTest>& tests, RunCounts& counts) {
   if (Verdict verdict = check_path(problem, frame, step); !verdict.accepted()) return verdict;
   Verdict verdict = judge_error(problem, frame, options.tolerance, step);
   if (!verdict.accepted()) return verdict;
@@ -96,17 +96,23 @@ Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOpt
     if (Verdict distinct = check_distinct(problem, step); !distinct.accepted()) return distinct;
   }
   std::vector<bool> certified(step.right.tracks.size(), false);
-  if (options.certify && uncertified != Uncertified::is_not_tested) {
-    certified = certify(problem, step, uncertified != Uncertified::is_rejected, counts);
-    const auto open = std::find(certified.begin(), certified.end(), false);
-    if (open != certified.end()) {
+  bool by_shape = !options.certify || uncertified == Uncertified::passes_by_shape;
+  if (options.certify) {
+    certified = certify(problem, step, uncertified != Uncertified::is_rejected, tests, counts);
+    for (std::size_t i = 0; i < certified.size(); ++i) {
+      if (certified[i] || verdict.kind == Verdict::Kind::uncertified) continue;
+      if (tests[i] != TrackTest::strict) {
+        by_shape = true;
+        continue;
+      }
       verdict.kind = Verdict::Kind::uncertified;
-      verdict.track = static_cast<int>(open - certified.begin());
+      verdict.track = static_cast<int>(i);
       verdict.reason = "the certificate does not close";
     }
   }
-  if (!options.certify || uncertified == Uncertified::passes_by_shape ||
-      uncertified == Uncertified::is_not_tested) {
+  const bool is_rejected =
+      verdict.kind == Verdict::Kind::uncertified && uncertified == Uncertified::is_rejected;
+  if (by_shape && !is_rejected) {
     const StageTimer timer(counts.matching_seconds);
     if (Verdict shapes = check_shapes(problem, step, certified); !shapes.accepted()) return shapes;
   }

@@ -20,14 +20,21 @@ bool may_stay_uncertified(const PathFrame& frame, double h);
 /// What becomes of a step whose certificate fails.
 enum class Uncertified {
   is_rejected,
-  passes,           ///< because a shorter step would fail as well
-  passes_by_shape,  ///< if the shapes of the modes at both ends resemble each other
-  is_not_tested     ///< as passes_by_shape, without a test: the certificate would cost too much
+  passes,          ///< because a shorter step would fail as well
+  passes_by_shape  ///< if the shapes of the modes at both ends resemble each other
+};
+
+/// How the certificate of a track is tested.
+enum class TrackTest {
+  strict,   ///< if it fails, the step is treated as above
+  lenient,  ///< if it fails, the track passes by its shape: it failed on the last step, too
+  none      ///< the track passes by its shape
 };
 
 /// Judges a step whose points have been computed. A verdict that is accepted or `uncertified` has the error
-/// and the certified tracks; those behind the first that failed are tested only if the step may pass.
+/// and the certified tracks; those behind the first that failed are tested only if the step may pass. `tests`
+/// of tracks that would take too much work become lenient.
 Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOptions& options,
-              const Step& step, Uncertified uncertified, RunCounts& counts);
+              const Step& step, Uncertified uncertified, std::vector<TrackTest>& tests, RunCounts& counts);
 
 }  // namespace eigentrail

@@ -238,11 +238,8 @@ bool TraceLoop::advance() {
     return true;
   const auto if_uncertified = [this](double of_length) {
     const StepMemory& memory = state_.steps;
-    const TraceResult& result = state_.result;
-    const double progress = std::abs(state_.origin.node.p - options_.from) / state_.frame.range.length();
-    return memory.patience.treatment(
-        state_.frame, of_length, memory.longest_step, result.nodes,
-        certificate_may_cost(result.counts, result.n_independent, std::min(progress, 1.0)));
+    return memory.patience.treatment(state_.frame, of_length, memory.longest_step, state_.result.nodes,
+                                     certificate_budget());
   };
   const auto is_taken = [&](const Verdict& verdict, double of_length) {
     return verdict.accepted() || (verdict.kind == Verdict::Kind::uncertified &&
@@ -276,8 +273,18 @@ bool TraceLoop::advance() {
   return commit(std::move(*landed), anew.certified);
 }
 
+CertificateBudget TraceLoop::certificate_budget() const {
+  const double progress = std::abs(state_.origin.node.p - options_.from) / state_.frame.range.length();
+  return eigentrail::certificate_budget(state_.result.counts, state_.result.n_independent,
+                                        std::min(progress, 1.0));
+}
+
 Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
-  return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, state_.result.counts);
+  const bool costly = is_costly_in_vain(state_.result.counts);
+  tests_.clear();
+  for (const Track& track : step.right.tracks)
+    tests_.push_back(state_.steps.patience.test_of(track.lineage, certificate_budget(), costly));
+  return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
 }
 
 bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {
@@ -357,6 +364,9 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
     result.mode_steps += static_cast<long>(block.modes.size());
     if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
   }
+  std::vector<std::uint64_t> lineages;
+  for (const Track& track : step.right.tracks) lineages.push_back(track.lineage);
+  state_.steps.patience.count_step(lineages, tests_, certified);
   for (std::size_t i = 0; i < certified.size(); ++i) {
     if (certified[i]) step.right.tracks[i].unproven = false;
   }
@@ -431,7 +441,6 @@ void TraceLoop::move_on(Step step) {
   memory.longest_step = std::max(std::abs(step.h), forgetting * memory.longest_step);
   memory.joins = 0;
   memory.ended = 0;
-  memory.patience.count_step();
   state_.branches.tries = 0;
   origin.previous = std::move(origin.node);
   origin.node = std::move(step.right);

@@ -55,6 +55,7 @@ class TraceLoop final : private Checkpoint {
   bool emit(const PathNode& node, const PathStep* step);
   bool stop(TraceStatus status, const std::string& message);
   double seconds_so_far() const;
+  CertificateBudget certificate_budget() const;
 
   const TraceOptions& options_;
   const TraceObserver& observer_;
@@ -67,7 +68,8 @@ class TraceLoop final : private Checkpoint {
   std::vector<double> narrow_places_;
   EventLog log_;
   EventSearch search_;
-  double reach_ = 3.0;  ///< see parting_reach; replaced when the order is known
+  std::vector<TrackTest> tests_;  ///< of the tracks of the last step that was judged
+  double reach_ = 3.0;            ///< see parting_reach; replaced when the order is known
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_before_ = 0.0;  ///< wall time of the earlier runs that this one continues
 };

@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include "core/matrix_series.hpp"
+#include "core/products.hpp"
+#include "eigentrail/continuation/certificate.hpp"
+#include "eigentrail/continuation/dense_output.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
+constexpr std::size_t most_samples = 64;
+
+/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS.
+MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order) {
+  const auto count = static_cast<std::size_t>(order) + 1;
+  const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
+  return transposed_product(G, BG, std::min(count, BG.size() + G.size() - 1));
+}
+
+}  // namespace
+
+StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length, int part)
+    : left_(left),
+      left_pencil_(left.pencil.of(part)),
+      length_(length),
+      count_(0),
+      right_(right.pencil.of(part)) {
+  for (const ReducedPencil* pencil : {&left_pencil_, &std::as_const(right_)}) {
+    count_ =
+        std::max({count_, static_cast<Eigen::Index>(pencil->M.size()),
+                  static_cast<Eigen::Index>(pencil->C.size()), static_cast<Eigen::Index>(pencil->K.size())});
+  }
+  for (const Track& track : left.tracks) {
+    count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
+  }
+  if (left.basis.is_identity || left.basis.parts) return;  // both have the same basis
+  // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
+  // coordinates of the left point.
+  MatrixSeries overlap;
+  for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
+  if (overlap.size() > 1)
+    overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
+  const TangentBasis change{inverse_series(overlap), false};
+  const int order = static_cast<int>(count_) - 1;
+  if (right.linearization.K[0].is_sparse()) {  // a large model
+    right_ = {congruence(change.T, right.pencil.M, order), congruence(change.T, right.pencil.C, order),
+              congruence(change.T, right.pencil.K, order)};
+    return;
+  }
+  right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
+            project(change, right.pencil.K, order)};
+}
+
+bool StepPencil::has_constant_leading_matrix() const {
+  const bool constant_M = left_pencil_.M.size() == 1 && right_.M.size() == 1;
+  const bool constant_C = left_pencil_.C.size() == 1 && right_.C.size() == 1;
+  return constant_M && (constant_C || state_size(left_pencil_.M[0]) == 2 * left_pencil_.size());
+}
+
+Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
+                               const Vector& weights) const {
+  if (left.size() == 1 && right.size() == 1) return left[0];
+  Matrix sum = Matrix::Zero(left[0].rows(), left[0].cols());
+  const auto add = [&](const MatrixSeries& series, Eigen::Index first) {
+    const auto weight = [&](std::size_t i) { return weights[first + static_cast<Eigen::Index>(i)]; };
+    std::size_t i = 0;
+    // Three at a time: large matrices are in no cache, and the sum is read and written less often.
+    for (; i + 3 <= series.size(); i += 3)
+      sum += weight(i) * series[i] + weight(i + 1) * series[i + 1] + weight(i + 2) * series[i + 2];
+    for (; i < series.size(); ++i) sum += weight(i) * series[i];
+  };
+  add(left, 0);
+  add(right, count_);
+  return sum;
+}
+
+std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
+  ComplexMatrix left = ComplexMatrix::Zero(2 * count_, count_);
+  ComplexMatrix right = left;
+  left.topRows(count_).setIdentity();
+  right.bottomRows(count_).setIdentity();
+  Vector weights = HermiteInterpolant(length_, left, right)(t).real();
+  ReducedPencil pencil{{interpolate(left_pencil_.M, right_.M, weights)},
+                       {interpolate(left_pencil_.C, right_.C, weights)},
+                       {interpolate(left_pencil_.K, right_.K, weights)}};
+  return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
+}
+
+std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = samples_.find(t);
+  if (known != samples_.end()) return known->second;
+  if (samples_.size() >= most_samples) samples_.clear();
+  return samples_.emplace(t, sample(t)).first->second;
+}
+
+}  // namespace eigentrail
