@@ -51,6 +51,16 @@ TEST(MeetingEvents, GiveTheCollisionWithItsPuiseuxCoefficient) {
   EXPECT_EQ(found.events[0].modes, modes) << "of another parent";
 }
 
+TEST(MarkDoubtful, ClearsTracksWhoseMeetingMayBeOfAnotherKind) {
+  AtCrossing at;
+  mark_doubtful(at.meetings, at.node);
+  EXPECT_TRUE(at.node.tracks[1].told_apart);
+  at.meetings[0].meeting.is_certain = false;
+  mark_doubtful(at.meetings, at.node);
+  EXPECT_TRUE(at.node.tracks[0].told_apart);
+  EXPECT_FALSE(at.node.tracks[1].told_apart);
+}
+
 TEST(CoincidingTracks, AreThoseWithAMeetingOtherThanAVeering) {
   AtCrossing at;
   EXPECT_EQ(coinciding_tracks(at.node, at.meetings), (std::vector<bool>{false, true}));

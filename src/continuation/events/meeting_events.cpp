@@ -77,6 +77,12 @@ void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
   }
 }
 
+void mark_doubtful(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
+  for (const MeetingOnEnd& found : meetings) {
+    if (!found.meeting.is_certain) node.tracks[found.track].told_apart = false;
+  }
+}
+
 void name_births(const std::vector<Birth>& births, FoundEvents& found) {
   for (const Birth& birth : births) {
     for (Event& event : found.events) {
