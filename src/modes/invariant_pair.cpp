@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eigentrail {
 namespace {
@@ -85,12 +86,24 @@ namespace {
 /// than the change of the pencil with its eigenvalue.
 constexpr double correction_rounding = 1e-10;
 
+/// The same where the residual is known to be rounding. Larger corrections would mix other modes into a
+/// block.
+constexpr double ill_conditioned = 1e-7;
+
 /// By how much rounding of the terms s^2 M, s C, K is magnified in s and z because the pencil changes little
 /// with s: |P| / |s P'|. Of the order of one for well-scaled pencils, also at exceptional points.
 double magnified_rounding(const PencilAtPoint& pencil, const InvariantPair& pair) {
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   const double change = (2.0 * size * pencil.norm_M + pencil.norm_C) * size;
   return change > 0.0 ? std::max(1.0, pencil.magnitude(size) / change) : 1.0;
+}
+
+/// Whether the residual of a pair is what rounding leaves of it. Where a third eigenvalue is close to a block
+/// that is nearly defective, residuals of this size move Z by much more than `correction_rounding`.
+bool is_left_by_rounding(const PencilAtPoint& pencil, const InvariantPair& pair,
+                         const ComplexMatrix& residual) {
+  constexpr double roundings = 10.0;  // products of three matrices and sums of three terms
+  return residual.norm() <= roundings * std::numeric_limits<double>::epsilon() * residual_scale(pencil, pair);
 }
 
 /// Chord-Newton on (Z, Lambda). Leaves the factors of the last iterate that was factored.
@@ -107,7 +120,9 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
   ComplexMatrix dZ, dLambda;
   for (int i = 0; i < options.max_iterations; ++i) {
     const ComplexMatrix defect = ComplexMatrix::Identity(k, k) - normalization(pair.W, pair.Z, pair.Lambda);
-    pair.factors->solve(-pencil.residual(pair.Z, pair.Lambda), defect, dZ, dLambda);
+    const ComplexMatrix residual = pencil.residual(pair.Z, pair.Lambda);
+    const bool rounding_is_left = is_left_by_rounding(pencil, pair, residual);
+    pair.factors->solve(-residual, defect, dZ, dLambda);
     counts.solves += static_cast<std::uint64_t>(k);
     ++counts.iterations;
     if (pair.is_real) {
@@ -128,6 +143,7 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
     // at the rounding level: corrections do not decrease any more
     if (contraction > 0.5 && size < correction_rounding * magnified_rounding(pencil, pair))
       return PairStatus::converged;
+    if (contraction > 0.5 && rounding_is_left && size < ill_conditioned) return PairStatus::converged;
     if (contraction > options.refactor_contraction) {
       if (std::isfinite(last) && contraction > 2.0) return PairStatus::not_converged;
       if (++refactorizations > 6 && contraction > 0.9) return PairStatus::not_converged;

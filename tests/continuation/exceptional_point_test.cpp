@@ -54,6 +54,21 @@ TEST(ExceptionalPoint, OfAVeeringIsFoundFromANearPlace) {
   }
 }
 
+/// One freedom, s^2 + 2 s + 1 - h^2 - e^2: real eigenvalues that nearly meet at h = 0.
+TEST(ExceptionalPoint, OfOneFreedomIsFound) {
+  constexpr double e = 2e-4;
+  const ReducedPencil pencil{
+      {Matrix{{1.0}}}, {Matrix{{2.0}}}, {Matrix{{1.0 - e * e}}, Matrix{{0.0}}, Matrix{{-1.0}}}, {}};
+  const auto point = find_exceptional_point(pencil, Chart::finite, Complex(1e-5, 1.9e-4), -1.0, 1e-3, {});
+  ASSERT_TRUE(point);
+  EXPECT_LT(std::abs(point->h - i * e), 1e-9 * e);
+  EXPECT_LT(std::abs(point->mu + 1.0), 1e-9);
+  const auto below = eigenvalues_below(pencil, Chart::finite, *point);
+  ASSERT_TRUE(below);
+  EXPECT_NEAR(std::abs((*below)[0].mu - (*below)[1].mu), 2.0 * e, 1e-9);
+  EXPECT_EQ((*below)[0].z.size(), 1);
+}
+
 TEST(ExceptionalPoint, ThatIsKnownIsNotFoundAgain) {
   const ReducedPencil pencil = veering(0.01);
   const auto other =

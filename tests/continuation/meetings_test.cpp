@@ -190,6 +190,53 @@ TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, NearestVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6, 1e-8));
 
+/// Frequencies 2 + p +- slope sqrt(p^2 + half_width^2) in coordinates that are not at right angles: two modes
+/// that move together and meet at a small angle. Rounding of a frequency moves their crossing by rounding
+/// over the slope.
+class SmallAngle : public testing::Test {
+ protected:
+  static constexpr double slope = 2e-5;
+  static Meeting meeting(double half_width, double p) {
+    const Matrix V{{1.0, 0.6}, {0.3, 1.0}};
+    const Matrix I = Matrix::Identity(2, 2);
+    const auto seen = [&](const Matrix& own) { return Matrix(V * own * V.inverse()); };
+    Planted family =
+        Planted::frequencies({2.0 * I + seen(slope * half_width * Matrix{{0.0, 1.0}, {1.0, 0.0}}),
+                              I + seen(slope * Matrix{{1.0, 0.0}, {0.0, -1.0}})});
+    const double apart = slope * std::hypot(p, half_width);
+    const PathNode node = family.point(p, {{{(2.0 + p - apart) * j, (2.0 + p + apart) * j}}});
+    return nearest_meeting(node.tracks[0], {0}, {1}, 0.1);
+  }
+  static constexpr double places[] = {0.0, 1e-12, -7e-12, 3e-11, -6e-11};
+};
+
+TEST_F(SmallAngle, CrossingIsOneForCertain) {
+  for (const double p : places) {
+    const Meeting found = meeting(0.0, p);
+    ASSERT_TRUE(found.found) << p;
+    EXPECT_EQ(found.kind, EventKind::crossing) << p;
+    EXPECT_TRUE(found.is_certain) << p;
+  }
+}
+
+TEST_F(SmallAngle, VeeringBelowTheBoundOfRoundingIsNoCertainCrossing) {
+  for (const double p : places) {
+    const Meeting found = meeting(1.5e-9, p);
+    ASSERT_TRUE(found.found) << p;
+    EXPECT_FALSE(found.kind == EventKind::crossing && found.is_certain) << p;
+  }
+}
+
+TEST_F(SmallAngle, VeeringAboveRoundingIsOneForCertain) {
+  for (const double half_width : {1e-8, 1e-7, 1e-5}) {
+    const Meeting found = meeting(half_width, 0.3 * half_width);
+    ASSERT_TRUE(found.found) << half_width;
+    EXPECT_EQ(found.kind, EventKind::veering) << half_width;
+    EXPECT_TRUE(found.is_certain) << half_width;
+    EXPECT_NEAR(found.half_width, half_width, 1e-3 * half_width + 1e-10);
+  }
+}
+
 /// Modes of different damping whose frequencies cross at a real p. They coincide only at a complex p.
 TEST(NearestMeeting, ModesThatPassEachOtherDoNotMeet) {
   constexpr double damping = 0.02;

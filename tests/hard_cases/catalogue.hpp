@@ -31,6 +31,7 @@ struct SpecialPoint {
   Complex s;                ///< the eigenvalue there; of a veering, at one of the two complex parameters
   double half_width = 0.0;  ///< veering: distance of the exceptional point from the real axis
   int branch = 0;           ///< entry of HardCase::spectrum that has it
+  double rounding = 0.0;    ///< how far rounding of the matrices moves it; the comparison allows as much
 };
 
 /// One multiset of eigenvalues per equilibrium branch.

@@ -238,12 +238,11 @@ bool is_wide_veering(const HardCase& hard_case, const SpecialPoint& special) {
 }
 
 EventComparison compare_events(const HardCase& hard_case, const RecordedTrace& trace, double tolerance) {
-  const double allowed = tolerance <= 1e-8 ? 1e-9 : 1e-7;
+  const double located = tolerance <= 1e-8 ? 1e-9 : 1e-7;
   const auto near = [&](const SpecialPoint& special, const Event& event) {
-    const double scale = std::max(1.0, std::abs(special.parameter));
-    return event_name(event.kind) == special.kind &&
-           std::abs(event.p - special.parameter) <= allowed * scale &&
-           (special.kind != "veering" || std::abs(event.half_width - special.half_width) <= allowed * scale);
+    const double allowed = std::max(located * std::max(1.0, std::abs(special.parameter)), special.rounding);
+    return event_name(event.kind) == special.kind && std::abs(event.p - special.parameter) <= allowed &&
+           (special.kind != "veering" || std::abs(event.half_width - special.half_width) <= allowed);
   };
   EventComparison result;
   std::vector<bool> used(trace.result.events.size(), false);

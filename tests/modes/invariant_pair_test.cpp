@@ -381,6 +381,32 @@ TEST(InvariantPair, NormalizationKeepsTheScaleOfZeroEigenvalues) {
   }
 }
 
+/// A pair that is nearly defective beside a third eigenvalue: rounding of the residual moves Z by much more
+/// than its own rounding, so that corrections stay long. The residual tells that nothing is left to correct.
+TEST(InvariantPair, NearlyDefectiveBlockBesideAThirdEigenvalueConverges) {
+  std::mt19937_64 engine(3);
+  Matrix T = Matrix::Identity(3, 3) + 0.4 * random_matrix(3, 3, engine);
+  const double beside = 1e-2;  // distance of two real eigenvalues of another freedom, and of these
+  const Matrix C = Vector{{2.0, 2.0 + 3.0 * beside, 1.0}}.asDiagonal();
+  const Matrix K = Vector{{1.0 - 1e-12, (1.0 + beside) * (1.0 + 2.0 * beside), 9.0}}.asDiagonal();
+  const ReducedPencil pencil{{T.transpose() * T}, {T.transpose() * C * T}, {T.transpose() * K * T}};
+  const PencilAtPoint point(pencil);
+  const ComplexVector z = T.inverse().col(0).cast<Complex>();
+  InvariantPair start;
+  start.is_real = true;
+  start.Z = ComplexMatrix::Zero(3, 2);
+  start.Z.col(0) = z;
+  for (const double gamma : {1.0, 5.0, 30.0}) {
+    start.Lambda = ComplexMatrix{{-1.0, gamma}, {1e-12 / gamma, -1.0}};
+    ModeCounts counts;
+    const InvariantPair pair = correct_pair(point, start, s_ref, {}, counts);
+    ASSERT_EQ(pair.status, PairStatus::converged) << gamma;
+    const ComplexVector roots = pair_eigenvalues(pair);
+    EXPECT_LT(std::abs(roots.mean() + 1.0), 1e-12) << gamma;
+    EXPECT_LT(pair.backward_error, 1e-14) << gamma;
+  }
+}
+
 TEST(InvariantPair, FarGuessIsReportedNotReturnedAsConverged) {
   const ReducedPencil start = at(random_family(6, 1), 0.0);
   ModeCounts counts;

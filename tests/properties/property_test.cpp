@@ -21,8 +21,23 @@ INSTANTIATE_TEST_SUITE_P(Seeds, PlantedFamilyTrace, testing::Range(1, 51),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 /// Regression test: two crossings of one pair are so close that the second one was missed, and labels behind
-/// it were exchanged.
-INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263, 637, 659),
+/// it were exchanged; or that the modes cross at a small angle, and rounding made a narrow veering of one
+/// (932).
+INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263, 637, 659, 932),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+/// Regression test: narrow veerings were located from series only, and beside other ones some were invented;
+/// a veering of one freedom.
+INSTANTIATE_TEST_SUITE_P(NarrowVeerings, PlantedFamilyTrace, testing::Values(508, 591, 595, 613, 965),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+/// Regression test: real eigenvalues beside others, whose blocks did not converge, or were not joined with
+/// what they met, so that steps became tiny.
+INSTANTIATE_TEST_SUITE_P(CloseRealEigenvalues, PlantedFamilyTrace, testing::Values(151, 609, 999),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+
+/// Collisions so close to each other that rounding of the matrices moves them by more than 1e-9.
+INSTANTIATE_TEST_SUITE_P(IllConditioned, PlantedFamilyTrace, testing::Values(336, 803),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace

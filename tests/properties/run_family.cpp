@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "properties/place_rounding.hpp"
+
 namespace eigentrail::test {
 namespace {
 
@@ -129,7 +131,8 @@ RunSetting setting_of(std::uint64_t seed) {
 }
 
 FamilyReport run_family(const PlantedFamily& family, const RunSetting& setting) {
-  const HardCase hard_case = family.as_case();
+  HardCase hard_case = family.as_case();
+  for (SpecialPoint& point : hard_case.special) point.rounding = place_rounding(family.matrices, point);
   const RecordedTrace trace = trace_case(hard_case, setting);
   FamilyReport report;
   report.setting = setting;

@@ -126,6 +126,7 @@ Complex slope_of(const TwoByTwo& G, const TwoByTwo& x) {
 class Bordered {
  public:
   explicit Bordered(Eigen::Index n) : b_(n, 2), c_(n, 2) {
+    if (n == 1) return;  // no borders
     // Without symmetry, so that they are not orthogonal to the vectors that are wanted.
     for (Eigen::Index k = 0; k < b_.size(); ++k) {
       b_(k) = Complex(1.0, std::sin(1.0 + 2.3 * static_cast<double>(k)));
@@ -143,6 +144,7 @@ class Bordered {
 
   Values at(const PencilAt& pencil, Complex mu, Derivatives wanted = Derivatives::second) {
     const Eigen::Index n = b_.rows();
+    if (n == 1) return of_one_freedom(pencil, mu);
     ComplexMatrix B(n + 2, n + 2);
     pencil.write(mu, B.topLeftCorner(n, n));
     B.topRightCorner(n, 2) = b_;
@@ -170,11 +172,19 @@ class Bordered {
 
   /// The right vector at an eigenvalue, of length one: V k with G k = 0.
   ComplexVector vector() const {
+    if (b_.rows() == 1) return ComplexVector::Ones(1);
     const Eigen::Vector2cd first(G_(0, 1), -G_(0, 0)), second(G_(1, 1), -G_(1, 0));
     return (v_ * (first.norm() >= second.norm() ? first : second)).normalized();
   }
 
  private:
+  /// A pencil of one freedom is f itself.
+  static Values of_one_freedom(const PencilAt& pencil, Complex mu) {
+    const ComplexMatrix one = ComplexMatrix::Ones(1, 1);
+    return {pencil.value(mu)(0, 0),        pencil.by_mu(mu, one)(0, 0),   pencil.by_h(mu, one)(0, 0),
+            pencil.by_mu_twice(one)(0, 0), pencil.by_both(mu, one)(0, 0), pencil.by_h_twice(mu, one)(0, 0)};
+  }
+
   static ComplexMatrix orthonormal(const ComplexMatrix& columns) {
     return columns.householderQr().householderQ() * ComplexMatrix::Identity(columns.rows(), columns.cols());
   }

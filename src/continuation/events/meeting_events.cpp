@@ -5,6 +5,7 @@
 
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/static_points.hpp"
+#include "continuation/events/veering_place.hpp"
 #include "continuation/tracks/members.hpp"
 
 namespace eigentrail {
@@ -20,10 +21,26 @@ Complex place_of(const Track& track, const Meeting& meeting, bool is_pair) {
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
 
+/// A veering at its place by the pencil; false where that has none. Members of large blocks, and veerings
+/// narrower than any prediction is accurate, are left as they were found.
+bool settle_veering(const EventSearch& search, const PathNode& node, const Track& track, Meeting& meeting) {
+  const EventThresholds& thresholds = search.log.thresholds.event;
+  const double known = thresholds.known_veering * search.frame().coordinate_range();
+  if (meeting.members.size() != 2 || meeting.half_width <= known) return true;
+  const auto place =
+      located_veering(node.pencil.of(track.pair.part), track.pair.chart, {meeting.offset, meeting.half_width},
+                      {track.roots[meeting.members[0]], track.roots[meeting.members[1]]},
+                      known + thresholds.known_veering_share * meeting.half_width);
+  if (!place) return false;
+  meeting.offset = place->offset;
+  meeting.half_width = place->half_width;
+  return true;
+}
+
 /// The event of a meeting; empty where no modes take part or the meeting is not an event.
 std::optional<Event> event_of(const EventSearch& search, const PathNode& node, const MeetingOnEnd& found) {
   const Track& track = node.tracks[found.track];
-  const Meeting& meeting = found.meeting;
+  Meeting meeting = found.meeting;
   std::vector<int> modes;
   for (const int i : meeting.members) modes.push_back(track.modes[static_cast<std::size_t>(i)]);
   modes = sorted_modes(modes);
@@ -33,6 +50,8 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   if (is_pair && meeting.kind == EventKind::veering) return std::nullopt;
   // Eigenvalues that are equal only because they are infinite, where the mass is singular, are no event.
   if (track.pair.chart == Chart::reciprocal && std::abs(track.roots.mean()) * search.problem().s_max <= 1.0)
+    return std::nullopt;
+  if (meeting.kind == EventKind::veering && !settle_veering(search, node, track, meeting))
     return std::nullopt;
   const double speed = search.frame().speed(node);
   Event event;
@@ -74,6 +93,12 @@ void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
   for (const MeetingOnEnd& found : meetings) {
     std::vector<int>& met = node.tracks[found.track].met;
     met = united(met, found.meeting.members);
+  }
+}
+
+void mark_doubtful(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
+  for (const MeetingOnEnd& found : meetings) {
+    if (!found.meeting.is_certain) node.tracks[found.track].told_apart = false;
   }
 }
 

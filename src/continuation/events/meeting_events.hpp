@@ -16,6 +16,10 @@ FoundEvents meeting_events(const EventSearch& search, const PathNode& node,
 /// Adds to Track::met of the tracks of a point which of their roots take part in the meetings.
 void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node);
 
+/// Clears Track::told_apart of the tracks that have a meeting whose kind is not certain: which mode is which
+/// behind it depends on the kind.
+void mark_doubtful(const std::vector<MeetingOnEnd>& meetings, PathNode& node);
+
 /// Adds the modes that begin at the point to the collisions in which their parents take part.
 void name_births(const std::vector<Birth>& births, FoundEvents& found);
 

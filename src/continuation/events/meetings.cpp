@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "continuation/events/meeting_resolution.hpp"
 #include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
 #include "eigentrail/core/chebyshev.hpp"
@@ -120,31 +121,34 @@ std::vector<Complex> roots_by_magnitude(const ComplexVector& series, double reac
 
 /// Sets kind, offset and half-width of a meeting from the roots of the discriminant nearest to the point. A
 /// root is an exceptional point: a collision on the real axis, a veering beside it. A double root on the axis
-/// is a crossing, or a collision where the block is defective. `resolution`: error of a root; `noise`: error
-/// of the imaginary part of a single root; `defective`: whether the block is defective at a double root;
-/// `bounded`: whether twice the resolution bounds the distance of two roots into which rounding splits one.
-void classify(const std::vector<Complex>& roots, double reach, double resolution, double noise,
-              bool defective, bool bounded, const MeetingThresholds& thresholds, Meeting& meeting) {
+/// is a crossing, or a collision where the block is defective.
+void classify(const std::vector<Complex>& roots, double reach, const RootResolution& known,
+              const MeetingThresholds& thresholds, Meeting& meeting) {
   // A second root so many times farther away than the first one belongs to another meeting.
   constexpr double much_farther = 1e3;
-  // In units of the resolution: half the distance of two roots that form a double root, and the sum of their
-  // imaginary parts up to which it lies on the axis. The second is twice the first, since it adds two parts.
+  // In units of the resolution: half the distance of two roots that form a double root, where the part is
+  // defective, and the sum of their imaginary parts up to which it lies on the axis. The second is twice the
+  // first, since it adds two parts.
   constexpr double of_double_root = 10.0;
   constexpr double sum_on_axis = 20.0;
+  // In units of the resolution, which is a bound: rounding seldom leaves more of a crossing. Of two roots
+  // that are farther apart it is not certain that they are one.
+  constexpr double left_of_a_crossing = 0.1;
   const Complex first = roots[0];
   const bool has_second =
-      roots.size() > 1 && std::abs(roots[1]) <= much_farther * std::max(std::abs(first), resolution);
+      roots.size() > 1 && std::abs(roots[1]) <= much_farther * std::max(std::abs(first), known.roots);
   const Complex second = has_second ? roots[1] : first;
   const double separation = 0.5 * std::abs(first - second);
   // The slope of the discriminant, by which `noise` is divided, vanishes halfway between two roots.
-  const double on_axis = has_second ? resolution : std::max(noise, thresholds.on_axis * reach);
+  const double on_axis = has_second ? known.roots : std::max(known.noise, thresholds.on_axis * reach);
   meeting.offset = first.real();
-  const bool two_collisions = bounded && separation > resolution && std::abs(first.imag()) <= resolution &&
-                              std::abs(second.imag()) <= resolution;
-  if (has_second && separation <= of_double_root * resolution && !two_collisions) {
+  const bool two_collisions = known.bounded && separation > known.roots &&
+                              std::abs(first.imag()) <= known.roots && std::abs(second.imag()) <= known.roots;
+  if (has_second && separation <= (known.defective ? of_double_root : 1.0) * known.roots && !two_collisions) {
     // At a crossing at a complex parameter nothing happens on the real axis.
-    meeting.found = std::abs((first + second).imag()) <= sum_on_axis * std::max(resolution, noise);
-    meeting.kind = defective ? EventKind::collision : EventKind::crossing;
+    meeting.found = std::abs((first + second).imag()) <= sum_on_axis * std::max(known.roots, known.noise);
+    meeting.kind = known.defective ? EventKind::collision : EventKind::crossing;
+    meeting.is_certain = known.defective || separation <= left_of_a_crossing * known.roots;
     meeting.offset = 0.5 * (first + second).real();
   } else if (std::abs(first.imag()) <= on_axis) {
     meeting.kind = EventKind::collision;
@@ -168,29 +172,6 @@ bool vanishes(const ComplexVector& discriminant, double reach, double resolution
   return std::sqrt(size) <= resolution;
 }
 
-/// Lambda at h less the mean of its eigenvalues times the unit matrix.
-ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
-  ComplexMatrix N = evaluate_series(Lambda, h);
-  N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
-  return N;
-}
-
-/// Rounding error of a part of a block, and the scale by which it becomes an error of the coordinate.
-struct Rounding {
-  double lambda = 0.0;  ///< absolute error of Lambda
-  double slope = 0.0;   ///< norm of the derivative of the part of Lambda
-};
-
-/// The error of Lambda is the unit rounding times the condition of the block.
-Rounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& part) {
-  // The condition refers to norms of the pencil's matrices. It is far too large where the entries of these
-  // differ by orders of magnitude, and is therefore bounded.
-  constexpr double worst_condition = 100.0;
-  constexpr double unit_error = 4e-15;  // relative, for a condition of one: some twenty machine epsilons
-  const double condition = std::clamp(track.pair.condition, 1.0, worst_condition);
-  return {unit_error * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
-}
-
 /// Least distance of members of a block from its other eigenvalues; infinite when there are none.
 double distance_from_others(const ComplexVector& roots, const std::vector<int>& members) {
   double distance = INFINITY;
@@ -206,7 +187,7 @@ double distance_from_others(const ComplexVector& roots, const std::vector<int>& 
 /// inaccurate.
 double member_resolution(const Track& track, const std::vector<int>& members, double reach) {
   constexpr double coinciding = 1e-12;  // of the norm of the block, for rounding
-  const Rounding rounding = rounding_of(track, track.series.Lambda);
+  const PartRounding rounding = rounding_of(track, track.series.Lambda);
   const double of_slope = rounding_margin * rounding.lambda * rounding.slope * std::abs(reach) /
                           distance_from_others(track.roots, members);
   return std::max(coinciding * track.pair.Lambda.norm(), of_slope);
@@ -215,7 +196,7 @@ double member_resolution(const Track& track, const std::vector<int>& members, do
 /// The crossing of all eigenvalues of a part in one point, where the part of Lambda is a multiple of the unit
 /// matrix. The centred part is approximated by a linear function; its zero is found by least squares. Empty
 /// if the centred part does not vanish there.
-std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, const Rounding& rounding,
+std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, const PartRounding& rounding,
                                        double reach) {
   constexpr double remainder = 1e-3;  // of its norm at the point: what may be left at the zero
   const ComplexMatrix here = centred(part, 0.0);
@@ -335,48 +316,12 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   meeting.members = members;
   meeting.puiseux = std::sqrt(discriminant[1]);
   const std::vector<ComplexMatrix> part = part_of_track(track, members);
-  const std::vector<ComplexMatrix>& Lambda = part.empty() ? track.series.Lambda : part;
-  const Rounding rounding = rounding_of(track, Lambda);
-  const double distance = centred(Lambda, 0.0).norm();
-  // Rounding of the coordinate itself, relative to the reach. It matters where the eigenvalues are zero,
-  // which have no rounding error of their own.
-  constexpr double coordinate_rounding = 1e-14;
-  double resolution = coordinate_rounding * std::abs(reach);
-  const double noise = std::abs(discriminant[1]) > 0.0
-                           ? rounding_margin * rounding.lambda * std::max(distance, rounding.lambda) /
-                                 std::abs(discriminant[1])
-                           : 0.0;
-  // The discriminant of a part that is not a multiple of the unit matrix has an error of about four times the
-  // error of Lambda times the norm of the centred part. A single root, whose parabola has no other root
-  // within reach, moves by this error over the slope; a double root by the square root of the error over the
-  // curvature. Where the part is a multiple of the unit matrix, a crossing moves by the error of Lambda over
-  // its slope.
-  constexpr double error_factor = 4.0;
-  // Norm of the centred part, relative to the block or to a thousandth of its change within reach, above
-  // which the part is defective at a double root; below it the double eigenvalue is semisimple.
-  constexpr double scalar = 1e-6;
-  constexpr double share_of_change = 1e-3;
-  const double curvature = std::abs(discriminant[2]);
-  const bool is_single = std::abs(discriminant[1]) > 2.0 * std::abs(reach) * curvature;
-  const bool defective = distance > scalar * std::max(track.pair.Lambda.norm(),
-                                                      share_of_change * rounding.slope * std::abs(reach));
-  if (defective && is_single) {
-    resolution = std::max(resolution, error_factor * rounding.lambda * distance / std::abs(discriminant[1]));
-  } else if (defective && curvature > 0.0) {
-    resolution = std::max(resolution, std::sqrt(error_factor * rounding.lambda * distance / curvature));
-  } else if (rounding.slope > 0.0) {
-    resolution = std::max(resolution, rounding.lambda / rounding.slope);
-  }
-  // At a zero eigenvalue the stiffness cancels, so that its rounding is not known from the pencil.
-  constexpr double zero = 1e-3;  // of the norm of the block, which is at least the reference
-  Complex mean = 0.0;
-  for (const int i : members) mean += track.roots[i] / static_cast<double>(members.size());
-  const bool bounded = defective && std::abs(mean) > zero * track.pair.Lambda.norm();
-  classify(roots, std::abs(reach), resolution, noise, defective, bounded, thresholds, meeting);
+  const RootResolution known =
+      resolution_of_roots(track, members, part.empty() ? track.series.Lambda : part, discriminant, reach);
+  classify(roots, std::abs(reach), known, thresholds, meeting);
   const double slope = std::abs(jet(discriminant, roots[0])[1]);
-  const bool is_double = roots.size() > 1 && !(0.5 * std::abs(roots[0] - roots[1]) > resolution);
-  if (defective && slope > 0.0 && !is_double)
-    meeting.rounding = error_factor * rounding.lambda * distance / slope;
+  const bool is_double = roots.size() > 1 && !(0.5 * std::abs(roots[0] - roots[1]) > known.roots);
+  if (known.defective && slope > 0.0 && !is_double) meeting.rounding = known.of_root_with(slope);
   return meeting;
 }
 

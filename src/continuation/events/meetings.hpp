@@ -30,6 +30,9 @@ struct Meeting {
   /// Error of the offset of a single root by rounding. Two collisions close to each other are known less well
   /// than others, because the discriminant has little slope there.
   double rounding = 0.0;
+  /// Whether rounding leaves no doubt that a crossing is none of a narrow veering, in which the modes would
+  /// turn back instead of going straight on.
+  bool is_certain = true;
 };
 
 /// The meeting of two strands of a block (indices of their roots) that is nearest to the point. Other

@@ -48,15 +48,20 @@ class PencilSearch {
     return found;
   }
 
-  /// Whether Newton's method leads from a veering that was located otherwise to another place.
-  bool contradicts(const Event& event) {
-    if (!go_to((event.p - step_.left->p) / search_.frame().speed(*step_.left))) return false;
+  /// Puts a veering that was located otherwise where Newton's method leads from it; false where that is
+  /// another place.
+  bool settle(Event& event) {
+    if (!go_to((event.p - step_.left->p) / search_.frame().speed(*step_.left))) return true;
     const double speed = search_.frame().speed(*node_);
     const double sign = std::signbit(expected_.position.imag()) ? -1.0 : 1.0;
     const Complex h((event.p - node_->p) / speed, sign * event.half_width / speed);
     const auto point = from_followed(h, {});
     const double same = search_.log.thresholds.event.same_veering * search_.frame().range.length();
-    return point && std::abs(point->h - h) * std::abs(speed) > same;
+    if (!point) return true;
+    if (std::abs(point->h - h) * std::abs(speed) > same) return false;
+    event.p = node_->p + point->h.real() * speed;
+    event.half_width = std::abs(point->h.imag() * speed);
+    return true;
   }
 
  private:
@@ -221,9 +226,9 @@ FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const 
   return PencilSearch(search, step, expected, modes, widest).run();
 }
 
-bool pencil_contradicts(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-                        const std::vector<int>& modes, double widest, const Event& veering) {
-  return PencilSearch(search, step, expected, modes, widest).contradicts(veering);
+bool settle_by_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                      const std::vector<int>& modes, double widest, Event& veering) {
+  return PencilSearch(search, step, expected, modes, widest).settle(veering);
 }
 
 }  // namespace eigentrail

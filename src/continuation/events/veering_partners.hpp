@@ -14,9 +14,9 @@ namespace eigentrail {
 FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
                              const std::vector<int>& modes, double widest);
 
-/// Whether Newton's method leads from a veering that was located from series to another place: the series
-/// were not accurate enough there.
-bool pencil_contradicts(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-                        const std::vector<int>& modes, double widest, const Event& veering);
+/// Puts a veering that was located from series where Newton's method leads from it: its own place to the
+/// digits that rounding leaves. False where it leads to another place: the series were not accurate enough.
+bool settle_by_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                      const std::vector<int>& modes, double widest, Event& veering);
 
 }  // namespace eigentrail

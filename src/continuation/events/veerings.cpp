@@ -335,8 +335,8 @@ FoundEvents find_veerings(const EventSearch& search, const Step& step) {
     const double widest = search_width(search, *step.left);
     if (!expected.is_rough) {
       FoundEvents located = VeeringWalk(own, step, expected, modes).run();
-      std::erase_if(located.events, [&](const Event& event) {
-        return pencil_contradicts(own, step, expected, modes, widest, event);
+      std::erase_if(located.events, [&](Event& event) {
+        return !settle_by_pencil(own, step, expected, modes, widest, event);
       });
       append(std::move(located), found);
     }

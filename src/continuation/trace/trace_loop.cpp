@@ -394,6 +394,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   std::vector<Birth> births;
   if (!leaves_path_at(step.right))
     births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
+  mark_doubtful(landed.meetings, step.right);
   name_births(births, met);
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
