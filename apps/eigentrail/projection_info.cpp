@@ -27,18 +27,18 @@ void print_route(const ProjectionEstimate& estimate, const TraceOptions& options
   const auto megabytes = [](double bytes) { return rounded(bytes / 1e6, 3) + " MB"; };
   const std::string followed = in_words(options.modes);
   std::printf("route\n");
-  print_table({{"  model", std::to_string(estimate.freedoms) + " freedoms, " +
-                              std::to_string(estimate.nonzeros) + " nonzeros in M, C and K together"},
-               {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
-                                   ", at 4 values of " + options.parameter + " and where residuals are largest"},
-               {"  factorization", std::string(estimate.method) + " at each, " +
-                                       megabytes(estimate.factor_bytes) + ", " +
-                                       rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
-               {"  memory", megabytes(estimate.total_bytes) + " with the vectors"},
-               {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"},
-               {"  error", "of the projection below " + rounded(estimate.target, 3) +
-                              " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
-                              " is that of the large model"}});
+  print_table(
+      {{"  model", std::to_string(estimate.freedoms) + " freedoms, " + std::to_string(estimate.nonzeros) +
+                       " nonzeros in M, C and K together"},
+       {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
+                            ", at 4 values of " + options.parameter + " and where residuals are largest"},
+       {"  factorization", std::string(estimate.method) + " at each, " + megabytes(estimate.factor_bytes) +
+                               ", " + rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
+       {"  memory", megabytes(estimate.total_bytes) + " with the vectors"},
+       {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"},
+       {"  error", "of the projection below " + rounded(estimate.target, 3) +
+                       " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
+                       " is that of the large model"}});
 }
 
 }  // namespace eigentrail::app

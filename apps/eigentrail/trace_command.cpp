@@ -153,8 +153,9 @@ class TraceRun {
 void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
   const auto* family = dynamic_cast<const ProjectedFamily*>(setup.model.get());
   if (family == nullptr)
-    throw InputError("--save-reduced: the model is not projected; it is for sparse families of which some modes "
-                     "are followed");
+    throw InputError(
+        "--save-reduced: the model is not projected; it is for sparse families of which some modes "
+        "are followed");
   const std::string scene = write_projected(arguments.save_reduced, setup.scene, *family, arguments.force);
   if (!arguments.quiet)
     std::printf("wrote %s and its scene %s\n", arguments.save_reduced.c_str(), scene.c_str());

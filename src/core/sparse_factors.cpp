@@ -66,7 +66,8 @@ class Lu {
         complex_ ? umfpack_zl_symbolic(n, n, starts, rows, values, nullptr, &symbolic_, control_, info_)
                  : umfpack_dl_symbolic(n, n, starts, rows, values, &symbolic_, control_, info_);
     check_umfpack("symbolic analysis", code);
-    return {info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT], info_[UMFPACK_FLOPS_ESTIMATE]};
+    return {info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT],
+            info_[UMFPACK_FLOPS_ESTIMATE]};
   }
 
   /// `values`: real numbers, or pairs of real and imaginary part.
@@ -75,10 +76,10 @@ class Lu {
     values_ = std::move(values);
     const Index *starts = pattern.starts.data(), *rows = pattern.rows.data();
     if (!analyzed || symbolic_ == nullptr) analyze(pattern, values_.data());
-    const Index code = complex_ ? umfpack_zl_numeric(starts, rows, values_.data(), nullptr, symbolic_,
-                                                     &numeric_, control_, info_)
-                                : umfpack_dl_numeric(starts, rows, values_.data(), symbolic_, &numeric_,
-                                                     control_, info_);
+    const Index code =
+        complex_
+            ? umfpack_zl_numeric(starts, rows, values_.data(), nullptr, symbolic_, &numeric_, control_, info_)
+            : umfpack_dl_numeric(starts, rows, values_.data(), symbolic_, &numeric_, control_, info_);
     check_umfpack("factorization", code);
     bytes_ = static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE] * info_[UMFPACK_SIZE_OF_UNIT]);
     rcond_ = info_[UMFPACK_RCOND];
@@ -89,11 +90,10 @@ class Lu {
     const Index *starts = pattern.starts.data(), *rows = pattern.rows.data();
     const Index system = transposed ? UMFPACK_Aat : UMFPACK_A;
     double info[UMFPACK_INFO];
-    const Index code = complex_
-                           ? umfpack_zl_solve(system, starts, rows, values_.data(), nullptr, x, nullptr, b,
-                                              nullptr, numeric_, control_, info)
-                           : umfpack_dl_solve(system, starts, rows, values_.data(), x, b, numeric_, control_,
-                                              info);
+    const Index code =
+        complex_ ? umfpack_zl_solve(system, starts, rows, values_.data(), nullptr, x, nullptr, b, nullptr,
+                                    numeric_, control_, info)
+                 : umfpack_dl_solve(system, starts, rows, values_.data(), x, b, numeric_, control_, info);
     check_umfpack("solution", code);
   }
 
@@ -102,7 +102,8 @@ class Lu {
 
  private:
   void free_numeric() {
-    if (numeric_ != nullptr) complex_ ? umfpack_zl_free_numeric(&numeric_) : umfpack_dl_free_numeric(&numeric_);
+    if (numeric_ != nullptr)
+      complex_ ? umfpack_zl_free_numeric(&numeric_) : umfpack_dl_free_numeric(&numeric_);
     numeric_ = nullptr;
   }
   void free_symbolic() {
@@ -271,8 +272,7 @@ namespace {
 
 Matrix solve_real(const Lu& lu, const Pattern& pattern, bool transposed, const Matrix& B) {
   Matrix X(B.rows(), B.cols());
-  for (Eigen::Index j = 0; j < B.cols(); ++j)
-    lu.solve(pattern, transposed, B.col(j).data(), X.col(j).data());
+  for (Eigen::Index j = 0; j < B.cols(); ++j) lu.solve(pattern, transposed, B.col(j).data(), X.col(j).data());
   return X;
 }
 

@@ -198,7 +198,7 @@ class MarketReader {
   Eigen::Index rows_ = 0, columns_ = 0;
   Matrix matrix_;                                 ///< of an array
   std::vector<Eigen::Triplet<double>> triplets_;  ///< of coordinates
-  std::vector<std::string_view> words_;  ///< of the present line of an array
+  std::vector<std::string_view> words_;           ///< of the present line of an array
   std::size_t place_ = 0;
 };
 

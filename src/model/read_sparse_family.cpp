@@ -79,12 +79,15 @@ class SparseReader {
     for (const auto& [known, expression] : factors_) {
       if (known == name) return expression;
     }
-    fail("matrix " + path + ": neither a power of the parameter (0, 1, ...) nor a name with a factor; give it "
-         "one: factors = { " + name + " = \"...\" }");
+    fail("matrix " + path +
+         ": neither a power of the parameter (0, 1, ...) nor a name with a factor; give it "
+         "one: factors = { " +
+         name + " = \"...\" }");
   }
 
   SparseMatrix matrix(const std::string& path) {
-    const std::vector<std::string> members = is_sparse(path) ? file_.members(path) : std::vector<std::string>();
+    const std::vector<std::string> members =
+        is_sparse(path) ? file_.members(path) : std::vector<std::string>();
     return members.empty() ? dense(path) : compressed_rows(path);
   }
 
@@ -118,7 +121,8 @@ class SparseReader {
     const Shape starts_shape = file_.shape(path + "/indptr"), data_shape = file_.shape(path + "/data");
     if (starts_shape.size() != 1 || starts_shape[0] < 2 || data_shape.size() != 1 ||
         file_.shape(path + "/indices") != data_shape)
-      fail("matrix " + path + ": expected lists data and indices of one length, and indptr with one entry "
+      fail("matrix " + path +
+           ": expected lists data and indices of one length, and indptr with one entry "
            "more than there are rows");
     take_size(path, starts_shape[0] - 1);
     count(data_shape[0]);
@@ -129,10 +133,12 @@ class SparseReader {
     entries.reserve(data.size());
     for (Eigen::Index row = 0; row < size_; ++row) {
       const auto r = static_cast<std::size_t>(row);
-      if (starts[0] != 0 || starts[r + 1] < starts[r] || starts[r + 1] > static_cast<std::int64_t>(data.size()))
+      if (starts[0] != 0 || starts[r + 1] < starts[r] ||
+          starts[r + 1] > static_cast<std::int64_t>(data.size()))
         fail("matrix " + path + ": indptr does not ascend from 0 to the length of data at row " +
              std::to_string(row + 1));
-      for (auto at = static_cast<std::size_t>(starts[r]); at < static_cast<std::size_t>(starts[r + 1]); ++at) {
+      for (auto at = static_cast<std::size_t>(starts[r]); at < static_cast<std::size_t>(starts[r + 1]);
+           ++at) {
         if (indices[at] < 0 || indices[at] >= size_)
           fail("matrix " + path + ": row " + std::to_string(row + 1) + " has an entry in column " +
                std::to_string(indices[at]) + " (from 0); it is square with " + std::to_string(size_) +
@@ -148,7 +154,8 @@ class SparseReader {
   SparseMatrix dense(const std::string& path) {
     const Shape shape = file_.shape(path);
     if (shape.size() != 2 || shape[0] != shape[1])
-      fail("matrix " + path + ": expected a square matrix, or a sparse one: a group with data, indices and "
+      fail("matrix " + path +
+           ": expected a square matrix, or a sparse one: a group with data, indices and "
            "indptr");
     take_size(path, shape[0]);
     count(shape[0] * shape[1]);

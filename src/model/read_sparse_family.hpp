@@ -16,7 +16,8 @@ bool has_sparse_matrices(const Hdf5File& file);
 
 /// Reads the family: /M/0, /C/1, ... are coefficients of powers of the parameter with index `variable`;
 /// matrices with other names, such as /K/bearing, are multiplied by the factor of this name in the table
-/// `factors`. `used` is the set of parameters that the table collects. Each is sparse (rows compressed) or dense. Throws InputError for every fault.
+/// `factors`. `used` is the set of parameters that the table collects. Each is sparse (rows compressed) or
+/// dense. Throws InputError for every fault.
 std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table, const Hdf5File& file,
                                           int variable, std::set<int>& used);
 

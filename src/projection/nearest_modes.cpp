@@ -64,8 +64,8 @@ class Inverse {
         return;
       case Form::quadratic: {
         const Eigen::Map<const Vector> v(in + n, n);
-        const ComplexVector right =
-            (scale_ * times(pencil_.M, v) + times(pencil_.C, x)).cast<Complex>() + shift_ * times(pencil_.M, x);
+        const ComplexVector right = (scale_ * times(pencil_.M, v) + times(pencil_.C, x)).cast<Complex>() +
+                                    shift_ * times(pencil_.M, x);
         const ComplexVector a = real_part_of_solution(right);
         result = a.real();
         Eigen::Map<Vector>(out + n, n) = (x.cast<Complex>() + shift_ * a).real() / scale_;
@@ -198,9 +198,8 @@ double gap_beside(const Found& found, const Shift& shift) {
   std::vector<double> distances;
   for (const Complex s : found.s) distances.push_back(std::abs(s - shift.value()));
   std::sort(distances.begin(), distances.end());
-  const auto other = std::find_if(distances.begin(), distances.end(), [&](double d) {
-    return d > on_an_eigenvalue * distances.back();
-  });
+  const auto other = std::find_if(distances.begin(), distances.end(),
+                                  [&](double d) { return d > on_an_eigenvalue * distances.back(); });
   return other == distances.begin() ? 0.0 : *other;
 }
 
@@ -265,8 +264,8 @@ bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
     regular = factors_.factor(shifted.matrix, shifted.kind);
   } else {
     const Complex s = shift.value();
-    ComplexSparseMatrix shifted = s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() +
-                                  pencil.K.cast<Complex>();
+    ComplexSparseMatrix shifted =
+        s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() + pencil.K.cast<Complex>();
     shifted.makeCompressed();
     regular = factors_.factor(shifted);
   }
@@ -292,7 +291,8 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
     if (!right || right->s.empty()) return std::nullopt;
     if (const double gap = moved ? 0.0 : gap_beside(*right, shift)) {
-      shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap} : Shift{shift.real + 0.3 * gap, 0.0};
+      shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap}
+                                    : Shift{shift.real + 0.3 * gap, 0.0};
       moved = true;
       continue;
     }

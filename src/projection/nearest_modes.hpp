@@ -1,5 +1,6 @@
-// The eigenvalues of a large sparse pencil that are nearest to a shift, with right and left vectors: Arnoldi's
-// method with implicit restarts (Spectra) on the inverse of the shifted pencil, which is factored once.
+// The eigenvalues of a large sparse pencil that are nearest to a shift, with right and left vectors:
+// Arnoldi's method with implicit restarts (Spectra) on the inverse of the shifted pencil, which is factored
+// once.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@ namespace eigentrail {
 
 /// (M s^2 + C s + K) z = 0 at one place.
 struct SparsePencil {
-  SparseMatrix M, C, K;  ///< n x n
+  SparseMatrix M, C, K;    ///< n x n
   bool symmetric = false;  ///< M, C and K are symmetric
   /// Left vectors span the same real space as right ones: M and K are symmetric, C is symmetric or skew.
   bool one_sided = false;

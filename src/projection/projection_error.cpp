@@ -8,7 +8,8 @@ namespace eigentrail {
 ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s) {
   // A shift beside the eigenvalue keeps the solution finite; its distance is far below that to others.
   const Complex beside = s + 1e-10 * std::max(std::abs(s), 1e-300);
-  const ComplexMatrix P = (beside * beside * M.cast<Complex>() + beside * C.cast<Complex>() + K.cast<Complex>());
+  const ComplexMatrix P =
+      (beside * beside * M.cast<Complex>() + beside * C.cast<Complex>() + K.cast<Complex>());
   const Eigen::PartialPivLU<ComplexMatrix> lu(P.transpose());
   ComplexVector y = ComplexVector::LinSpaced(P.rows(), Complex(1.0, 0.5), Complex(2.0, -0.3));
   for (int i = 0; i < 3; ++i) y = lu.solve(y).normalized();

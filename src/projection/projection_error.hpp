@@ -16,8 +16,8 @@ struct ProjectedMode {
 /// steps of inverse iteration.
 ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s);
 
-/// An indicator of |s - s_large|, 1/s: |P(s) z| |y^T P(s)| / |y^T P'(s) z|, with both residuals measured by the
-/// diagonal of the pencil's terms. It is of the order of the error in its dependence on the vectors; its
+/// An indicator of |s - s_large|, 1/s: |P(s) z| |y^T P(s)| / |y^T P'(s) z|, with both residuals measured by
+/// the diagonal of the pencil's terms. It is of the order of the error in its dependence on the vectors; its
 /// factor is found where exact eigenvalues are known.
 double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode);
 

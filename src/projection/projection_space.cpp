@@ -32,7 +32,8 @@ AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Stora
     std::vector<AffineTerm<Matrix>> result;
     for (const AffineTerm<Storage>& term : terms) {
       Matrix reduced = basis.transpose() * (term.matrix * basis);
-      if (const int sign = symmetry(term.matrix)) reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
+      if (const int sign = symmetry(term.matrix))
+        reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
       result.push_back({term.factor, std::move(reduced), term.name});
     }
     return result;

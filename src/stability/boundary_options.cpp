@@ -1,5 +1,5 @@
-#include "eigentrail/projection/project.hpp"
 #include "eigentrail/stability/boundary_options.hpp"
+#include "eigentrail/projection/project.hpp"
 
 #include <cmath>
 
@@ -114,7 +114,8 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   for (const int unused : setup.model->description().unused_parameters) {
     if (unused == first || unused == second) throw unused_error(setup.scene, unused);
   }
-  project_if_large(setup.model, options.trace, lines_over(options.trace, options.second, options.second_from, options.second_to));
+  project_if_large(setup.model, options.trace,
+                   lines_over(options.trace, options.second, options.second_from, options.second_to));
   return setup;
 }
 

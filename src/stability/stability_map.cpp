@@ -1,5 +1,5 @@
-#include "eigentrail/projection/project.hpp"
 #include "eigentrail/stability/stability_map.hpp"
+#include "eigentrail/projection/project.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,8 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   used.erase(parameters.index(options.second).value());
   trace.model = build_model(trace.scene, {checked_points(parameters, trace.traced(), trace.options, options),
                                           used, trace.options.without});
-  project_if_large(trace.model, trace.options, lines_over(trace.options, options.second, options.from, options.to));
+  project_if_large(trace.model, trace.options,
+                   lines_over(trace.options, options.second, options.from, options.to));
   return setup;
 }
 

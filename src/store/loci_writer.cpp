@@ -15,8 +15,8 @@
 #include "store/loci_tables.hpp"
 #include "store/mode_motions.hpp"
 #include "store/output_lock.hpp"
-#include "store/provenance.hpp"
 #include "store/projection_datasets.hpp"
+#include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
 #include "store/saved_state.hpp"
 

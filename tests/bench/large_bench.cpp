@@ -1,4 +1,5 @@
 // Large sparse families: projection and trace against shift-invert Arnoldi at the points of a grid.
+#include <cstdio>
 #include <random>
 
 #include "bench/benchmarks.hpp"
@@ -63,8 +64,8 @@ int points_of_spline(const TraceSetup& setup) {
     for (int i = 0; i < probes; ++i) {
       const double share = (i + 0.37) / probes;
       const ComplexVector s = exact.eigenvalues_at(from + length * share).head(followed);
-      worst = std::max(worst, ((spline(share * (points - 1)) - s).cwiseAbs().array() / s.cwiseAbs().array())
-                                  .maxCoeff());
+      worst = std::max(
+          worst, ((spline(share * (points - 1)) - s).cwiseAbs().array() / s.cwiseAbs().array()).maxCoeff());
     }
     if (worst <= spline_error) return points;
   }
@@ -103,21 +104,19 @@ double error(const TraceSetup& setup, const RecordedTrace& trace, int places) {
   return worst;
 }
 
-struct Extent {
-  bool error = true;   ///< whether errors are measured
-  bool spline = true;  ///< whether the points of the spline are counted; else 500
-};
-
-void measure(const TraceSetup& setup, const std::string& what, const Extent& extent, Figures& figures) {
+/// `points`: of the spline.
+void measure(const TraceSetup& setup, const std::string& what, int points, bool with_error,
+             Figures& figures) {
   const Run run = project_and_trace(setup);
   const double per_point = seconds_per_point(setup);
-  const int points = extent.spline ? points_of_spline(setup) : 500;
   const std::string size = ", " + what + ", " + std::to_string(setup.model->n_coordinates()) + " freedoms";
   const std::string account =
       time_text(run.seconds) + ", of which the trace " + time_text(run.trace.result.seconds) + " with " +
       std::to_string(run.coordinates) + " coordinates and " + std::to_string(run.trace.result.nodes) +
-      " points; " + std::to_string(run.projection.solutions) + " solutions by " + run.projection.method + ", " +
-      std::to_string(run.projection.peak_bytes / 1000000) + " MB; a point of the grid " + time_text(per_point);
+      " points; " + std::to_string(run.projection.solutions) + " solutions by " + run.projection.method +
+      ", " + std::to_string(run.projection.peak_bytes / 1000000) + " MB; a point of the grid " +
+      time_text(per_point);
+  std::fprintf(stderr, "%s: %s\n", size.c_str() + 2, account.c_str());
   figures.push_back({"sparse factorizations" + size, static_cast<double>(run.projection.factorizations),
                      at_most(12), account});
   figures.push_back({"shift-invert at the points of a spline / trace, time" + size,
@@ -125,28 +124,35 @@ void measure(const TraceSetup& setup, const std::string& what, const Extent& ext
                      std::to_string(points) + " points for 1e-8"});
   figures.push_back(
       {"shift-invert at 101 points / trace, time" + size, 101 * per_point / run.seconds, at_least(5.0)});
-  if (extent.error)
-    figures.push_back({"error / tolerance at 20 random places" + size, error(setup, run.trace, 20) / traced_tolerance,
-                       at_most(1.0)});
+  if (with_error)
+    figures.push_back({"error / tolerance at 20 random places" + size,
+                       error(setup, run.trace, 20) / traced_tolerance, at_most(1.0)});
 }
 
 }  // namespace
 
 Figures large_models(const BenchOptions& options) {
   Figures figures;
+  // The loci hardly change with the size: the points of the spline are counted on the smallest model.
+  const auto plate = [](int cells) {
+    return large_setup(rotating_plate({cells}), 0.0, 2.0, followed, traced_tolerance);
+  };
+  const int plate_points = options.smoke ? 500 : points_of_spline(plate(16));
   for (const int cells : options.smoke ? std::vector<int>{10} : std::vector<int>{16, 32, 50, 100, 224})
-    measure(large_setup(rotating_plate({cells}), 0.0, 2.0, followed, traced_tolerance), "plate",
-            {cells < 100, !options.smoke}, figures);
-  for (const int length : options.smoke ? std::vector<int>{} : std::vector<int>{20, 80, 200, 800}) {
-    SolidShaft shaft;
-    shaft.length = length;
-    shaft.width = length > 100 ? 4 : 2;
-    shaft.disc_width = length > 100 ? 12 : 6;
-    shaft.cell = 0.4 / length;
-    shaft.discs = {length / 4, 2 * length / 3};
-    measure(large_setup(solid_shaft(shaft), 0.0, 2000.0, followed, traced_tolerance), "solid shaft",
-            {length < 100, true}, figures);
-  }
+    measure(plate(cells), "plate", plate_points, cells < 100, figures);
+  if (options.smoke) return figures;
+  const auto shaft = [](int length) {
+    SolidShaft one;
+    one.length = length;
+    one.width = length / 20;
+    one.disc_width = 3 * one.width;
+    one.cell = 0.4 / length;
+    one.discs = {length / 4, 2 * length / 3};
+    return large_setup(solid_shaft(one), 0.0, 2000.0, followed, traced_tolerance);
+  };
+  const int shaft_points = points_of_spline(shaft(20));
+  for (const int length : {40, 80, 120})
+    measure(shaft(length), "solid shaft", shaft_points, length < 80, figures);
   return figures;
 }
 

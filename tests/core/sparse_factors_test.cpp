@@ -65,8 +65,8 @@ TEST(SparseFactors, GeneralMatricesAreSolvedFromBothSidesForRealAndComplexVector
 }
 
 TEST(SparseFactors, ComplexMatricesAreSolvedFromBothSides) {
-  const ComplexMatrix A =
-      sparse_random(25, 3.0, 7).cast<Complex>() + Complex(0.0, 1.0) * sparse_random(25, 1.0, 8).cast<Complex>();
+  const ComplexMatrix A = sparse_random(25, 3.0, 7).cast<Complex>() +
+                          Complex(0.0, 1.0) * sparse_random(25, 1.0, 8).cast<Complex>();
   SparseFactors factors;
   ASSERT_TRUE(factors.factor(ComplexSparseMatrix(A.sparseView())));
   EXPECT_TRUE(factors.is_complex());

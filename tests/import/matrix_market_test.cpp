@@ -96,8 +96,10 @@ TEST_F(MatrixMarket, LargeSparseMatricesStaySparse) {
 }
 
 TEST_F(MatrixMarket, LargeSparseMatricesNeedAPower) {
-  const std::string one = write("M0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
-  const std::string other = write("K0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
+  const std::string one =
+      write("M0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
+  const std::string other =
+      write("K0.mtx", "%%MatrixMarket matrix coordinate real general\n200 200 1\n1 1 1\n");
   EXPECT_TRUE(test::contains(message({one, other}), "a large model needs one, such as K1.mtx"));
 }
 

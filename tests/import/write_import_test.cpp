@@ -112,7 +112,8 @@ TEST(WriteImport, PolynomialsThatDoNotFitLeaveNothing) {
     return result;
   };
   EXPECT_EQ(message([](auto& f) { f.K[2] = Matrix::Zero(3, 3); }), "K, power 2 is 3 x 3; expected 2 x 2");
-  EXPECT_EQ(message([](auto& f) { f.K[0] = Matrix(f.K[0].dense() * NAN); }), "K, power 0 has an entry that is not finite");
+  EXPECT_EQ(message([](auto& f) { f.K[0] = Matrix(f.K[0].dense() * NAN); }),
+            "K, power 0 has an entry that is not finite");
   EXPECT_EQ(message([](auto& f) { f.K.clear(); }), "expected K with M, C or both, or A and optionally E");
   EXPECT_EQ(message([](auto& f) { f.E = f.M; }), "E cannot stand beside M, C or K");
   EXPECT_EQ(message([](auto& f) {

@@ -42,7 +42,8 @@ class SparseFamilyFile : public ::testing::Test {
   Setting setting(const std::string& family = "factors = { spring = \"k/2\" }") const {
     const std::string path = folder_.path() + "/scene.toml";
     std::ofstream(path) << "[parameters]\np = 0\nk = 3\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n"
-                           "[matrix_family]\nfile = \"family.h5\"\n" + family + "\n";
+                           "[matrix_family]\nfile = \"family.h5\"\n" +
+                               family + "\n";
     Setting result;
     static_cast<TraceSetup&>(result) = prepare_trace(read_scene(path), {});
     return result;
@@ -95,8 +96,7 @@ TEST_F(SparseFamilyFile, MatricesWithNamesNeedFactors) {
 }
 
 TEST_F(SparseFamilyFile, FactorsNeedMatrices) {
-  const std::string message =
-      input_error([&] { (void)setting("factors = { spring = \"k\", sprng = 2 }"); });
+  const std::string message = input_error([&] { (void)setting("factors = { spring = \"k\", sprng = 2 }"); });
   EXPECT_TRUE(contains(message, "'sprng' is the name of no matrix in the file; it has spring")) << message;
 }
 

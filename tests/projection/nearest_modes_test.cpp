@@ -85,15 +85,18 @@ TEST(NearestModes, GyroscopicWithoutDamping) {
 }
 
 TEST(NearestModes, DampedAndGyroscopic) {
-  expect_nearest(Matrix::Identity(size, size), skew(size, 2) + 0.05 * stiffness(size), stiffness(size), {}, 6);
+  expect_nearest(Matrix::Identity(size, size), skew(size, 2) + 0.05 * stiffness(size), stiffness(size), {},
+                 6);
 }
 
 TEST(NearestModes, Circulatory) {
-  expect_nearest(Matrix::Identity(size, size), 0.05 * stiffness(size), stiffness(size) + skew(size, 3), {}, 6);
+  expect_nearest(Matrix::Identity(size, size), 0.05 * stiffness(size), stiffness(size) + skew(size, 3), {},
+                 6);
 }
 
 TEST(NearestModes, FirstOrder) {
-  expect_nearest(Matrix::Zero(size, size), Matrix::Identity(size, size), stiffness(size) + skew(size, 4), {}, 5);
+  expect_nearest(Matrix::Zero(size, size), Matrix::Identity(size, size), stiffness(size) + skew(size, 4), {},
+                 5);
 }
 
 TEST(NearestModes, AboutAFrequency) {
@@ -106,8 +109,8 @@ TEST(NearestModes, AboutAFrequencyWithoutDamping) {
 }
 
 TEST(NearestModes, AboutAFrequencyInFirstOrder) {
-  expect_nearest(Matrix::Zero(size, size), Matrix::Identity(size, size), 0.2 * stiffness(size) + 10.0 * skew(size, 6),
-                 {0.0, 3.0}, 5);
+  expect_nearest(Matrix::Zero(size, size), Matrix::Identity(size, size),
+                 0.2 * stiffness(size) + 10.0 * skew(size, 6), {0.0, 3.0}, 5);
 }
 
 /// Free chains have a mode at zero, on which the shift lies.
@@ -133,7 +136,8 @@ TEST(NearestModes, RigidBodyMotion) {
 
 /// All eigenvalues within a distance that is asked for.
 TEST(NearestModes, CoversADistance) {
-  const Matrix M = Matrix::Identity(size, size), C = skew(size, 7) + 0.01 * stiffness(size), K = stiffness(size);
+  const Matrix M = Matrix::Identity(size, size), C = skew(size, 7) + 0.01 * stiffness(size),
+               K = stiffness(size);
   ModeFinder finder(accuracy);
   const auto modes = finder.find(pencil_of(M, C, K), {{}, 3, 1.5, 40});
   ASSERT_TRUE(modes);

@@ -64,11 +64,13 @@ struct Cube {
       Eigen::Matrix<double, 8, 1> N;
       Eigen::Matrix<double, 6, 24> B = Eigen::Matrix<double, 6, 24>::Zero();
       for (int node = 0; node < 8; ++node) {
-        const Eigen::Vector3d sign((node & 1) != 0 ? 1 : -1, (node & 2) != 0 ? 1 : -1, (node & 4) != 0 ? 1 : -1);
+        const Eigen::Vector3d sign((node & 1) != 0 ? 1 : -1, (node & 2) != 0 ? 1 : -1,
+                                   (node & 4) != 0 ? 1 : -1);
         const Eigen::Vector3d f = Eigen::Vector3d::Ones() + sign.cwiseProduct(point);
         N[node] = f.prod() / 8.0;
-        const Eigen::Vector3d d = Eigen::Vector3d(sign[0] * f[1] * f[2], sign[1] * f[0] * f[2],
-                                                  sign[2] * f[0] * f[1]) / 8.0 * (2.0 / a);
+        const Eigen::Vector3d d =
+            Eigen::Vector3d(sign[0] * f[1] * f[2], sign[1] * f[0] * f[2], sign[2] * f[0] * f[1]) / 8.0 *
+            (2.0 / a);
         const int c = 3 * node;
         B(0, c) = B(3, c + 1) = B(5, c + 2) = d[0];
         B(1, c + 1) = B(3, c) = B(4, c + 2) = d[1];
@@ -173,7 +175,8 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
       }
     }
     for (const auto& [a, ta] : turn) {
-      for (const auto& [b, tb] : turn) K0.emplace_back(a, b, 100.0 * share * shaft.bearing_stiffness * ta * tb);
+      for (const auto& [b, tb] : turn)
+        K0.emplace_back(a, b, 100.0 * share * shaft.bearing_stiffness * ta * tb);
     }
   }
   const auto n = static_cast<Eigen::Index>(3 * nodes.size());
@@ -217,10 +220,12 @@ AffinePencil<SparseMatrix> two_plates(int cells, double softer, double coupling)
   return pencil;
 }
 
-TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes, double tolerance) {
+TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes,
+                       double tolerance) {
   TraceSetup setup;
-  setup.scene = parse_scene(
-      "[parameters]\nomega = 0\n[trace]\nparameter = \"omega\"\n[matrix_family]\nM = [[[1]]]\n", "large.toml");
+  setup.scene =
+      parse_scene("[parameters]\nomega = 0\n[trace]\nparameter = \"omega\"\n[matrix_family]\nM = [[[1]]]\n",
+                  "large.toml");
   setup.options.parameter = "omega";
   setup.options.from = from;
   setup.options.to = to;
@@ -249,8 +254,8 @@ std::vector<Complex> eigenvalues_near(const AffinePencil<SparseMatrix>& at, Comp
   for (int iteration = 0; iteration < 200; ++iteration) {
     ComplexMatrix stacked(2 * n, k);
     stacked << X, V / std::abs(near);
-    const ComplexMatrix Q = Eigen::HouseholderQR<ComplexMatrix>(stacked).householderQ() *
-                            ComplexMatrix::Identity(2 * n, k);
+    const ComplexMatrix Q =
+        Eigen::HouseholderQR<ComplexMatrix>(stacked).householderQ() * ComplexMatrix::Identity(2 * n, k);
     const ComplexMatrix Y = Q.topRows(n), W = Q.bottomRows(n) * std::abs(near);
     X = -lu.solve(M * W + C * Y + near * (M * Y));
     V = Y + near * X;

@@ -28,13 +28,13 @@ AffinePencil<SparseMatrix> rotating_plate(const RotatingPlate& plate);
 /// proportion to the stiffness) and external damping in the bearings, which is circulatory in this frame. SI
 /// units.
 struct SolidShaft {
-  double cell = 0.02;           ///< edge of an element, m
-  int length = 40;              ///< elements along the axis
-  int width = 2;                ///< elements of the section's sides
-  int disc_width = 8;           ///< the same for discs; even if `width` is even, else odd
+  double cell = 0.02;              ///< edge of an element, m
+  int length = 40;                 ///< elements along the axis
+  int width = 2;                   ///< elements of the section's sides
+  int disc_width = 8;              ///< the same for discs; even if `width` is even, else odd
   std::vector<int> discs{10, 26};  ///< first layers of the discs; each is two layers thick
   double bearing_stiffness = 2e8, bearing_damping = 2e4;  ///< N/m, N s/m
-  double internal_damping = 2e-6;  ///< s, times the stiffness
+  double internal_damping = 2e-6;                         ///< s, times the stiffness
 };
 AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft);
 
@@ -43,7 +43,8 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft);
 AffinePencil<SparseMatrix> two_plates(int cells, double softer, double coupling);
 
 /// A trace of a sparse family over its parameter "omega" (rad/s), ready for `project` and `trace`.
-TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes, double tolerance);
+TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes,
+                       double tolerance);
 
 /// Eigenvalues s (Im s >= 0) of the pencil nearest to `near`, by shift-invert iteration of a block of vectors
 /// with Eigen's sparse LU: independent of the library's solvers.

@@ -10,19 +10,20 @@
 namespace eigentrail {
 
 struct Projection {
-  Matrix basis;                          ///< n x k, orthonormal columns: x = basis times reduced coordinates
-  std::vector<std::string> names;        ///< n, of the coordinates of the large model
-  std::vector<double> sampled_at;        ///< values of the traced parameter (declared unit), in the order of sampling
-  int factorizations = 0;                ///< of the large pencil
-  long solutions = 0;                    ///< with its factors
-  std::size_t peak_bytes = 0;            ///< of the factors, one at a time
-  std::string method;                    ///< of the factorization
+  Matrix basis;                    ///< n x k, orthonormal columns: x = basis times reduced coordinates
+  std::vector<std::string> names;  ///< n, of the coordinates of the large model
+  std::vector<double>
+      sampled_at;              ///< values of the traced parameter (declared unit), in the order of sampling
+  int factorizations = 0;      ///< of the large pencil
+  long solutions = 0;          ///< with its factors
+  std::size_t peak_bytes = 0;  ///< of the factors, one at a time
+  std::string method;          ///< of the factorization
   /// Estimated error of the followed eigenvalues against the large model, relative to max(|s|, reference):
   /// the largest one on the range, and where.
   double error = 0.0;
   double error_at = 0.0;
-  double target = 0.0;                   ///< what was asked for
-  std::vector<std::string> notes = {};   ///< for the user
+  double target = 0.0;                  ///< what was asked for
+  std::vector<std::string> notes = {};  ///< for the user
 };
 
 }  // namespace eigentrail

@@ -181,8 +181,11 @@ class Bordered {
   /// A pencil of one freedom is f itself.
   static Values of_one_freedom(const PencilAt& pencil, Complex mu) {
     const ComplexMatrix one = ComplexMatrix::Ones(1, 1);
-    return {pencil.value(mu)(0, 0),        pencil.by_mu(mu, one)(0, 0),   pencil.by_h(mu, one)(0, 0),
-            pencil.by_mu_twice(one)(0, 0), pencil.by_both(mu, one)(0, 0), pencil.by_h_twice(mu, one)(0, 0)};
+    ComplexMatrix value(1, 1);
+    pencil.write(mu, value);
+    const PencilAt::Products P(pencil, mu, one);
+    return {value(0, 0),           P.by_mu()(0, 0),   P.by_h()(0, 0),
+            P.by_mu_twice()(0, 0), P.by_both()(0, 0), P.by_h_twice()(0, 0)};
   }
 
   static ComplexMatrix orthonormal(const ComplexMatrix& columns) {

@@ -1,0 +1,90 @@
+#include "projection/newcomers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/modes/spectrum.hpp"
+#include "projection/projection_error.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Eigenvalues of the projected pencil with a larger relative indicator stand for none of the large one.
+constexpr double closeness = 1e-3;
+
+/// The matrices of a projected family at a place.
+struct SmallPencil {
+  Matrix M, C, K;
+};
+
+/// Whether an eigenvalue of the projected pencil is close to one of the large pencil, as those of the kept
+/// modes are.
+bool is_exact(const SmallPencil& small, const SparsePencil& large, const Matrix& basis, Complex s,
+              double reference) {
+  const ComplexVector right = left_vector(small.M.transpose(), small.C.transpose(), small.K.transpose(), s);
+  const ProjectedMode mode{s, (basis * right).normalized(),
+                           (basis * left_vector(small.M, small.C, small.K, s)).normalized()};
+  return error_indicator(large, mode) < closeness * std::max(std::abs(s), reference);
+}
+
+/// The spectrum of the projected pencil without the followed modes, and how far these reach from the centre.
+struct Others {
+  std::vector<Complex> s;
+  double farthest = 0.0, largest = 0.0;
+};
+
+Others without_followed(const SmallPencil& small, const Place& place, Complex centre) {
+  Others others;
+  for (const StartingMode& mode : compute_eigenvalues(small.M, small.C, small.K).modes)
+    others.s.push_back(mode.s);
+  for (const ModeState& mode : place.modes) {
+    if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
+    others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
+    others.largest = std::max(others.largest, std::abs(mode.s));
+    others.s.erase(std::min_element(others.s.begin(), others.s.end(), [&](Complex a, Complex b) {
+      return std::abs(a - mode.s) < std::abs(b - mode.s);
+    }));
+  }
+  return others;
+}
+
+/// Eigenvalues that are not followed and nearer to the centre than the farthest followed one, the farthest of
+/// them last.
+std::vector<Complex> among_the_followed(const SparseFamily& family, const ProjectedFamily& model,
+                                        const Place& place, Complex centre, double reference) {
+  const AffinePencil<Matrix> at = model.at(place.parameters);
+  const SmallPencil small{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+  Others others = without_followed(small, place, centre);
+  std::erase_if(others.s, [&](Complex s) {
+    return std::abs(s - centre) >= others.farthest || std::abs(s) <= rigid * others.largest;
+  });
+  if (others.s.empty()) return {};
+  const SparsePencil large = pencil_at(family, place.parameters);
+  std::erase_if(others.s,
+                [&](Complex s) { return !is_exact(small, large, model.projection()->basis, s, reference); });
+  std::sort(others.s.begin(), others.s.end(),
+            [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
+  return others.s;
+}
+
+}  // namespace
+
+Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
+                         const std::vector<Place>& places, Complex centre, double reference) {
+  Newcomers found;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::vector<Complex> there = among_the_followed(family, model, places[i], centre, reference);
+    const bool enters = i > 0 && there.size() > known;
+    known = there.size();
+    if (!enters) continue;
+    if (++found.count == 1) {
+      found.from = places[i - 1].p;
+      found.to = places[i].p;
+      found.frequency = there.back().imag();
+    }
+  }
+  return found;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,32 @@
+// Modes of a large model that are not followed and come among the followed ones.
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/continuation/trace_result.hpp"
+#include "eigentrail/projection/project.hpp"
+
+namespace eigentrail {
+
+/// Eigenvalues below this share of the largest one beside them are rigid-body motions: nobody asks for them.
+inline constexpr double rigid = 1e-6;
+
+/// A place on the path of a projected family, with its followed modes; shapes are in projected coordinates.
+struct Place {
+  double p = 0.0;
+  Vector parameters;  ///< declared units
+  std::vector<ModeState> modes;
+};
+
+struct Newcomers {
+  int count = 0;                ///< how often a mode comes among the followed ones
+  double from = 0.0, to = 0.0;  ///< places between which the first one does
+  double frequency = 0.0;       ///< its Im s, rad/s
+};
+
+/// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
+/// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
+Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
+                         const std::vector<Place>& places, Complex centre, double reference);
+
+}  // namespace eigentrail

@@ -1,0 +1,358 @@
+#include "eigentrail/projection/project.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/core/text.hpp"
+#include "projection/newcomers.hpp"
+#include "projection/projection_error.hpp"
+#include "projection/projection_space.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Vectors are kept to this share of the square root of the target: with a larger one what is left out, and
+/// not the distance from the samples, is most of the error, of which the indicator knows little.
+constexpr double share_of_vectors = 0.02;
+
+/// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
+constexpr double accuracy_of_samples = 0.01;
+
+/// Tolerance of the traces that only look for the worst place.
+constexpr double scout_tolerance = 1e-3;
+
+/// Such a trace has at least this many steps, so that places between the samples are seen.
+constexpr int scout_steps = 16;
+
+std::string digits(double value, int count) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", count, value);
+  return text.data();
+}
+
+/// The mode with the largest indicator of all places.
+struct Worst {
+  const Place* place = nullptr;
+  double indicator = 0.0;  ///< relative to max(|s|, reference)
+};
+
+class Projector {
+ public:
+  Projector(const SparseFamily& family, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
+            const ProjectionOptions& options)
+      : family_(family),
+        trace_(trace),
+        lines_(lines),
+        options_(options),
+        space_(family.n_coordinates()),
+        target_(options.share_of_tolerance * trace.tolerance),
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9)) {
+    if (lines_.empty()) lines_.push_back(trace.values);
+    check_choice();
+  }
+
+  std::unique_ptr<ProjectedFamily> along_the_lines() {
+    first_samples(lines_.front());
+    if (lines_.size() > 1) first_samples(lines_.back());
+    while (true) {
+      const std::unique_ptr<ProjectedFamily> model = reduced();
+      std::vector<Place> places;
+      for (const ParameterValues& line : lines_) scout(*model, line, places);
+      const Worst worst = find_worst(places);
+      if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
+      // Exact eigenvalues at the worst place show the true error of the space as it was.
+      const double error = error_at(*worst.place);
+      if (worst.indicator > 0.0 && error > rounding_of_samples)
+        factor_ = std::max(factor_, error / worst.indicator);
+      projection_.error = std::max(error, factor_ * worst.indicator);
+      projection_.error_at = worst.place->p;
+      if (error > target_ || projection_.error > safety * target_) continue;
+      if (lines_.size() == 1) note_newcomers(*model, places);
+      return reduced();
+    }
+  }
+
+  /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
+  std::unique_ptr<ProjectedFamily> at(const std::vector<double>& values) {
+    for (const double p : values) add(find_chosen(pencil_at(family_, parameters_at(p, lines_.front()))), p);
+    return reduced();
+  }
+
+ private:
+  /// The indicator's factor differs from place to place by about this: so much larger than the target the
+  /// error may be at places whose exact eigenvalues were not computed. The target leaves room for it.
+  static constexpr double safety = 30.0;
+
+  /// Errors of the exact eigenvalues themselves: below this nothing is known of the projection.
+  static constexpr double rounding_of_samples = 1e-11;
+
+  void check_choice() const {
+    if (trace_.modes.count || trace_.modes.band) return;
+    throw InputError(
+        "a large model with " + std::to_string(family_.n_coordinates()) +
+        " freedoms, of which all modes are asked for: follow some of them, with modes = 6 or modes = "
+        "{ band = [\"0 Hz\", \"50 Hz\"] } in [trace], or --modes 6");
+  }
+
+  Vector parameters_at(double p, const ParameterValues& line) const {
+    const Parameters& parameters = family_.description().parameters;
+    Vector values = parameters.declared_values();
+    for (const auto& [name, value] : line) values[parameters.index(name).value()] = value;
+    values[parameters.index(trace_.parameter).value()] = p;
+    return values;
+  }
+
+  Shift usual_shift() const {
+    const ModeChoice& choice = trace_.modes;
+    if (choice.near) return {0.0, *choice.near};
+    if (choice.band && choice.band->lowest > 0.0)
+      return {0.0, 0.5 * (choice.band->lowest + choice.band->highest)};
+    return {};
+  }
+
+  NearestModes find(const SparsePencil& pencil, ModeRequest request, double p) {
+    const int most = static_cast<int>(pencil.size()) - 2;
+    for (const int more : {0, 6, 20}) {
+      request.count = std::min(request.count + more, most);
+      request.most = std::min(request.most, most);
+      auto modes = finder_.find(pencil, request);
+      projection_.factorizations = finder_.factorizations();
+      if (modes) return *modes;
+    }
+    throw NotProjected("the modes of the large model at " + trace_.parameter + " = " + exact_text(p) +
+                       " were not found: shift-invert iterations do not converge. Is the pencil singular "
+                       "(a freedom without mass and stiffness)?");
+  }
+
+  /// As many modes as contain the chosen ones, and spare ones; at the start of the trace.
+  NearestModes find_chosen(const SparsePencil& pencil) {
+    count_ = trace_.modes.count.value_or(8) + options_.spare_modes;
+    while (true) {
+      NearestModes modes = find(pencil, {usual_shift(), count_}, trace_.from);
+      const int missing = missing_modes(modes, usual_shift());
+      if (missing == 0 || count_ >= static_cast<int>(pencil.size()) / 2) return modes;
+      count_ += missing;
+    }
+  }
+
+  /// How many modes more are to be looked for, so that all chosen ones are there.
+  int missing_modes(const NearestModes& modes, const Shift& shift) const {
+    const ModeChoice& choice = trace_.modes;
+    const double largest = modes.s.cwiseAbs().maxCoeff();
+    int wanted = 0;
+    for (const Complex s : modes.s) wanted += std::abs(s) > rigid * largest && choice.wants(s) ? 1 : 0;
+    if (choice.count) return std::max(0, *choice.count + options_.spare_modes - wanted);
+    const double edge =
+        std::max(choice.band->highest - shift.frequency, shift.frequency - choice.band->lowest);
+    return modes.radius < edge ? count_ : 0;
+  }
+
+  void add(const NearestModes& modes, double p) {
+    frequency_ = std::max(frequency_, modes.s.cwiseAbs().maxCoeff());
+    space_.add(modes.right);
+    if (options_.left_vectors && modes.left.cols() > 0) space_.add(modes.left);
+    projection_.sampled_at.push_back(p);
+  }
+
+  void first_samples(const ParameterValues& line) {
+    const int n = options_.first_samples;
+    for (int i = 0; i < n; ++i) {
+      // Chebyshev places with the ends: dense where interpolation is worst.
+      const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
+      const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
+      const SparsePencil pencil = pencil_at(family_, parameters_at(p, line));
+      add(count_ == 0 ? find_chosen(pencil) : find(pencil, {usual_shift(), count_}, p), p);
+    }
+  }
+
+  /// The family on the space of the vectors, without what these need less than the target.
+  std::unique_ptr<ProjectedFamily> reduced() {
+    const AffinePencil<Matrix> whole = project_onto(space_.basis(), family_.pencil());
+    const Matrix principal = space_.principal(energy(whole), accuracy_of_vectors());
+    basis_ = space_.basis() * principal;
+    ModelDescription description = family_.description();
+    projection_.names = description.coordinate_names;
+    projection_.basis = basis_;
+    projection_.solutions = finder_.solutions();
+    projection_.peak_bytes = finder_.peak_bytes();
+    projection_.method = finder_.method();
+    projection_.target = target_;
+    description.coordinate_names.clear();
+    for (Eigen::Index i = 0; i < basis_.cols(); ++i)
+      description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_units.assign(static_cast<std::size_t>(basis_.cols()), "1");
+    return std::make_unique<ProjectedFamily>(std::move(description), project_onto(principal, whole),
+                                             projection_);
+  }
+
+  /// Relative accuracy of the vectors in the space, right and left: their product is the target.
+  double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
+
+  /// Energy of motion at the middle of the range: K and M weighted by a frequency that was found.
+  Matrix energy(const AffinePencil<Matrix>& pencil) const {
+    ModelDescription description = family_.description();
+    description.coordinate_names.assign(static_cast<std::size_t>(space_.basis().cols()), "");
+    const AffinePencil<Matrix> at = AffineFamily<Matrix>(std::move(description), pencil)
+                                        .at(parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()));
+    const Matrix sum = at.K.front().matrix + frequency_ * frequency_ * at.M.front().matrix;
+    return 0.5 * (sum + sum.transpose());
+  }
+
+  /// A rough trace of the projected family along a line; its points are added to `places`.
+  void scout(const ProjectedFamily& model, const ParameterValues& line, std::vector<Place>& places) {
+    TraceOptions options = trace_;
+    options.values = line;
+    options.tolerance = std::max(trace_.tolerance, scout_tolerance);
+    options.certify = false;
+    options.events = {};
+    options.events.extrema = false;
+    options.order.reset();
+    options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
+    TraceObserver observer;
+    observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
+    observer.point = [&](const TracePoint& point) {
+      places.push_back({point.node.p, point.node.path.parameters.col(0), point.modes});
+      return true;
+    };
+    const TraceResult result = trace(model, options, observer);
+    if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
+  }
+
+  double size(Complex s) const { return std::max(std::abs(s), reference_); }
+
+  Worst find_worst(const std::vector<Place>& places) const {
+    Worst worst{&places.front(), -1.0};
+    for (const Place& place : places) {
+      const double indicator = indicator_at(place);
+      if (indicator > worst.indicator) worst = {&place, indicator};
+    }
+    return worst;
+  }
+
+  /// The largest indicator of the modes at a place.
+  double indicator_at(const Place& place) const {
+    const SparsePencil pencil = pencil_at(family_, place.parameters);
+    Matrix M, C, K;
+    if (!pencil.one_sided) {
+      M = basis_.transpose() * (pencil.M * basis_);
+      C = basis_.transpose() * (pencil.C * basis_);
+      K = basis_.transpose() * (pencil.K * basis_);
+    }
+    double largest = 0.0;
+    for (const ModeState& mode : place.modes) {
+      if (!std::isfinite(std::abs(mode.s))) continue;
+      ProjectedMode one{mode.s, (basis_ * mode.shape).normalized(), {}};
+      if (!pencil.one_sided) {
+        one.left = (basis_ * left_vector(M, C, K, mode.s)).normalized();
+      } else {
+        one.left = pencil.symmetric ? one.right : one.right.conjugate();
+      }
+      largest = std::max(largest, error_indicator(pencil, one) / size(mode.s));
+    }
+    return largest;
+  }
+
+  /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
+  /// size; the vectors of these are added to the space.
+  double error_at(const Place& place) {
+    const SparsePencil pencil = pencil_at(family_, place.parameters);
+    const Complex centre = usual_shift().value();
+    std::vector<Complex> followed;
+    double farthest = 0.0;
+    for (const ModeState& mode : place.modes) {
+      if (!std::isfinite(std::abs(mode.s))) continue;
+      followed.push_back(mode.s);
+      farthest = std::max(farthest, std::abs(mode.s - centre));
+    }
+    // More modes cost less than a second shift with its factorization.
+    const NearestModes exact =
+        find(pencil, {usual_shift(), count_, 1.01 * farthest, 3 * count_ / 2}, place.p);
+    add(exact, place.p);
+    std::vector<Complex> known(exact.s.begin(), exact.s.end());
+    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.p)) known.push_back(s);
+    double largest = 0.0;
+    for (const Complex s : followed) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Complex other : known) distance = std::min(distance, std::abs(other - s));
+      largest = std::max(largest, distance / size(s));
+    }
+    return largest;
+  }
+
+  /// Followed modes that have left the neighbourhood of the usual shift are looked for with one of their own.
+  ComplexVector find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& followed, double radius,
+                              double p) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+    int count = 0;
+    for (const Complex s : followed) {
+      if (std::abs(s - usual_shift().value()) <= radius) continue;
+      lowest = std::min(lowest, s.imag());
+      highest = std::max(highest, std::abs(s));
+      ++count;
+    }
+    if (count == 0) return {};
+    const double middle = 0.5 * (lowest + highest);
+    const double cover = 1.01 * std::max(highest - middle, 1e-3 * highest);
+    const int most = 3 * (count + options_.spare_modes);
+    const NearestModes modes = find(pencil, {{0.0, middle}, count + options_.spare_modes, cover, most}, p);
+    add(modes, p);
+    return modes.s;
+  }
+
+  void note_newcomers(const ProjectedFamily& model, const std::vector<Place>& places) {
+    const Newcomers found = find_newcomers(family_, model, places, usual_shift().value(), reference_);
+    if (found.count == 0) return;
+    const std::string who = found.count == 1
+                                ? "a mode that is not followed comes among the followed ones, "
+                                : std::to_string(found.count) +
+                                      " modes that are not followed come among the followed ones, the first ";
+    projection_.notes.push_back(who + "between " + trace_.parameter + " = " + digits(found.from, 5) +
+                                " and " + digits(found.to, 5) + ", at " + digits(found.frequency, 4) +
+                                " rad/s; to follow more, ask for more modes");
+  }
+
+  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
+    projection_.error = worst.indicator * factor_;
+    projection_.error_at = worst.place->p;
+    projection_.notes.push_back("the projection leaves an error of about " + digits(projection_.error, 2) +
+                                " at " + trace_.parameter + " = " + exact_text(worst.place->p) + " after " +
+                                std::to_string(projection_.factorizations) +
+                                " factorizations; asked for were " + digits(target_, 2));
+    return reduced();
+  }
+
+  const SparseFamily& family_;
+  const TraceOptions& trace_;
+  std::vector<ParameterValues> lines_;
+  const ProjectionOptions& options_;
+  ProjectionSpace space_;
+  Matrix basis_;   ///< of the projected family, n x r
+  double target_;  ///< error of the eigenvalues by the projection, relative to their size
+  ModeFinder finder_;
+  Projection projection_;
+  double frequency_ = 0.0;  ///< largest |s| that was found
+  double reference_ = 0.0;  ///< of the scout's eigenvalues
+  double factor_ = 1.0;     ///< error over indicator, the largest that was seen
+  int count_ = 0;           ///< modes that are looked for at a place
+};
+
+}  // namespace
+
+std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
+                                         const std::vector<ParameterValues>& lines,
+                                         const ProjectionOptions& options) {
+  return Projector(family, trace, lines, options).along_the_lines();
+}
+
+std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
+                                            const std::vector<double>& values) {
+  const ProjectionOptions options;
+  return Projector(family, trace, {}, options).at(values);
+}
+
+}  // namespace eigentrail
