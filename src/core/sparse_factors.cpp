@@ -113,8 +113,8 @@ class Lu {
   }
 
   bool complex_;
-  double control_[UMFPACK_CONTROL];
-  double info_[UMFPACK_INFO];
+  double control_[UMFPACK_CONTROL] = {};
+  double info_[UMFPACK_INFO] = {};
   void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
   std::vector<double> values_;

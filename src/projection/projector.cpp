@@ -197,8 +197,8 @@ class Projector {
   Matrix energy(const AffinePencil<Matrix>& pencil) const {
     ModelDescription description = family_.description();
     description.coordinate_names.assign(static_cast<std::size_t>(space_.basis().cols()), "");
-    const AffinePencil<Matrix> at = AffineFamily<Matrix>(std::move(description), pencil)
-                                        .at(parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()));
+    const AffineFamily<Matrix> family(std::move(description), pencil);
+    const AffinePencil<Matrix> at = family.at(parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()));
     const Matrix sum = at.K.front().matrix + frequency_ * frequency_ * at.M.front().matrix;
     return 0.5 * (sum + sum.transpose());
   }

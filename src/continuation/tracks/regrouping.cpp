@@ -118,9 +118,9 @@ std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
       if (std::abs(track.roots[i] - track.roots[j]) <= told_apart * track.pair.Lambda.norm()) return {};
     }
     ComplexVector series = root_series(track.functions, track.roots[i]);
-    if (track.pair.chart != chart)
-      series = track.roots[i] == 0.0 ? ComplexVector() : reciprocal_series(series);
-    if (series.size() == 0) return {};
+    const bool other_chart = track.pair.chart != chart;
+    if (series.size() == 0 || (other_chart && track.roots[i] == 0.0)) return {};
+    if (other_chart) series = reciprocal_series(series);
     members.push_back(std::move(series));
   }
   return members;
