@@ -186,6 +186,9 @@ Polynomials first_order(MatrixPolynomial E, MatrixPolynomial A) {
   return {{}, std::move(E), negated(std::move(A)), {}, true};
 }
 
+const std::string expected_datasets =
+    "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
+
 Polynomials read_file(FamilyReader& reader) {
   for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
@@ -204,9 +207,7 @@ Polynomials read_file(FamilyReader& reader) {
     }
     if (has("/state_names")) p.state_names = file.read_texts("/state_names");
   } catch (const Hdf5Error& error) {
-    const std::string expected =
-        "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
-    reader.fail("file", error.what() + expected);
+    reader.fail("file", error.what() + expected_datasets);
   }
   if (p.K.empty() || (p.M.empty() && p.C.empty()))
     reader.fail("file", path + " has no dataset /K/0, or neither /M/0 nor /C/0");
@@ -225,7 +226,7 @@ std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used)
     if (!has_factors && !has_sparse_matrices(file)) return nullptr;
     return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene), used);
   } catch (const Hdf5Error& error) {
-    reader.fail("file", error.what());
+    reader.fail("file", error.what() + expected_datasets);
   }
 }
 

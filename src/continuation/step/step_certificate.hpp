@@ -1,7 +1,8 @@
 // Evidence that no modes were exchanged on a step, track by track. certificate.hpp describes the test.
 #pragma once
 
-#include "continuation/step/step_judgement.hpp"
+#include "continuation/step/step.hpp"
+#include "continuation/step/track_test.hpp"
 
 namespace eigentrail {
 

@@ -4,6 +4,7 @@
 
 #include "continuation/path/path_frame.hpp"
 #include "continuation/step/step.hpp"
+#include "continuation/step/track_test.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
@@ -22,13 +23,6 @@ enum class Uncertified {
   is_rejected,
   passes,          ///< because a shorter step would fail as well
   passes_by_shape  ///< if the shapes of the modes at both ends resemble each other
-};
-
-/// How the certificate of a track is tested.
-enum class TrackTest {
-  strict,   ///< if it fails, the step is treated as above
-  lenient,  ///< if it fails, the track passes by its shape: it failed on the last step, too
-  none      ///< the track passes by its shape
 };
 
 /// Judges a step whose points have been computed. A verdict that is accepted or `uncertified` has the error

@@ -24,6 +24,11 @@
 namespace eigentrail {
 namespace {
 
+CertificateBudget budget_of_certificate(const TraceState& state, const TraceOptions& options) {
+  const double progress = std::abs(state.origin.node.p - options.from) / state.frame.range.length();
+  return certificate_budget(state.result.counts, state.result.n_independent, std::min(progress, 1.0));
+}
+
 /// Shortest step, as a share of the range; the trace gives up below it. Even where an eigenvalue varies like
 /// the square root of the distance it changes by only 3e-7 over such a step. With a larger value traces end
 /// that a shorter step would carry on; with a smaller one hopeless traces try longer before they end.
@@ -239,7 +244,7 @@ bool TraceLoop::advance() {
   const auto if_uncertified = [this](double of_length) {
     const StepMemory& memory = state_.steps;
     return memory.patience.treatment(state_.frame, of_length, memory.longest_step, state_.result.nodes,
-                                     certificate_budget());
+                                     budget_of_certificate(state_, options_));
   };
   const auto is_taken = [&](const Verdict& verdict, double of_length) {
     return verdict.accepted() || (verdict.kind == Verdict::Kind::uncertified &&
@@ -273,17 +278,12 @@ bool TraceLoop::advance() {
   return commit(std::move(*landed), anew.certified);
 }
 
-CertificateBudget TraceLoop::certificate_budget() const {
-  const double progress = std::abs(state_.origin.node.p - options_.from) / state_.frame.range.length();
-  return eigentrail::certificate_budget(state_.result.counts, state_.result.n_independent,
-                                        std::min(progress, 1.0));
-}
-
 Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
   const bool costly = is_costly_in_vain(state_.result.counts);
   tests_.clear();
+  const CertificateBudget budget = budget_of_certificate(state_, options_);
   for (const Track& track : step.right.tracks)
-    tests_.push_back(state_.steps.patience.test_of(track.lineage, certificate_budget(), costly));
+    tests_.push_back(state_.steps.patience.test_of(track.lineage, budget, costly));
   return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
 }
 

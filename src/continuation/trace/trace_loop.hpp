@@ -55,7 +55,6 @@ class TraceLoop final : private Checkpoint {
   bool emit(const PathNode& node, const PathStep* step);
   bool stop(TraceStatus status, const std::string& message);
   double seconds_so_far() const;
-  CertificateBudget certificate_budget() const;
 
   const TraceOptions& options_;
   const TraceObserver& observer_;

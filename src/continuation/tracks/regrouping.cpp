@@ -109,6 +109,10 @@ ComplexVector mean_in(const Track& track, Chart chart) {
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
 
+/// The eigenvalues of larger blocks are not looked at one by one: beside exceptional points of a higher order
+/// they are branches of one function, whose series hold on a short way only.
+constexpr Eigen::Index most_one_by_one = 2;
+
 /// Series of the eigenvalues of a track in a chart, one by one. Empty where two of them are not told apart,
 /// or one is infinite there.
 std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
@@ -130,7 +134,8 @@ std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
 /// Where members are not told apart, the means with their radius stand for them.
 double meeting_of_tracks(const Track& track, const Track& other, double h, double limit) {
   const Chart chart = track.pair.chart;
-  if (track.size() > 1 || other.size() > 1) {
+  const Eigen::Index largest = std::max(track.size(), other.size());
+  if (largest > 1 && largest <= most_one_by_one) {
     const std::vector<ComplexVector> ours = members_in(track, chart), theirs = members_in(other, chart);
     double nearest = INFINITY;
     for (const ComplexVector& a : ours) {
