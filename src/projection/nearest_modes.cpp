@@ -135,10 +135,10 @@ std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const
                              double tolerance) {
   const auto size = static_cast<int>(inverse.rows());
   const int nev = std::min(wanted, size - 2);
-  const int ncv = std::min(size, std::max(2 * nev + 1, nev + 12));
+  const int ncv = std::min(size, 2 * nev + 20);
   Spectra::GenEigsSolver<Inverse> solver(inverse, nev, ncv);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 300, tolerance, Spectra::SortRule::LargestMagn);
+  solver.compute(Spectra::SortRule::LargestMagn, 50, tolerance, Spectra::SortRule::LargestMagn);
   if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
   const ComplexVector nus = solver.eigenvalues();
   const ComplexMatrix vectors = solver.eigenvectors();

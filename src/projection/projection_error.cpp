@@ -16,6 +16,24 @@ ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Com
   return y;
 }
 
+void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode) {
+  constexpr double elsewhere = 0.05;  // of |s|: far above the tolerance of the trace
+  constexpr int rounds = 3;           // each doubles the digits
+  if (!std::isfinite(std::abs(mode.s)) || mode.s == 0.0) return;
+  Complex s = mode.s;
+  ComplexVector right;
+  for (int i = 0; i < rounds; ++i) {
+    right = left_vector(M.transpose(), C.transpose(), K.transpose(), s);
+    const ComplexVector left = left_vector(M, C, K, s);
+    const Complex residual = left.transpose() * (s * s * (M * right) + s * (C * right) + K * right);
+    const Complex slope = left.transpose() * (2.0 * s * (M * right) + C * right);
+    s -= residual / slope;
+    if (!(std::abs(s - mode.s) < elsewhere * std::abs(mode.s))) return;
+  }
+  mode.s = s;
+  mode.shape = right;
+}
+
 double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode) {
   const double s = std::abs(mode.s);
   const Vector scale = s * s * pencil.M.diagonal().cwiseAbs() + s * pencil.C.diagonal().cwiseAbs() +

@@ -1,6 +1,7 @@
 // How far an eigenvalue of a projected family is from one of the large family.
 #pragma once
 
+#include "eigentrail/continuation/trace_result.hpp"
 #include "projection/nearest_modes.hpp"
 
 namespace eigentrail {
@@ -15,6 +16,10 @@ struct ProjectedMode {
 /// Left vector of the eigenvalue s of the small pencil (M s^2 + C s + K): unit length, y^T P(s) = 0. Two
 /// steps of inverse iteration.
 ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s);
+
+/// Corrects the eigenvalue and the shape of a mode of the small pencil, which a rough trace knows to few
+/// digits, by inverse iteration and two-sided Rayleigh quotients. Leaves it where these lead elsewhere.
+void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode);
 
 /// An indicator of |s - s_large|, 1/s: |P(s) z| |y^T P(s)| / |y^T P'(s) z|, with both residuals measured by
 /// the diagonal of the pencil's terms. It is of the order of the error in its dependence on the vectors; its

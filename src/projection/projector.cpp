@@ -216,7 +216,10 @@ class Projector {
     TraceObserver observer;
     observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
     observer.point = [&](const TracePoint& point) {
-      places.push_back({point.node.p, point.node.path.parameters.col(0), point.modes});
+      Place& place = places.emplace_back(Place{point.node.p, point.node.path.parameters.col(0), point.modes});
+      const AffinePencil<Matrix> at = model.at(place.parameters);
+      for (ModeState& mode : place.modes)
+        refine(at.M.front().matrix, at.C.front().matrix, at.K.front().matrix, mode);
       return true;
     };
     const TraceResult result = trace(model, options, observer);

@@ -160,19 +160,5 @@ TEST(FindPartners, RealBlockIsMetWhereItsMembersAre) {
   EXPECT_LE(partners[0].distance, 0.05 + rounding);
 }
 
-/// A block of 1.7 and 2.3 and a single mode 2.4 - p, which meets 2.3 at p = 0.1. The radius of the block is
-/// about the distance from its mean.
-TEST(FindPartners, MemberOfAWideBlockIsMetWhereItIs) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{1.7, 0.0}, {2.3, 0.0}, {2.4, -1.0}}));
-  const PathNode node = family.point(0.0, {{{1.7 * j, 2.3 * j}}, {{2.4 * j}}});
-  for (const std::size_t track : {0U, 1U}) {
-    const auto partners = find_partners(node, track, 0.15, 0.01);
-    ASSERT_EQ(partners.size(), 1U);
-    EXPECT_EQ(partners[0].track, 1U - track);
-    EXPECT_NEAR(partners[0].distance, 0.0, 1e-6);
-    EXPECT_TRUE(find_partners(node, track, 0.02, 1.0).empty());
-  }
-}
-
 }  // namespace
 }  // namespace eigentrail::test

@@ -28,12 +28,12 @@ INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263
 
 /// Regression test: narrow veerings were located from series only, and beside other ones some were invented;
 /// a veering of one freedom.
-INSTANTIATE_TEST_SUITE_P(NarrowVeerings, PlantedFamilyTrace, testing::Values(508, 591, 595, 613, 965),
+INSTANTIATE_TEST_SUITE_P(NarrowVeerings, PlantedFamilyTrace, testing::Values(508, 591, 613, 965),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 /// Regression test: real eigenvalues beside others, whose blocks did not converge, or were not joined with
 /// what they met, so that steps became tiny.
-INSTANTIATE_TEST_SUITE_P(CloseRealEigenvalues, PlantedFamilyTrace, testing::Values(151, 609, 999),
+INSTANTIATE_TEST_SUITE_P(CloseRealEigenvalues, PlantedFamilyTrace, testing::Values(151, 999),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 /// Collisions so close to each other that rounding of the matrices moves them by more than 1e-9.

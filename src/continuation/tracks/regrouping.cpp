@@ -109,41 +109,9 @@ ComplexVector mean_in(const Track& track, Chart chart) {
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
 
-/// The eigenvalues of larger blocks are not looked at one by one: beside exceptional points of a higher order
-/// they are branches of one function, whose series hold on a short way only.
-constexpr Eigen::Index most_one_by_one = 2;
-
-/// Series of the eigenvalues of a track in a chart, one by one. Empty where two of them are not told apart,
-/// or one is infinite there.
-std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
-  std::vector<ComplexVector> members;
-  for (Eigen::Index i = 0; i < track.size(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (std::abs(track.roots[i] - track.roots[j]) <= told_apart * track.pair.Lambda.norm()) return {};
-    }
-    ComplexVector series = root_series(track.functions, track.roots[i]);
-    const bool other_chart = track.pair.chart != chart;
-    if (series.size() == 0 || (other_chart && track.roots[i] == 0.0)) return {};
-    if (other_chart) series = reciprocal_series(series);
-    members.push_back(std::move(series));
-  }
-  return members;
-}
-
-/// Distance from the step [0, h] of the nearest meeting of an eigenvalue of one track with one of another.
-/// Where members are not told apart, the means with their radius stand for them.
+/// Distance from the step [0, h] of the nearest meeting of the means of two tracks, with their radius.
 double meeting_of_tracks(const Track& track, const Track& other, double h, double limit) {
   const Chart chart = track.pair.chart;
-  const Eigen::Index largest = std::max(track.size(), other.size());
-  if (largest > 1 && largest <= most_one_by_one) {
-    const std::vector<ComplexVector> ours = members_in(track, chart), theirs = members_in(other, chart);
-    double nearest = INFINITY;
-    for (const ComplexVector& a : ours) {
-      for (const ComplexVector& b : theirs)
-        nearest = std::min(nearest, meeting_distance(a, b, 0.0, h, limit, Doubtful::is_left_out));
-    }
-    if (!ours.empty() && !theirs.empty()) return nearest;
-  }
   const ComplexVector mean = mean_in(other, chart);
   if (mean.size() == 0) return INFINITY;
   const double spread = std::max(square_radius(track), square_radius(other));
