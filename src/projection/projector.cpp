@@ -226,6 +226,19 @@ class Projector {
     if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
   }
 
+  /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
+  static std::vector<ModeState> moving_modes(const Place& place) {
+    double largest = 0.0;
+    std::vector<ModeState> modes;
+    for (const ModeState& mode : place.modes) {
+      if (!std::isfinite(std::abs(mode.s))) continue;
+      largest = std::max(largest, std::abs(mode.s));
+      modes.push_back(mode);
+    }
+    std::erase_if(modes, [&](const ModeState& mode) { return std::abs(mode.s) <= rigid * largest; });
+    return modes;
+  }
+
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
   Worst find_worst(const std::vector<Place>& places) const {
@@ -247,8 +260,7 @@ class Projector {
       K = basis_.transpose() * (pencil.K * basis_);
     }
     double largest = 0.0;
-    for (const ModeState& mode : place.modes) {
-      if (!std::isfinite(std::abs(mode.s))) continue;
+    for (const ModeState& mode : moving_modes(place)) {
       ProjectedMode one{mode.s, (basis_ * mode.shape).normalized(), {}};
       if (!pencil.one_sided) {
         one.left = (basis_ * left_vector(M, C, K, mode.s)).normalized();
@@ -267,8 +279,7 @@ class Projector {
     const Complex centre = usual_shift().value();
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ModeState& mode : place.modes) {
-      if (!std::isfinite(std::abs(mode.s))) continue;
+    for (const ModeState& mode : moving_modes(place)) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }

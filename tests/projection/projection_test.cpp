@@ -154,6 +154,37 @@ TEST(Projection, AModeThatComesAmongTheFollowedOnesIsNoted) {
   EXPECT_TRUE(project(family_of(lowest), lowest.options)->projection()->notes.empty());
 }
 
+/// A free chain: its rigid-body motion has an eigenvalue that is zero up to the root of rounding.
+TEST(Projection, RigidBodyMotionsDoNotCountAsErrors) {
+  constexpr int n = 200;
+  std::vector<Eigen::Triplet<double>> springs, masses;
+  for (int i = 0; i < n; ++i) masses.emplace_back(i, i, 1.0);
+  for (int i = 1; i < n; ++i) {
+    for (const int at : {i - 1, i}) springs.emplace_back(at, at, 1.0);
+    springs.emplace_back(i, i - 1, -1.0);
+    springs.emplace_back(i - 1, i, -1.0);
+  }
+  SparseMatrix M(n, n), K(n, n);
+  M.setFromTriplets(masses.begin(), masses.end());
+  K.setFromTriplets(springs.begin(), springs.end());
+  AffinePencil<SparseMatrix> chain{{{1.0, M}}, {}, {{1.0, K}, {Expression::of_parameter(0), 0.1 * K}}};
+  const TraceSetup setup = large_setup(std::move(chain), 0.0, 1.0, 4, 1e-6);
+  const Traced traced = run(setup, 3);
+  EXPECT_EQ(traced.result.status, TraceStatus::completed);
+  EXPECT_LE(traced.model->projection()->factorizations, 12);
+  for (std::size_t i = 0; i < traced.places.size(); ++i) {
+    const double stiffening = std::sqrt(1.0 + 0.1 * traced.places[i]);
+    for (int j = 1; j < 4; ++j) {
+      const Complex exact(0.0, 2.0 * stiffening * std::sin(0.5 * M_PI * j / n));
+      double nearest = 1e300;
+      for (const Complex found : traced.eigenvalues[i]) {
+        if (!std::isnan(found.real())) nearest = std::min(nearest, std::abs(found - exact));
+      }
+      EXPECT_LT(nearest, 1e-6 * std::abs(exact)) << j;
+    }
+  }
+}
+
 TEST(Projection, SingleValuesAreExact) {
   const TraceSetup setup = large_setup(rotating_plate({16, 0.02, 1.0}), 0.0, 3.0, 4, 1e-6);
   const auto model = project_at(family_of(setup), setup.options, {1.0});
