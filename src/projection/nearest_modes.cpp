@@ -13,10 +13,6 @@ namespace {
 /// eigenvalue, and the solutions lose as many digits of the others.
 constexpr double on_an_eigenvalue = 1e-5;
 
-SparseMatrix sum(const std::vector<AffineTerm<SparseMatrix>>& terms) {
-  return terms.front().matrix;
-}
-
 bool is_symmetric(const SparseMatrix& A, double sign) {
   const SparseMatrix transposed = A.transpose();
   return (A - sign * transposed).norm() == 0.0;
@@ -239,7 +235,7 @@ ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) 
 
 SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters) {
   const AffinePencil<SparseMatrix> at = family.at(parameters);
-  SparsePencil pencil{sum(at.M), sum(at.C), sum(at.K)};
+  SparsePencil pencil{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
   const bool conservative = is_symmetric(pencil.M, 1.0) && is_symmetric(pencil.K, 1.0);
   const bool symmetric_C = is_symmetric(pencil.C, 1.0);
   pencil.symmetric = conservative && symmetric_C;
