@@ -33,7 +33,7 @@ struct Others {
   double farthest = 0.0, largest = 0.0;
 };
 
-Others without_followed(const SmallPencil& small, const Place& place, Complex centre) {
+Others without_followed(const SmallPencil& small, const ProjectedPlace& place, Complex centre) {
   Others others;
   for (const StartingMode& mode : compute_eigenvalues(small.M, small.C, small.K).modes)
     others.s.push_back(mode.s);
@@ -51,7 +51,7 @@ Others without_followed(const SmallPencil& small, const Place& place, Complex ce
 /// Eigenvalues that are not followed and nearer to the centre than the farthest followed one, the farthest of
 /// them last.
 std::vector<Complex> among_the_followed(const SparseFamily& family, const ProjectedFamily& model,
-                                        const Place& place, Complex centre, double reference) {
+                                        const ProjectedPlace& place, Complex centre, double reference) {
   const AffinePencil<Matrix> at = model.at(place.parameters);
   const SmallPencil small{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
   Others others = without_followed(small, place, centre);
@@ -70,7 +70,7 @@ std::vector<Complex> among_the_followed(const SparseFamily& family, const Projec
 }  // namespace
 
 Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
-                         const std::vector<Place>& places, Complex centre, double reference) {
+                         const std::vector<ProjectedPlace>& places, Complex centre, double reference) {
   Newcomers found;
   std::size_t known = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

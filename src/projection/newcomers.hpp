@@ -12,7 +12,7 @@ namespace eigentrail {
 inline constexpr double rigid = 1e-6;
 
 /// A place on the path of a projected family, with its followed modes; shapes are in projected coordinates.
-struct Place {
+struct ProjectedPlace {
   double p = 0.0;
   Vector parameters;  ///< declared units
   std::vector<ModeState> modes;
@@ -27,6 +27,6 @@ struct Newcomers {
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
 Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
-                         const std::vector<Place>& places, Complex centre, double reference);
+                         const std::vector<ProjectedPlace>& places, Complex centre, double reference);
 
 }  // namespace eigentrail

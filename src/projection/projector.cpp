@@ -37,7 +37,7 @@ std::string digits(double value, int count) {
 
 /// The mode with the largest indicator of all places.
 struct Worst {
-  const Place* place = nullptr;
+  const ProjectedPlace* place = nullptr;
   double indicator = 0.0;  ///< relative to max(|s|, reference)
 };
 
@@ -61,7 +61,7 @@ class Projector {
     if (lines_.size() > 1) first_samples(lines_.back());
     while (true) {
       const std::unique_ptr<ProjectedFamily> model = reduced();
-      std::vector<Place> places;
+      std::vector<ProjectedPlace> places;
       for (const ParameterValues& line : lines_) scout(*model, line, places);
       const Worst worst = find_worst(places);
       if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
@@ -204,7 +204,7 @@ class Projector {
   }
 
   /// A rough trace of the projected family along a line; its points are added to `places`.
-  void scout(const ProjectedFamily& model, const ParameterValues& line, std::vector<Place>& places) {
+  void scout(const ProjectedFamily& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
     TraceOptions options = trace_;
     options.values = line;
     options.tolerance = std::max(trace_.tolerance, scout_tolerance);
@@ -216,7 +216,8 @@ class Projector {
     TraceObserver observer;
     observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
     observer.point = [&](const TracePoint& point) {
-      Place& place = places.emplace_back(Place{point.node.p, point.node.path.parameters.col(0), point.modes});
+      ProjectedPlace& place =
+          places.emplace_back(ProjectedPlace{point.node.p, point.node.path.parameters.col(0), point.modes});
       const AffinePencil<Matrix> at = model.at(place.parameters);
       for (ModeState& mode : place.modes)
         refine(at.M.front().matrix, at.C.front().matrix, at.K.front().matrix, mode);
@@ -227,7 +228,7 @@ class Projector {
   }
 
   /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
-  static std::vector<ModeState> moving_modes(const Place& place) {
+  static std::vector<ModeState> moving_modes(const ProjectedPlace& place) {
     double largest = 0.0;
     std::vector<ModeState> modes;
     for (const ModeState& mode : place.modes) {
@@ -241,9 +242,9 @@ class Projector {
 
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
-  Worst find_worst(const std::vector<Place>& places) const {
+  Worst find_worst(const std::vector<ProjectedPlace>& places) const {
     Worst worst{&places.front(), -1.0};
-    for (const Place& place : places) {
+    for (const ProjectedPlace& place : places) {
       const double indicator = indicator_at(place);
       if (indicator > worst.indicator) worst = {&place, indicator};
     }
@@ -251,7 +252,7 @@ class Projector {
   }
 
   /// The largest indicator of the modes at a place.
-  double indicator_at(const Place& place) const {
+  double indicator_at(const ProjectedPlace& place) const {
     const SparsePencil pencil = pencil_at(family_, place.parameters);
     Matrix M, C, K;
     if (!pencil.one_sided) {
@@ -274,7 +275,7 @@ class Projector {
 
   /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
   /// size; the vectors of these are added to the space.
-  double error_at(const Place& place) {
+  double error_at(const ProjectedPlace& place) {
     const SparsePencil pencil = pencil_at(family_, place.parameters);
     const Complex centre = usual_shift().value();
     std::vector<Complex> followed;
@@ -318,7 +319,7 @@ class Projector {
     return modes.s;
   }
 
-  void note_newcomers(const ProjectedFamily& model, const std::vector<Place>& places) {
+  void note_newcomers(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) {
     const Newcomers found = find_newcomers(family_, model, places, usual_shift().value(), reference_);
     if (found.count == 0) return;
     const std::string who = found.count == 1
