@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/transposition.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -58,34 +60,28 @@ auto evaluate_sum(const std::vector<AffineTerm<Storage>>& terms, Eigen::Index n,
   return result;
 }
 
-enum class TermSymmetry { symmetric, skew, none };
-
+/// Whether all terms are symmetric (sign 1) or skew-symmetric (-1).
 template <class Storage>
-TermSymmetry term_symmetry(const std::vector<AffineTerm<Storage>>& terms) {
-  bool symmetric = true, skew = true;
-  for (const AffineTerm<Storage>& term : terms) {
-    const Storage transposed = term.matrix.transpose();
-    symmetric = symmetric && (term.matrix - transposed).norm() == 0.0;
-    skew = skew && (term.matrix + transposed).norm() == 0.0;
-  }
-  return symmetric ? TermSymmetry::symmetric : skew ? TermSymmetry::skew : TermSymmetry::none;
+bool equal_transposes(const std::vector<AffineTerm<Storage>>& terms, double sign) {
+  return std::all_of(terms.begin(), terms.end(),
+                     [sign](const AffineTerm<Storage>& term) { return equals_transpose(term.matrix, sign); });
 }
 
 template <class Storage>
 std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
   const auto count = [](const auto& terms) { return static_cast<int>(terms.size()); };
-  const TermSymmetry c = term_symmetry(pencil.C);
+  const bool symmetric = equal_transposes(pencil.C, 1.0);
   const bool damped = !pencil.C.empty();
   return {{"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
           {"C",
            "damping and gyroscopic matrix",
            count(pencil.C),
-           {.dissipative = damped && c != TermSymmetry::skew,
-            .gyroscopic = damped && c != TermSymmetry::symmetric}},
+           {.dissipative = damped && (symmetric || !equal_transposes(pencil.C, -1.0)),
+            .gyroscopic = damped && !symmetric}},
           {"K",
            "stiffness matrix",
            count(pencil.K),
-           {.conservative = true, .circulatory = term_symmetry(pencil.K) != TermSymmetry::symmetric}}};
+           {.conservative = true, .circulatory = !equal_transposes(pencil.K, 1.0)}}};
 }
 
 template <class Storage>
@@ -132,7 +128,7 @@ Structure AffineFamily<Storage>::structure(int traced_parameter) const {
     result.circulatory = result.circulatory || effect.contribution.circulatory;
   }
   const Parameters& parameters = description().parameters;
-  result.symmetric_mass = term_symmetry(pencil_.M) == TermSymmetry::symmetric;
+  result.symmetric_mass = equal_transposes(pencil_.M, 1.0);
   result.constant_mass = are_constant(pencil_.M, parameters, traced_parameter);
   result.constant_damping = are_constant(pencil_.C, parameters, traced_parameter);
   result.constant_stiffness = are_constant(pencil_.K, parameters, traced_parameter);

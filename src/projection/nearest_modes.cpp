@@ -6,17 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/transposition.hpp"
+
 namespace eigentrail {
 namespace {
 
 /// Two eigenvalues closer than this share of the shift's distance to the next ones: the shift lies on an
 /// eigenvalue, and the solutions lose as many digits of the others.
 constexpr double on_an_eigenvalue = 1e-5;
-
-bool is_symmetric(const SparseMatrix& A, double sign) {
-  const SparseMatrix transposed = A.transpose();
-  return (A - sign * transposed).norm() == 0.0;
-}
 
 /// The inverse of the shifted pencil, in the form that Spectra's solvers use. Three linearizations:
 /// - without C: the square of s is the eigenvalue, size n;
@@ -236,10 +233,10 @@ ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) 
 SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters) {
   const AffinePencil<SparseMatrix> at = family.at(parameters);
   SparsePencil pencil{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
-  const bool conservative = is_symmetric(pencil.M, 1.0) && is_symmetric(pencil.K, 1.0);
-  const bool symmetric_C = is_symmetric(pencil.C, 1.0);
+  const bool conservative = equals_transpose(pencil.M, 1.0) && equals_transpose(pencil.K, 1.0);
+  const bool symmetric_C = equals_transpose(pencil.C, 1.0);
   pencil.symmetric = conservative && symmetric_C;
-  pencil.one_sided = pencil.symmetric || (conservative && is_symmetric(pencil.C, -1.0));
+  pencil.one_sided = pencil.symmetric || (conservative && equals_transpose(pencil.C, -1.0));
   return pencil;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/singular_vectors.hpp"
+#include "core/transposition.hpp"
 
 namespace eigentrail {
 namespace {
@@ -18,22 +19,17 @@ void orthogonalize(const Matrix& Q, Matrix& B) {
   for (int pass = 0; pass < 2 && Q.cols() > 0; ++pass) B -= Q * (Q.transpose() * B);
 }
 
-/// +1, -1 or 0: symmetric, skew or neither.
-template <class Storage>
-int symmetry(const Storage& A) {
-  const Storage transposed = A.transpose();
-  if ((A - transposed).norm() == 0.0) return 1;
-  return (A + transposed).norm() == 0.0 ? -1 : 0;
-}
-
 template <class Storage>
 AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Storage>& pencil) {
   const auto reduce = [&basis](const std::vector<AffineTerm<Storage>>& terms) {
     std::vector<AffineTerm<Matrix>> result;
     for (const AffineTerm<Storage>& term : terms) {
       Matrix reduced = basis.transpose() * (term.matrix * basis);
-      if (const int sign = symmetry(term.matrix))
+      for (const double sign : {1.0, -1.0}) {
+        if (!equals_transpose(term.matrix, sign)) continue;
         reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
+        break;
+      }
       result.push_back({term.factor, std::move(reduced), term.name});
     }
     return result;

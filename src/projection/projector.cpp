@@ -63,7 +63,7 @@ class Projector {
       const std::unique_ptr<ProjectedFamily> model = reduced();
       std::vector<ProjectedPlace> places;
       for (const ParameterValues& line : lines_) scout(*model, line, places);
-      const Worst worst = find_worst(places);
+      const Worst worst = find_worst(*model, places);
       if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
       // Exact eigenvalues at the worst place show the true error of the space as it was.
       const double error = error_at(*worst.place);
@@ -242,24 +242,20 @@ class Projector {
 
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
-  Worst find_worst(const std::vector<ProjectedPlace>& places) const {
+  Worst find_worst(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) const {
     Worst worst{&places.front(), -1.0};
     for (const ProjectedPlace& place : places) {
-      const double indicator = indicator_at(place);
+      const double indicator = indicator_at(model, place);
       if (indicator > worst.indicator) worst = {&place, indicator};
     }
     return worst;
   }
 
   /// The largest indicator of the modes at a place.
-  double indicator_at(const ProjectedPlace& place) const {
+  double indicator_at(const ProjectedFamily& model, const ProjectedPlace& place) const {
     const SparsePencil pencil = pencil_at(family_, place.parameters);
-    Matrix M, C, K;
-    if (!pencil.one_sided) {
-      M = basis_.transpose() * (pencil.M * basis_);
-      C = basis_.transpose() * (pencil.C * basis_);
-      K = basis_.transpose() * (pencil.K * basis_);
-    }
+    const AffinePencil<Matrix> at = model.at(place.parameters);
+    const Matrix &M = at.M.front().matrix, &C = at.C.front().matrix, &K = at.K.front().matrix;
     double largest = 0.0;
     for (const ModeState& mode : moving_modes(place)) {
       ProjectedMode one{mode.s, (basis_ * mode.shape).normalized(), {}};

@@ -53,11 +53,6 @@ double distance_to_step(Complex z, double h) {
   return std::abs(z - along);
 }
 
-/// Two eigenvalues of a block count as equal if they differ by no more, relative to the norm of the block or
-/// to the reference magnitude if that is larger: about the square root of rounding, the accuracy of a double
-/// eigenvalue.
-constexpr double told_apart = 1e-5;
-
 /// A series is not accurate where its last term is a larger share of the largest term: its terms do not
 /// decrease there.
 constexpr double last_term = 0.3;
@@ -109,15 +104,6 @@ ComplexVector mean_in(const Track& track, Chart chart) {
   return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
 }
 
-/// Distance from the step [0, h] of the nearest meeting of the means of two tracks, with their radius.
-double meeting_of_tracks(const Track& track, const Track& other, double h, double limit) {
-  const Chart chart = track.pair.chart;
-  const ComplexVector mean = mean_in(other, chart);
-  if (mean.size() == 0) return INFINITY;
-  const double spread = std::max(square_radius(track), square_radius(other));
-  return meeting_distance(mean_series(track.series.Lambda), mean, spread, h, limit, Doubtful::is_left_out);
-}
-
 /// Replaces the tracks with the given indices by one track at the end of the list.
 void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
   std::sort(old.rbegin(), old.rend());
@@ -154,20 +140,22 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   const double limit = reach * std::abs(h);
   const ComplexVector mean = mean_series(track.series.Lambda);
   std::vector<Partner> partners;
+  const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
+    if (other.size() == 0) return;
+    partner.distance = meeting_distance(mean, other, spread, h, limit, Doubtful::is_left_out);
+    if (partner.distance <= limit) partners.push_back(partner);
+  };
   // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
   // the track is joined with its own conjugate.
   double nearest_conjugate = INFINITY;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
     if (other.pair.part != track.pair.part) continue;  // they cross and never meet
-    if (i != index) {
-      const double distance = meeting_of_tracks(track, other, h, limit);
-      if (distance <= limit) partners.push_back({false, i, distance});
-    }
-    if (track.pair.is_real || other.pair.is_real) continue;
+    const double spread =
+        i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
     const ComplexVector series = mean_in(other, track.pair.chart);
-    if (series.size() == 0) continue;
-    const double spread = std::max(square_radius(track), square_radius(other));
+    if (i != index) consider(series, spread, {false, i});
+    if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
     nearest_conjugate = std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h,
                                                                      limit, Doubtful::is_left_out));
   }
@@ -329,6 +317,11 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
 }
 
 namespace {
+
+/// Two eigenvalues of a block count as equal if they differ by no more, relative to the norm of the block or
+/// to the reference magnitude if that is larger: about the square root of rounding, the accuracy of a double
+/// eigenvalue.
+constexpr double told_apart = 1e-5;
 
 /// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
 /// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
