@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "eigentrail/continuation/effect_influence.hpp"
+#include "eigentrail/continuation/sensitivities.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/route_choice.hpp"

@@ -9,12 +9,10 @@
 
 #include "check_output.hpp"
 #include "commands.hpp"
-#include "eigentrail/accuracy/data_errors.hpp"
-#include "eigentrail/accuracy/shallow_extrema.hpp"
+#include "eigentrail/accuracy/findings.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "eigentrail/stability/undecided_ranges.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/projection_file.hpp"
 #include "interruption.hpp"
@@ -116,18 +114,11 @@ class TraceRun {
                    output.c_str());
       return interruption_.exit_code();
     }
-    const RecordedPath path = recorder_.path();
-    const EigenvalueAccuracy accuracy{setup_.options.tolerance, result_.s_ref};
-    std::vector<StableRange> ranges = stable_ranges(path, result_.events, accuracy);
-    std::optional<DataErrors> errors = data_errors(*setup_.model, setup_.options, path, result_.events);
-    const int shallow = errors ? remove_shallow_extrema(path, result_.events, *errors) : 0;
-    if (shallow > 0)
-      result_.notes.push_back(std::to_string(shallow) + (shallow == 1 ? " extremum" : " extrema") +
-                              " of damping ratios left out: no deeper than the errors of the data");
-    if (errors) ranges = with_undecided(ranges, path, result_.events, *errors, accuracy);
-    writer_->finish(result_, ranges, errors ? &*errors : nullptr);
+    const Findings found = find_ranges_and_errors(*setup_.model, setup_.options, recorder_.path(), result_);
+    const DataErrors* errors = found.errors ? &*found.errors : nullptr;
+    writer_->finish(result_, found.ranges, errors);
     if (!arguments_.quiet) {
-      print_summary({setup_, result_, path, writer_->mode_names(), ranges, errors ? &*errors : nullptr},
+      print_summary({setup_, result_, found.path, writer_->mode_names(), found.ranges, errors},
                     arguments_.verbose);
       std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
                   std::filesystem::path(output).replace_extension(".html").c_str());

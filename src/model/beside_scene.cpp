@@ -27,4 +27,10 @@ std::string beside_scene(const Scene& scene, TableReader& table) {
   return (beside / path).string();
 }
 
+Hdf5File open_beside_scene(const Scene& scene, TableReader& table) {
+  const auto in_memory = scene.files.find(table.text("file"));
+  if (in_memory == scene.files.end()) return Hdf5File::open(beside_scene(scene, table));
+  return Hdf5File::from_image(in_memory->first, *in_memory->second);
+}
+
 }  // namespace eigentrail

@@ -193,10 +193,9 @@ Polynomials read_file(FamilyReader& reader) {
   for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
   }
-  const std::string path = beside_scene(reader.scene, reader.table);
   Polynomials p;
   try {
-    const Hdf5File file = Hdf5File::open(path);
+    const Hdf5File file = open_beside_scene(reader.scene, reader.table);
     reader.reject_unknown_groups(file);
     const auto has = [&](const char* name) { return file.has(name); };
     if (reader.is_first_order(has("/M"), has("/C"), has("/K"), has("/E"), has("/A"), "file")) {
@@ -210,7 +209,7 @@ Polynomials read_file(FamilyReader& reader) {
     reader.fail("file", error.what() + expected_datasets);
   }
   if (p.K.empty() || (p.M.empty() && p.C.empty()))
-    reader.fail("file", path + " has no dataset /K/0, or neither /M/0 nor /C/0");
+    reader.fail("file", reader.table.text("file") + " has no dataset /K/0, or neither /M/0 nor /C/0");
   return p;
 }
 
@@ -222,7 +221,7 @@ std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used)
     return nullptr;
   }
   try {
-    const Hdf5File file = Hdf5File::open(beside_scene(reader.scene, reader.table));
+    const Hdf5File file = open_beside_scene(reader.scene, reader.table);
     if (!has_factors && !has_sparse_matrices(file)) return nullptr;
     return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene), used);
   } catch (const Hdf5Error& error) {

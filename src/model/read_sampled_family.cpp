@@ -71,13 +71,15 @@ std::vector<std::size_t> read_kinks(TableReader& table, const SampledData& data,
 }
 
 SampledData read_data(TableReader& table, const Scene& scene) {
-  const std::string path = beside_scene(scene, table);
+  const std::string name = table.text("file");
   try {
-    return read_samples(path);
+    return read_samples(open_beside_scene(scene, table));
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& error) {
     const std::string message = error.what();
-    const bool names_file = message.find(path) != std::string::npos;
-    table.fail("file", names_file ? message : path + ": " + message);
+    const bool names_file = message.find(name) != std::string::npos;
+    table.fail("file", names_file ? message : name + ": " + message);
   }
 }
 

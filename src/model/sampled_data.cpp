@@ -10,6 +10,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "model/sampled_family.hpp"
 
 namespace eigentrail {
 namespace {
@@ -117,7 +118,7 @@ std::vector<Eigen::Index> places(const std::vector<std::string>& names, const st
 
 class SampleReader {
  public:
-  explicit SampleReader(const std::string& path) : file_(Hdf5File::open(path)) {}
+  explicit SampleReader(const Hdf5File& file) : file_(file) {}
 
   SampledData read() {
     reject_unknown();
@@ -243,7 +244,7 @@ class SampleReader {
     data_.A_error = sorted(std::move(data_.A_error));
   }
 
-  Hdf5File file_;
+  const Hdf5File& file_;
   bool by_columns_ = false;
   std::size_t numbers_ = 0;
   std::vector<std::vector<std::string>> names_;  ///< of the states of each sample; empty: one order for all
@@ -317,7 +318,11 @@ bool holds_samples(const std::string& path) {
 }
 
 SampledData read_samples(const std::string& path) {
-  return SampleReader(path).read();
+  return read_samples(Hdf5File::open(path));
+}
+
+SampledData read_samples(const Hdf5File& file) {
+  return SampleReader(file).read();
 }
 
 }  // namespace eigentrail

@@ -6,6 +6,7 @@
 #include "eigentrail/model/model.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
+#include "core/hdf5_file.hpp"
 #include "eigentrail/scene/scene.hpp"
 #include "model/sample_interpolation.hpp"
 
@@ -46,6 +47,9 @@ class SampledFamily final : public Model {
   std::array<PencilSamples, 3> samples_;  ///< of s^2 M + s C + K
   SampleErrors errors_;
 };
+
+/// Reads samples as read_samples does with a path.
+SampledData read_samples(const Hdf5File& file);
 
 /// Reads [sampled_family] of a scene; `check_at`: values of the parameters (declared units) that must lie
 /// among the samples. Throws InputError for every fault in it.

@@ -88,7 +88,9 @@ ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings
       continue;
     }
     const std::string toml = as_toml(changed.scene, changed.scene.parameters.at(name), value, label);
-    changed.scene = parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path);
+    Scene next = parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path);
+    next.files = std::move(changed.scene.files);
+    changed.scene = std::move(next);
   }
   return changed;
 }

@@ -104,14 +104,18 @@ void write_references(Hdf5File& file, const ReferenceSet& reference, const std::
 
 }  // namespace
 
-void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
-                 const Study& study) {
+std::string study_file(const TraceSetup& setup, const StudyOptions& options, const Study& study) {
   const std::string unit = label_unit(setup.scene.parameters.at(setup.options.parameter).unit);
-  Hdf5File file = Hdf5File::in_memory(path);
+  Hdf5File file = Hdf5File::in_memory("work-precision study");
   write_attributes(file, setup, options, study.reference);
   write_runs(file, study.runs, unit);
   write_references(file, study.reference, unit);
-  write_durably(path, {file.image()});
+  return file.image();
+}
+
+void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
+                 const Study& study) {
+  write_durably(path, {study_file(setup, options, study)});
 }
 
 }  // namespace eigentrail

@@ -56,8 +56,8 @@ std::vector<std::int64_t> count_to(std::size_t n) {
 
 class BoundaryFile {
  public:
-  BoundaryFile(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result)
-      : file_(Hdf5File::in_memory(path)),
+  BoundaryFile(const BoundarySetup& setup, const BoundaryResult& result)
+      : file_(Hdf5File::in_memory("boundary file")),
         setup_(setup),
         result_(result),
         first_(setup.scene.parameters.at(setup.options.trace.parameter)),
@@ -275,8 +275,12 @@ void check_boundary_names(const Scene& scene, const BoundaryOptions& options) {
   }
 }
 
+std::string boundary_file(const BoundarySetup& setup, const BoundaryResult& result) {
+  return BoundaryFile(setup, result).write();
+}
+
 void write_boundaries(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result) {
-  write_durably(path, {BoundaryFile(path, setup, result).write()});
+  write_durably(path, {boundary_file(setup, result)});
 }
 
 }  // namespace eigentrail

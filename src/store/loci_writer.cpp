@@ -49,8 +49,8 @@ void check_parameter_name(const Scene& scene, const std::string& parameter) {
 }
 
 struct LociWriter::Implementation {
-  std::string path;
-  std::unique_ptr<OutputLock> lock;
+  std::string path;                  ///< empty: the file stays in memory
+  std::unique_ptr<OutputLock> lock;  ///< null: the file stays in memory
   LociTables tables;
   std::string parameter;
   std::size_t coordinates;
@@ -62,6 +62,7 @@ struct LociWriter::Implementation {
   bool is_saved = false;                        ///< whether this run has saved the file
   Clock::time_point last_saved = Clock::now();
   double cost = 0.0;  ///< seconds that the last save took
+  std::string bytes = {};  ///< what was saved, of a file that stays in memory
 
   void append_modes(const TracePoint& point);
   void append_step(const PathStep& step);
@@ -94,6 +95,19 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   LociTables tables = new_tables(path, scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()), save_every,
+                                           std::move(motions)});
+}
+
+LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
+                       const TraceStart& start, const TracePoint& first) {
+  ModeMotions motions(model.description(), first);
+  LociTables tables = new_tables("loci file", scene, model, options, start, motions.labels());
+  implementation_.reset(new Implementation{{},
+                                           nullptr,
+                                           std::move(tables),
+                                           options.parameter,
+                                           static_cast<std::size_t>(model.n_coordinates()),
+                                           usual_interval,
                                            std::move(motions)});
 }
 
@@ -230,7 +244,11 @@ void LociWriter::Implementation::update(const TraceResult& result, const char* s
 
 void LociWriter::Implementation::save(std::string_view state) {
   try {
-    write_durably(path, {tables.file().image(), state});
+    if (path.empty()) {
+      bytes = tables.file().image().append(state);
+    } else {
+      write_durably(path, {tables.file().image(), state});
+    }
   } catch (const std::exception& error) {
     throw WriteError(error.what());
   }
@@ -249,6 +267,7 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
 
 bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
   Implementation& self = *implementation_;
+  if (self.path.empty()) return false;
   const double interval = std::max(self.save_every, self.cost / largest_share);
   if (self.is_saved && seconds_since(self.last_saved) < interval) return false;
   self.save(checkpoint, "running");
@@ -257,6 +276,10 @@ bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
 
 void LociWriter::interrupt(const Checkpoint& checkpoint) {
   implementation_->save(checkpoint, "interrupted");
+}
+
+const std::string& LociWriter::bytes() const {
+  return implementation_->bytes;
 }
 
 std::vector<std::string> LociWriter::mode_names() const {

@@ -19,8 +19,8 @@ const std::array<std::string, 11> map_names = {"unstable",       "margin",    "d
 /// Writes the file. Its two dimensions have the names of the two parameters.
 class MapFile {
  public:
-  MapFile(const std::string& path, const MapSetup& setup, const StabilityMap& map)
-      : file_(Hdf5File::in_memory(path)),
+  MapFile(const MapSetup& setup, const StabilityMap& map)
+      : file_(Hdf5File::in_memory("stability map")),
         setup_(setup),
         map_(map),
         first_(setup.trace.scene.parameters.at(setup.trace.options.parameter)),
@@ -145,9 +145,13 @@ void check_map_names(const MapSetup& setup) {
   }
 }
 
+std::string map_file(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes) {
+  return MapFile(setup, map).write(notes);
+}
+
 void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map,
                const std::vector<std::string>& notes) {
-  write_durably(path, {MapFile(path, setup, map).write(notes)});
+  write_durably(path, {map_file(setup, map, notes)});
 }
 
 }  // namespace eigentrail

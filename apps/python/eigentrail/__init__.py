@@ -1,13 +1,20 @@
-"""Reads the files of eigentrail into xarray.
+"""Follows eigenvalues of mechanical systems and of families of matrices while a parameter changes.
 
-    import eigentrail
-    loci = eigentrail.open("out.h5")                   # an xarray Dataset
-    loci.eigentrail.sel(omega=[12.5, 40])              # eigenvalues anywhere on the trace, from the dense output
-    loci.eigentrail.events                             # a pandas DataFrame
+    import eigentrail as et
+    loci = et.trace("rotor.toml", speed=(0, 400), tolerance=1e-8)    # an xarray Dataset
+    loci.eigentrail.sel(speed=[120, 250])                            # eigenvalues anywhere on the trace, from the dense output
+    loci.eigentrail.events                                           # a pandas DataFrame
+    loci.eigentrail.campbell(harmonics=[1, 2])                       # a figure
+    loci.eigentrail.save("out.h5")                                   # the file that the program writes
+    loci = et.open("out.h5")
 """
 
 from .accessor import Eigentrail
+from .engine import SceneError, TraceError
+from .families import Family, Samples, StateSpace
 from .files import open
+from .runs import accuracy, boundary, events, map, spectrum, trace
 from .version import __version__
 
-__all__ = ["Eigentrail", "open", "__version__"]
+__all__ = ["Eigentrail", "Family", "Samples", "SceneError", "StateSpace", "TraceError", "accuracy", "boundary", "events",
+           "map", "open", "spectrum", "trace", "__version__"]

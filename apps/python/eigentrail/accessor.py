@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 import xarray
 
-from . import boundary, tables
+from . import boundary, files, tables
 from .selection import Selection
 
 
@@ -56,6 +56,11 @@ class Eigentrail:
     def stable_ranges(self):
         """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
+
+    def save(self, path, force=False):
+        """Writes the file that the program would write for this result. An existing file of the same kind is replaced, others
+        only with `force`."""
+        files.save(self._data, path, force)
 
     def curve(self, number, points=200):
         """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.

@@ -1,11 +1,16 @@
 """Opens loci, boundary, map and accuracy files as xarray Datasets."""
 
+import builtins
+import io
 import os
+import tempfile
 
+import h5py
 import numpy as np
 import xarray
 
 SCHEMA = 1
+IMAGE = "eigentrail_file"  # key of a Dataset's encoding: the bytes of its file
 
 # Variables that describe the rows of a file. They become coordinates and label plots and tables.
 COORDINATES = {
@@ -22,16 +27,67 @@ def open(path):
 
     The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`.
     """
-    with _opened(path) as file:
-        kind = _checked_format(path, file.attrs)
-        data = file.load()
+    with builtins.open(path, "rb") as file:
+        bytes_of_file = file.read()
+    with _opened(os.fspath(path)) as file:
+        return _labelled(file, os.fspath(path), bytes_of_file)
+
+
+def from_bytes(image):
+    """The same for the bytes of a file."""
+    with xarray.open_dataset(io.BytesIO(image), engine="h5netcdf", decode_times=False) as file:
+        return _labelled(file, "result", image)
+
+
+def save(data, path, force=False):
+    """Writes the file that the Dataset was made from; the same bytes. Replaces files of eigentrail of the same kind, others
+    only with `force`. The file is replaced as a whole."""
+    image = data.encoding.get(IMAGE)
+    if image is None:
+        raise ValueError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
+                         "has returned, or write this one with to_netcdf")
+    path = os.fspath(path)
+    if os.path.exists(path) and not force and _kind_of(path) != data.attrs["format"]:
+        raise FileExistsError(f"{path}: exists and is no file of the kind {data.attrs['format']}; give another name, or "
+                              "force=True")
+    handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", prefix=os.path.basename(path) + ".partial.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(image)
+            os.fchmod(file.fileno(), 0o666 & ~_umask())
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(partial, path)
+    except BaseException:
+        os.unlink(partial)
+        raise
+
+
+def _labelled(file, path, image):
+    kind = _checked_format(path, file.attrs)
+    data = file.load()
     if kind == "eigentrail-loci":
         data = _with_frequencies(_with_event_kinds(data))
-    return data.set_coords([name for name in COORDINATES[kind] if name in data])
+    data = data.set_coords([name for name in COORDINATES[kind] if name in data])
+    data.encoding[IMAGE] = image
+    return data
+
+
+def _kind_of(path):
+    try:
+        with h5py.File(path, "r") as file:
+            return file.attrs.get("format")
+    except OSError:
+        return None
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
 
 
 def _opened(path):
-    path = os.fspath(path)
     try:
         return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
     except BlockingIOError as error:

@@ -2,6 +2,7 @@
 // the options in the loci file.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -126,6 +127,12 @@ struct TraceSetup {
 /// Reads the options and builds the model of a scene. Throws InputError for faults of the options or the
 /// model.
 TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purpose = Purpose::trace);
+
+/// A caller's own model for the parameters and options of a scene, which has no tables of elements.
+using ModelMaker = std::function<std::unique_ptr<Model>(const Parameters&, const TraceOptions&)>;
+
+/// The same with a model that the caller makes.
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, const ModelMaker& make_model);
 
 /// Every option as text, for the record in the loci file; options that were not given are "auto" or "all".
 OptionTexts describe_options(const TraceOptions& options);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +21,9 @@ struct Scene {
   std::string title;
   Table root;
   Parameters parameters;
+  /// Files of matrices (HDF5) in memory, by the names by which the scene calls them: their bytes. They stand
+  /// before files on the disk.
+  std::map<std::string, std::shared_ptr<const std::string>> files = {};
 };
 
 /// Reads and parses a scene file. With [matrix_family], the traced parameter need not be declared: it is

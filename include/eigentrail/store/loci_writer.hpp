@@ -42,6 +42,10 @@ class LociWriter {
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, const TracePoint& first, double save_every = usual_interval);
 
+  /// Begins a file that stays in memory: checkpoints save nothing, and `bytes` gives it.
+  LociWriter(const Scene& scene, const Model& model, const TraceOptions& options, const TraceStart& start,
+             const TracePoint& first);
+
   /// Continues the file that `saved` was read from. Throws InputError if it does not fit the model or another
   /// process writes it.
   LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
@@ -63,6 +67,9 @@ class LociWriter {
 
   /// Saves the file and the state of the trace, with status "interrupted".
   void interrupt(const Checkpoint& checkpoint);
+
+  /// The bytes of the file as `interrupt` or `finish` saved it, of a file that stays in memory.
+  const std::string& bytes() const;
 
   /// A description of each mode by the masses that move in it; empty where unknown.
   std::vector<std::string> mode_names() const;

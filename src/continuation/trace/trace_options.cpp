@@ -324,6 +324,14 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purp
   return setup;
 }
 
+TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, const ModelMaker& make_model) {
+  TraceSetup setup{std::move(scene), {}, nullptr};
+  std::set<int> used;
+  setup.options = read_trace_options(setup.scene, overrides, used);
+  setup.model = make_model(setup.scene.parameters, setup.options);
+  return setup;
+}
+
 OptionTexts describe_options(const TraceOptions& options) {
   OptionTexts texts;
   const auto describe = [&texts](const char* key, const char*, const auto& value) {

@@ -1,10 +1,11 @@
-#include "eigentrail/continuation/effect_influence.hpp"
-#include "core/singular_vectors.hpp"
+#include "eigentrail/continuation/sensitivities.hpp"
 
 #include <algorithm>
 #include <limits>
 
+#include "core/singular_vectors.hpp"
 #include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
@@ -55,44 +56,65 @@ Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
 
 }  // namespace
 
-Influences effect_influences(const TraceSetup& setup) {
-  Influences result;
+std::vector<int> free_parameters(const Parameters& parameters) {
+  std::vector<int> free;
+  for (std::size_t q = 0; q < parameters.size(); ++q) {
+    if (!parameters[q].definition) free.push_back(static_cast<int>(q));
+  }
+  return free;
+}
+
+Sensitivities sensitivities_at(const TraceSetup& setup, double p, const std::vector<int>& parameters,
+                               const Vector& guess) {
+  Sensitivities result;
+  const auto failed = [&result](const std::string& fault) {
+    result.fault = fault;
+    return result;
+  };
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.order = 1;
   RunCounts counts;
-  const double from = setup.options.from;
-  const Vector guess = setup.model->initial_guess(parameters_at(problem, from));
-  PathPoint point = reduce_at(problem, from, {guess, Vector()}, Matrix(), counts);
-  if (point.status != PointStatus::computed) {
-    result.fault = point.message;
-    return result;
-  }
+  const Vector x = guess.size() > 0 ? guess : setup.model->initial_guess(parameters_at(problem, p));
+  const PathPoint point = reduce_at(problem, p, {x, Vector()}, Matrix(), counts);
+  if (point.status != PointStatus::computed) return failed(point.message);
   Spectrum spectrum = compute_eigenvalues(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty()) {
-    result.fault = "there are no modes where the trace begins";
-    return result;
-  }
-  std::vector<ModeVectors> modes;
+  if (spectrum.status != SpectrumStatus::complete || spectrum.modes.empty())
+    return failed("there are no modes at " + setup.options.parameter + " = " + exact_text(p));
   const int chosen = choose_modes(setup.options.modes, spectrum.modes);
-  for (int i = 0; i < chosen; ++i)
-    modes.push_back(vectors_of(point.pencil, spectrum.modes[static_cast<std::size_t>(i)].s));
-  result.s.resize(static_cast<Eigen::Index>(modes.size()));
-  for (std::size_t i = 0; i < modes.size(); ++i) result.s[static_cast<Eigen::Index>(i)] = modes[i].s;
+  result.s.resize(chosen);
+  for (int i = 0; i < chosen; ++i) result.s[i] = spectrum.modes[static_cast<std::size_t>(i)].s;
+  std::vector<ModeVectors> modes;
+  for (const Complex s : result.s) modes.push_back(vectors_of(point.pencil, s));
+  result.parameters = parameters;
+  result.derivatives.resize(chosen, static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t q = 0; q < parameters.size(); ++q) {
+    const auto node = differentiate_point(problem, point, parameters[q], counts);
+    if (!node) {
+      const auto& name = setup.model->description().parameters[static_cast<std::size_t>(parameters[q])].name;
+      return failed("the derivative with respect to the " + name + " is not finite");
+    }
+    for (int i = 0; i < chosen; ++i)
+      result.derivatives(i, static_cast<Eigen::Index>(q)) =
+          derivative(modes[static_cast<std::size_t>(i)], node->pencil);
+  }
+  return result;
+}
+
+Influences effect_influences(const TraceSetup& setup) {
   const Parameters& parameters = setup.model->description().parameters;
+  std::vector<int> strengths;
+  std::vector<std::string> names;
   for (const Effect& effect : setup.model->description().effects) {
     const auto strength = parameters.index(strength_parameter(effect.name));
     if (!strength) continue;
-    const auto node = differentiate_point(problem, point, *strength, counts);
-    if (!node) {
-      result.fault =
-          "the derivative with respect to the " + strength_parameter(effect.name) + " is not finite";
-      return result;
-    }
-    EffectInfluence influence{effect.name, ComplexVector(result.s.size())};
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      influence.derivatives[static_cast<Eigen::Index>(i)] = derivative(modes[i], node->pencil);
-    result.effects.push_back(std::move(influence));
+    strengths.push_back(*strength);
+    names.push_back(effect.name);
   }
+  const Sensitivities found = sensitivities_at(setup, setup.options.from, strengths);
+  Influences result{found.fault, found.s, {}};
+  if (!found.fault.empty()) return result;
+  for (std::size_t q = 0; q < names.size(); ++q)
+    result.effects.push_back({names[q], found.derivatives.col(static_cast<Eigen::Index>(q))});
   return result;
 }
 

@@ -1,5 +1,5 @@
 // Influence of each effect on each mode, compared with eigenvalues in closed form.
-#include "eigentrail/continuation/effect_influence.hpp"
+#include "eigentrail/continuation/sensitivities.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,106 @@
+"""What users give as a scene, and keywords of the commands, as the engine wants them."""
+
+import os
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import toml
+from .engine import SceneError, engine
+from .families import Family, Samples
+
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Family, Samples]
+
+
+class Given(NamedTuple):
+    """A scene with the values of its parameters set, and the range of each parameter that has one."""
+
+    scene: Any
+    function: Any
+    ranges: dict[str, tuple[Any, Any]]
+    warnings: list[str]
+
+
+def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None) -> Given:
+    """`values`: per parameter a number, a text such as "300 rpm" or an expression, or a pair: a range."""
+    ranges = {name: _range(name, value) for name, value in values.items() if _is_range(value)}
+    settings = [f"{name}={_setting(value)}" for name, value in values.items() if name not in ranges]
+    function = None
+    if isinstance(source, (Family, Samples)):
+        traced = source.parameter or _only(ranges)
+        scene = _in_memory(source, traced, ranges.get(traced))
+        if source.function is not None:
+            function = engine().FunctionSource(
+                source.function, _function_tolerance(source, tolerance), source.max_calls, source.breaks,
+                source.names or [])
+    else:
+        scene = _read(source)
+    scene, warnings = scene.with_settings(settings)
+    return Given(scene, function, ranges, warnings)
+
+
+def option_text(key: str, value: Any) -> str:
+    """The value of an option as on the command line."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {toml.value_text(item)}" for name, item in value.items())
+    if isinstance(value, (list, tuple)):
+        return ", ".join(str(item) for item in value)
+    return _setting(value)
+
+
+def number(name: str, value: Any) -> float:
+    """The end of a range that must be a number, in the unit of its parameter."""
+    if isinstance(value, str):
+        raise TypeError(f"{name}: expected numbers in the unit of the parameter, found {value!r}")
+    return float(value)
+
+
+def _read(source: Any) -> Any:
+    if isinstance(source, Mapping):
+        return engine().parse_scene(toml.dumps(source), "scene.toml")
+    if not isinstance(source, (str, os.PathLike)):
+        raise TypeError("expected a scene: a path, a text, a dict, a Family, Samples or a StateSpace; found "
+                        + type(source).__name__)
+    text = os.fspath(source)
+    if isinstance(source, str) and ("\n" in text or "=" in text):
+        return engine().parse_scene(text, "scene.toml")
+    return engine().read_scene(text)
+
+
+def _in_memory(family: Any, traced: str, span: Optional[tuple[Any, Any]]) -> Any:
+    files = {} if family.function is not None else {"family.h5": family.image()}
+    return engine().parse_scene(family.scene(traced, span), "family.toml", files)
+
+
+def _only(ranges: Mapping[str, Any]) -> str:
+    if len(ranges) != 1:
+        raise TypeError("expected the range of one parameter, such as omega=(0, 400), or the name of the family's parameter: "
+                        "Family(..., parameter=...)")
+    return next(iter(ranges))
+
+
+def _function_tolerance(family: Any, tolerance: Optional[float]) -> float:
+    if family.function_tolerance is not None:
+        return float(family.function_tolerance)
+    return min(max(1e-3 * (tolerance or 1e-6), 1e-13), 1e-6)
+
+
+def _is_range(value: Any) -> bool:
+    return isinstance(value, (tuple, list, np.ndarray))
+
+
+def _range(name: str, value: Any) -> tuple[Any, Any]:
+    if len(value) != 2:
+        raise SceneError(f"{name}: expected a range of two values, such as {name}=(0, 400), found {len(value)} values")
+    return value[0], value[1]
+
+
+def _setting(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    return repr(float(value))

@@ -1,0 +1,196 @@
+"""The computations: traces, boundaries, maps, accuracy studies, spectra."""
+
+import os
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Optional, Union
+
+import numpy as np
+import pandas
+import xarray
+
+from . import files
+from .engine import SceneError, TraceError, engine
+from .given import Given, Source, give, number, option_text
+from .progress import Bar, Progress
+
+Options = list[tuple[str, str]]
+
+
+def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
+          settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
+          threads: int = 0, progress: Progress = None, **parameters: Any) -> xarray.Dataset:
+    """Follows the eigenvalues of a scene while a parameter changes: the Dataset that `open` gives for its loci file.
+
+    `scene` is a path, the text of a scene, a dict of its tables, a `Family`, `Samples` or a `StateSpace`. Keywords are
+    parameters of the scene: a pair is the range of the traced one, in its unit; other values replace those of the scene,
+    as numbers in the declared unit, texts with a unit, or expressions:
+
+        trace("rotor.toml", speed=(0, 400), bearing_damping=2000, tolerance=1e-8)
+        trace(family, omega=(0, 400), modes=12)
+
+    Without a range, [trace] of the scene gives it. `settings` is a dict of parameters whose names are keywords here.
+    `tolerance` bounds the relative error of every eigenvalue, everywhere on the range (1e-6). `modes`: "all", a number, or a
+    dict: dict(count=12, band=["0.05 Hz", "3 Hz"], damping_below=0.9). `options` are others of [trace]: order, reference,
+    first_step, max_step, max_nodes, constant_modes, branch, without.
+
+    Ctrl-C stops at the next point and keeps what there is: the attribute `status` is then "interrupted". A trace that ends
+    before its range does has the status "ended early" and warns with the reason. Raises SceneError for bad input, and
+    TraceError where nothing can be traced.
+    """
+    given = give(scene, {**(settings or {}), **parameters}, tolerance)
+    chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
+    with Bar(progress, given.scene.title or given.scene.path) as show:
+        outcome = engine().trace(given.scene, chosen, given.function, threads, show)
+    _tell(given.warnings + outcome.remarks)
+    if not outcome.file:
+        raise TraceError(f"{given.scene.path}: {outcome.message}")
+    if outcome.interrupted:
+        _tell(["interrupted: the Dataset has the points up to here"])
+    elif outcome.message:
+        _tell([f"ended early: {outcome.message}"])
+    return files.from_bytes(outcome.file)
+
+
+def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,
+             lines: Optional[int] = None, settings: Optional[Mapping[str, Any]] = None, progress: Progress = None,
+             **parameters: Any) -> xarray.Dataset:
+    """The curves on which stability changes, in the plane of two parameters: the Dataset of a boundary file.
+
+        boundary("rotor.toml", speed=(0, 400), bearing_damping=(500, 4000))
+
+    The first range is that of the traced parameter (the one that [trace] names, if it is among them). With one range only,
+    it is that of the second parameter. `damping_ratio`: the curves on which a pair has this damping ratio. `lines`: lines of
+    the window that are searched in each direction (5). Raises KeyboardInterrupt for Ctrl-C.
+    """
+    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    first, second = _two_ranges(given)
+    low, high = (number(second, end) for end in given.ranges[second])
+    from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
+    with Bar(progress, given.scene.title or given.scene.path) as show:
+        outcome = engine().boundary(given.scene, second, low, high, first, from_, to, tolerance, damping_ratio, lines, show)
+    return _result(given, outcome)
+
+
+def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Optional[float] = None,
+        settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None, jobs: int = 0,
+        progress: Progress = None, **parameters: Any) -> xarray.Dataset:
+    """Growing modes and margin on a grid over two parameters: the Dataset of a map file.
+
+        map("rotor.toml", speed=(0, 400), bearing_damping=(500, 4000), grid=(40, 80))
+
+    Ranges as for `boundary`. `grid`: values of the second parameter and of the first one, or one number for both. `jobs`:
+    threads, 0 for one per core. Raises KeyboardInterrupt for Ctrl-C.
+    """
+    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    first, second = _two_ranges(given)
+    low, high = (number(second, end) for end in given.ranges[second])
+    rows, columns = (grid, grid) if isinstance(grid, int) else grid
+    chosen = _trace_options(given, first, tolerance=tolerance, **(options or {}))
+    with Bar(progress, given.scene.title or given.scene.path) as show:
+        outcome = engine().stability_map(given.scene, chosen, second, low, high, rows, columns, jobs, show)
+    return _result(given, outcome)
+
+
+def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, orders: Sequence[int] = (1, 2, 3, 4),
+             grids: Sequence[int] = (25, 50, 100, 200, 400, 800), samples: int = 200, repeat: int = 5,
+             settings: Optional[Mapping[str, Any]] = None, progress: Progress = None, **parameters: Any) -> xarray.Dataset:
+    """What accuracy costs: the error that is really met and the time, per tolerance, and those of other methods on grids.
+
+    The Dataset of an accuracy file. `orders` of the power series, `grids`: points of the grids of the other methods,
+    `samples`: values at which errors are measured, `repeat`: runs whose median time counts.
+    """
+    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    wanted = [10.0 ** -k for k in range(2, 13)] if tolerances is None else [float(t) for t in tolerances]
+    with Bar(progress, given.scene.title or given.scene.path) as show:
+        outcome = engine().accuracy(given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat,
+                                    show)
+    return _result(given, outcome)
+
+
+def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Optional[Mapping[str, Any]] = None,
+             options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> pandas.DataFrame:
+    """The eigenvalues at one or several values of the traced parameter, by QZ: a table, one row per mode.
+
+        spectrum("rotor.toml", at=120)
+
+    Columns: the parameter, mode, eigenvalue (1/s), natural_frequency and damped_frequency (rad/s), damping_ratio, what_moves,
+    condition; for samples also interpolation_error and digits_error (1/s). `at` is by default where [trace] begins.
+    """
+    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    chosen = _trace_options(given, modes=modes, **(options or {}))
+    values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
+    found = engine().spectrum(given.scene, chosen, values)
+    _tell(given.warnings + [f"{value:g}: {fault}" for value, fault in found["faults"]])
+    table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])
+    if table.empty:
+        return table
+    s = table["eigenvalue"].to_numpy(complex)
+    with np.errstate(invalid="ignore"):
+        ratio = -s.real / np.abs(s)
+    table.insert(3, "natural_frequency", np.abs(s))
+    table.insert(4, "damped_frequency", np.abs(s.imag))
+    table.insert(5, "damping_ratio", ratio)
+    return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
+
+
+def events(loci: xarray.Dataset) -> pandas.DataFrame:
+    """Special points of a trace: a table, one row per event; the same as `loci.eigentrail.events`."""
+    return loci.eigentrail.events
+
+
+def _trace_options(given: Given, first: Optional[str] = None, **options: Any) -> Options:
+    """Options as texts; `first` is the traced parameter, by default the one with a range."""
+    if first is None and given.ranges:
+        if len(given.ranges) > 1:
+            raise SceneError(f"expected the range of one parameter, found those of {', '.join(given.ranges)}")
+        first = next(iter(given.ranges))
+    chosen = [(key, option_text(key, value)) for key, value in options.items() if value is not None]
+    if first is None:
+        return chosen
+    named = [] if first == given.scene.traced else [("parameter", first)]
+    ends = [(key, option_text(key, end)) for key, end in zip(("from", "to"), given.ranges.get(first, ()))]
+    return named + ends + chosen
+
+
+def _two_ranges(given: Given) -> tuple[Optional[str], str]:
+    """Names of the traced parameter, None for that of [trace], and of the second one."""
+    names, traced = list(given.ranges), given.scene.traced
+    if len(names) == 1 and names[0] != traced:
+        return (traced or None), names[0]
+    if len(names) != 2:
+        raise SceneError("expected the ranges of two parameters, such as speed=(0, 400), damping=(500, 4000); found "
+                         + (", ".join(names) or "none"))
+    if names[1] == traced:
+        names.reverse()
+    return names[0], names[1]
+
+
+def _second_order_family(given: Given) -> Given:
+    if given.function is not None:
+        raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
+                         "for one range; give its matrices as a Family of powers and names, or as Samples")
+    return given
+
+
+def _begin(given: Given) -> float:
+    if given.ranges:
+        return float(next(iter(given.ranges.values()))[0])
+    for name, _, value in given.scene.parameters:
+        if name == given.scene.traced:
+            return float(value)
+    raise SceneError("expected at=, the value of the parameter")
+
+
+def _result(given: Given, outcome: Any) -> xarray.Dataset:
+    _tell(given.warnings + outcome.remarks)
+    if not outcome.file:
+        raise TraceError(f"{given.scene.path}: {outcome.message}")
+    if outcome.message:
+        _tell([outcome.message])
+    return files.from_bytes(outcome.file)
+
+
+def _tell(remarks: Iterable[str]) -> None:
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=3)

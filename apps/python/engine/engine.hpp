@@ -1,0 +1,42 @@
+// The functions of the compiled module `eigentrail._engine`. Files go to Python as bytes: they are those that
+// the program writes.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eigentrail/scene/scene.hpp"
+
+namespace eigentrail::python {
+
+/// Options as for the command line: keys and texts.
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+/// What a computation leaves.
+struct Outcome {
+  pybind11::bytes file;              ///< HDF5; empty: nothing was computed
+  std::string message;               ///< why it did not come to its end; empty if it did
+  bool interrupted = false;          ///< by Ctrl-C
+  std::vector<std::string> remarks;  ///< warnings for the user
+};
+
+/// A function p -> matrices that Python gives instead of the tables of the scene.
+struct FunctionSource {
+  pybind11::function call;  ///< p -> dict of M, C, K or E, A
+  double tolerance = 0.0;   ///< of the entries
+  int max_calls = 0;
+  std::vector<double> breaks;
+  std::vector<std::string> state_names;
+};
+
+void add_scenes(pybind11::module_& module);
+void add_runs(pybind11::module_& module);
+void add_points(pybind11::module_& module);
+void add_files(pybind11::module_& module);
+
+}  // namespace eigentrail::python

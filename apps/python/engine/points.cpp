@@ -1,0 +1,81 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "eigentrail/accuracy/data_errors.hpp"
+#include "eigentrail/continuation/operating_point.hpp"
+#include "eigentrail/continuation/sensitivities.hpp"
+#include "eigentrail/projection/project.hpp"
+#include "engine.hpp"
+#include "watch.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace eigentrail::python {
+namespace {
+
+/// The model of single values; a large one is projected so that it is exact at each of them.
+TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vector<double>& values) {
+  TraceSetup setup = prepare_trace(scene, options, Purpose::operating_point);
+  if (const SparseFamily* large = large_family(*setup.model, setup.options))
+    setup.model = project_at(*large, setup.options, values);
+  return setup;
+}
+
+/// One row per value and mode.
+py::dict spectrum(const Scene& scene, const Options& options, const std::vector<double>& values) {
+  std::vector<OperatingPoint> points;
+  std::vector<std::optional<Matrix>> errors;
+  std::vector<std::string> coordinates;
+  unlocked([&] {
+    const TraceSetup setup = prepare_at(scene, options, values);
+    points = operating_points(setup, values);
+    coordinates = setup.model->description().coordinate_names;
+    for (const OperatingPoint& point : points) {
+      ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
+      for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
+      errors.push_back(data_errors_at(*setup.model, setup.options, point.p, s));
+    }
+  });
+  py::list rows, faults;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k].fault.empty()) faults.append(py::make_tuple(points[k].p, points[k].fault));
+    for (std::size_t i = 0; i < points[k].modes.size(); ++i) {
+      const OperatingMode& mode = points[k].modes[i];
+      py::dict row("parameter"_a = points[k].p, "mode"_a = i + 1, "eigenvalue"_a = mode.s,
+                   "what_moves"_a = mode.what_moves, "condition"_a = mode.condition,
+                   "mode_shape"_a = mode.shape);
+      if (errors[k]) {
+        row["interpolation_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 0);
+        row["digits_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 1);
+      }
+      rows.append(row);
+    }
+  }
+  return py::dict("rows"_a = rows, "faults"_a = faults, "coordinates"_a = coordinates);
+}
+
+/// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the
+/// traced parameter.
+py::dict sensitivities(const Scene& scene, const Options& options, double value) {
+  Sensitivities found;
+  std::vector<std::string> names;
+  unlocked([&] {
+    const TraceSetup setup = prepare_at(scene, options, {value});
+    const Parameters& parameters = setup.model->description().parameters;
+    found = sensitivities_at(setup, value, free_parameters(parameters));
+    for (const int parameter : found.parameters)
+      names.push_back(parameters[static_cast<std::size_t>(parameter)].name);
+  });
+  if (!found.fault.empty()) throw py::value_error(scene.path + ": " + found.fault);
+  return py::dict("eigenvalue"_a = found.s, "parameter"_a = names, "derivative"_a = found.derivatives);
+}
+
+}  // namespace
+
+void add_points(py::module_& module) {
+  module.def("spectrum", &spectrum, py::arg("scene"), py::arg("options"), py::arg("values"));
+  module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"));
+}
+
+}  // namespace eigentrail::python

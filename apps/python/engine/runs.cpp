@@ -1,0 +1,258 @@
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+
+#include "eigentrail/accuracy/findings.hpp"
+#include "eigentrail/model/build.hpp"
+#include "eigentrail/model/function_family.hpp"
+#include "eigentrail/projection/project.hpp"
+#include "eigentrail/store/accuracy_writer.hpp"
+#include "eigentrail/store/boundary_writer.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/map_writer.hpp"
+#include "engine.hpp"
+#include "watch.hpp"
+
+namespace py = pybind11;
+
+namespace eigentrail::python {
+namespace {
+
+/// What a user should know of a scene before its results.
+std::vector<std::string> remarks_on(const Scene& scene, const Model& model) {
+  std::vector<std::string> remarks;
+  for (const int parameter : model.description().unused_parameters)
+    remarks.emplace_back(unused_error(scene, parameter).what());
+  return remarks;
+}
+
+/// A dictionary of arrays, as the user's function returns it. Entries are copied once.
+MatricesAt matrices_of(const py::object& returned, double p) {
+  const auto expected = [&](const std::string& found) {
+    return py::type_error("the function of p, at p = " + std::to_string(p) +
+                          ": expected a dict with matrices M, C, K or E, A; found " + found);
+  };
+  if (!py::isinstance<py::dict>(returned)) throw expected(std::string(py::str(py::type::of(returned))));
+  MatricesAt result;
+  const std::map<std::string, Matrix*> known{
+      {"M", &result.M}, {"C", &result.C}, {"K", &result.K}, {"E", &result.E}, {"A", &result.A}};
+  for (const auto& [key, value] : returned.cast<py::dict>()) {
+    const auto matrix = known.find(py::str(key));
+    if (matrix == known.end()) throw expected("the key " + std::string(py::repr(key)));
+    using Entries = py::array_t<double, py::array::forcecast>;
+    const py::object dense = py::hasattr(value, "toarray") ? value.attr("toarray")()
+                                                           : py::reinterpret_borrow<py::object>(value);
+    const Entries entries = Entries::ensure(dense);
+    if (!entries || entries.ndim() != 2) {
+      PyErr_Clear();
+      throw expected(std::string(py::str(key)) + " that is no matrix of real numbers");
+    }
+    using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
+    constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+    *matrix->second =
+        Eigen::Map<const Matrix, 0, Strides>(entries.data(), entries.shape(0), entries.shape(1),
+                                             Strides(entries.strides(1) / size, entries.strides(0) / size));
+  }
+  return result;
+}
+
+FunctionFamilyOptions options_of(const FunctionSource& source, const Parameter& parameter,
+                                 const TraceOptions& trace) {
+  FunctionFamilyOptions options;
+  options.parameter = parameter.name;
+  options.unit = parameter.unit;
+  options.from = std::min(trace.from, trace.to);
+  options.to = std::max(trace.from, trace.to);
+  options.tolerance = source.tolerance;
+  options.max_calls = source.max_calls;
+  options.breaks = source.breaks;
+  options.state_names = source.state_names;
+  return options;
+}
+
+TraceSetup prepare(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
+                   Watch& watch) {
+  if (!source) return prepare_trace(scene, options);
+  return prepare_trace(
+      scene, options, [&](const Parameters& parameters, const TraceOptions& trace) -> std::unique_ptr<Model> {
+        const auto call = [&, calls = 0](double p) mutable {
+          watch.require(0.0, calls++);
+          const py::gil_scoped_acquire acquired;
+          return matrices_of(source->call(p), p);
+        };
+        return std::make_unique<FunctionFamily>(
+            call, options_of(*source, parameters.at(trace.parameter), trace));
+      });
+}
+
+/// The loci file of a trace. It begins with the first point.
+struct TracedFile {
+  const TraceSetup& setup;
+  Watch& watch;
+  TraceStart started = {};
+  std::optional<LociWriter> writer = {};
+  PathRecorder recorder = {};
+
+  TraceObserver observer() {
+    TraceObserver observer;
+    observer.started = [this](const TraceStart& start) { started = start; };
+    observer.point = [this](const TracePoint& point) {
+      if (!writer) writer.emplace(setup.scene, *setup.model, setup.options, started, point);
+      writer->append(point);
+      recorder.append(point);
+      return true;
+    };
+    observer.checkpoint = [this](const Checkpoint& checkpoint) {
+      const TraceOptions& options = setup.options;
+      const double reached = checkpoint.so_far().reached;
+      if (watch((reached - options.from) / (options.to - options.from), recorder.points())) return true;
+      writer->interrupt(checkpoint);
+      return false;
+    };
+    return observer;
+  }
+};
+
+Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
+                  int threads, const py::object& progress) {
+  Watch watch(progress);
+  Outcome outcome;
+  TraceResult result;
+  const std::string file = watched(watch, [&]() -> std::string {
+    TraceSetup setup = prepare(scene, options, source, watch);
+    outcome.remarks = remarks_on(setup.scene, *setup.model);
+    check_parameter_name(setup.scene, setup.options.parameter);
+    project_if_large(setup.model, setup.options);
+    setup.options.threads =
+        threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    TracedFile traced{setup, watch};
+    result = trace(*setup.model, setup.options, traced.observer());
+    if (!has_started(result.status)) return "";
+    if (result.status != TraceStatus::stopped) {
+      const Findings found =
+          find_ranges_and_errors(*setup.model, setup.options, traced.recorder.path(), result);
+      traced.writer->finish(result, found.ranges, found.errors ? &*found.errors : nullptr);
+    }
+    return traced.writer->bytes();
+  });
+  watch.rethrow();
+  outcome.file = py::bytes(file);
+  outcome.interrupted = watch.interrupted();
+  if (result.status != TraceStatus::completed && result.status != TraceStatus::stopped)
+    outcome.message = result.message;
+  return outcome;
+}
+
+Outcome run_boundary(const Scene& scene, const BoundaryRequest& request, const py::object& progress) {
+  Watch watch(progress);
+  Outcome outcome;
+  const std::string file = watched(watch, [&] {
+    const BoundarySetup setup = prepare_boundary(scene, request);
+    outcome.remarks = remarks_on(setup.scene, *setup.model);
+    check_boundary_names(setup.scene, setup.options);
+    const BoundaryResult result = find_boundaries(
+        *setup.model, setup.options, [&](double share, int points) { watch.require(share, points); });
+    if (result.status != BoundaryStatus::completed) outcome.message = result.message;
+    return result.status == BoundaryStatus::no_equilibrium ? "" : boundary_file(setup, result);
+  });
+  outcome.file = py::bytes(file);
+  return outcome;
+}
+
+Outcome run_map(const Scene& scene, const Options& options, const MapOptions& window,
+                const py::object& progress) {
+  Watch watch(progress);
+  Outcome outcome;
+  const std::string file = watched(watch, [&] {
+    const MapSetup setup = prepare_map(scene, options, window);
+    outcome.remarks = remarks_on(setup.trace.scene, *setup.trace.model);
+    check_map_names(setup);
+    const StabilityMap map = stability_map(
+        setup, [&](int lines) { watch.require(static_cast<double>(lines) / window.n_second, lines); });
+    return map_file(setup, map, {});
+  });
+  outcome.file = py::bytes(file);
+  return outcome;
+}
+
+Outcome run_accuracy(const Scene& scene, const Options& options, const StudyOptions& study_options,
+                     const py::object& progress) {
+  std::string faults;
+  for (const std::string& fault : find_faults(study_options)) faults += (faults.empty() ? "" : "; ") + fault;
+  if (!faults.empty()) throw InputError(faults);
+  Watch watch(progress);
+  Outcome outcome;
+  const std::string file = watched(watch, [&]() -> std::string {
+    TraceSetup setup = prepare_trace(scene, options);
+    outcome.remarks = remarks_on(setup.scene, *setup.model);
+    project_if_large(setup.model, setup.options);
+    const Study study = accuracy_study(setup, study_options, [&](int done, int all) {
+      watch.require(static_cast<double>(done) / all, done);
+    });
+    if (study.reference.samples.empty()) {
+      outcome.message = setup.scene.path + ": no reference could be computed anywhere on the range";
+      return "";
+    }
+    return study_file(setup, study_options, study);
+  });
+  outcome.file = py::bytes(file);
+  return outcome;
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  py::class_<Outcome>(module, "Outcome")
+      .def_readonly("file", &Outcome::file)
+      .def_readonly("message", &Outcome::message)
+      .def_readonly("interrupted", &Outcome::interrupted)
+      .def_readonly("remarks", &Outcome::remarks);
+  py::class_<FunctionSource>(module, "FunctionSource")
+      .def(py::init([](py::function call, double tolerance, int max_calls, std::vector<double> breaks,
+                       std::vector<std::string> state_names) {
+             return FunctionSource{std::move(call), tolerance, max_calls, std::move(breaks),
+                                   std::move(state_names)};
+           }),
+           py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("breaks"),
+           py::arg("state_names"));
+  module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
+             py::arg("threads"), py::arg("progress"));
+  module.def(
+      "boundary",
+      [](const Scene& scene, const std::string& second, double from, double to,
+         std::optional<std::string> parameter, std::optional<double> first_from,
+         std::optional<double> first_to, std::optional<double> tolerance, std::optional<double> damping_ratio,
+         std::optional<int> lines, const py::object& progress) {
+        return run_boundary(scene,
+                            {second, from, to, std::move(parameter), first_from, first_to, tolerance,
+                             damping_ratio, lines},
+                            progress);
+      },
+      py::arg("scene"), py::arg("second"), py::arg("second_from"), py::arg("second_to"), py::arg("parameter"),
+      py::arg("first_from"), py::arg("first_to"), py::arg("tolerance"), py::arg("damping_ratio"),
+      py::arg("lines"), py::arg("progress"));
+  module.def(
+      "stability_map",
+      [](const Scene& scene, const Options& options, const std::string& second, double from, double to,
+         int n_second, int n_first, int jobs, const py::object& progress) {
+        return run_map(scene, options, {second, from, to, n_second, n_first, jobs}, progress);
+      },
+      py::arg("scene"), py::arg("options"), py::arg("second"), py::arg("second_from"), py::arg("second_to"),
+      py::arg("n_second"), py::arg("n_first"), py::arg("jobs"), py::arg("progress"));
+  module.def(
+      "accuracy",
+      [](const Scene& scene, const Options& options, std::vector<double> tolerances, std::vector<int> orders,
+         std::vector<int> grids, int samples, int repeat, const py::object& progress) {
+        return run_accuracy(
+            scene, options,
+            {std::move(tolerances), std::move(orders), std::move(grids), samples, repeat}, progress);
+      },
+      py::arg("scene"), py::arg("options"), py::arg("tolerances"), py::arg("orders"), py::arg("grids"),
+      py::arg("samples"), py::arg("repeat"), py::arg("progress"));
+}
+
+}  // namespace eigentrail::python

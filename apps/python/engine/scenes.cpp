@@ -1,0 +1,60 @@
+#include <pybind11/stl.h>
+
+#include "eigentrail/scene/settings.hpp"
+#include "engine.hpp"
+
+namespace py = pybind11;
+
+namespace eigentrail::python {
+namespace {
+
+Scene parse(std::string text, const std::string& path, const std::map<std::string, py::bytes>& files) {
+  Scene scene = parse_scene(std::move(text), path);
+  for (const auto& [name, bytes] : files)
+    scene.files[name] = std::make_shared<const std::string>(static_cast<std::string>(bytes));
+  return scene;
+}
+
+/// Names, units and values of the parameters.
+std::vector<std::tuple<std::string, std::string, double>> parameters(const Scene& scene) {
+  const Vector values = scene.parameters.declared_values();
+  std::vector<std::tuple<std::string, std::string, double>> result;
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i) {
+    const Parameter& parameter = scene.parameters[i];
+    result.emplace_back(parameter.name, parameter.unit, values[static_cast<Eigen::Index>(i)]);
+  }
+  return result;
+}
+
+/// The parameter that [trace] names; empty if it names none.
+std::string traced(const Scene& scene) {
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* name = trace->find("parameter");
+    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
+    if (text != nullptr) return *text;
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_scenes(py::module_& module) {
+  py::class_<Scene>(module, "Scene")
+      .def_readonly("text", &Scene::text)
+      .def_readonly("path", &Scene::path)
+      .def_readonly("title", &Scene::title)
+      .def_property_readonly("parameters", &parameters)
+      .def_property_readonly("traced", &traced)
+      .def(
+          "with_settings",
+          [](const Scene& scene, const std::vector<std::string>& settings) {
+            ChangedScene changed = with_settings(scene, settings);
+            return std::pair(std::move(changed.scene), std::move(changed.warnings));
+          },
+          py::arg("settings"));
+  module.def("read_scene", &read_scene, py::arg("path"));
+  module.def("parse_scene", &parse, py::arg("text"), py::arg("path"),
+             py::arg("files") = std::map<std::string, py::bytes>{});
+}
+
+}  // namespace eigentrail::python
