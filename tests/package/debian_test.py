@@ -48,7 +48,8 @@ class DebianPackage(unittest.TestCase):
         depends = self.field("Depends")
         for library in ("libc6", "libhdf5", "liblapacke", "libsundials-kinsol"):
             self.assertIn(library, depends)
-        self.assertIn("python3-xarray", self.field("Recommends"))
+        for package in ("python3-xarray", "python3-matplotlib", "python3-plotly"):
+            self.assertIn(package, self.field("Recommends"))
 
     def test_program_and_reader_work_together(self):
         program = self.root / "usr/bin/eigentrail"
@@ -59,6 +60,9 @@ class DebianPackage(unittest.TestCase):
         script = "import sys, eigentrail; print(eigentrail.open(sys.argv[1]).sizes['node'])"
         nodes = run("/usr/bin/python3", "-c", script, loci, env={**os.environ, "PYTHONPATH": str(reader)})
         self.assertGreater(int(nodes), 1)
+        picture = Path(self.folder.name) / "out.svg"
+        run(program, "plot", loci, "-o", picture)
+        self.assertTrue(picture.read_bytes().startswith(b"<?xml"))
 
     def test_manual_names_every_command(self):
         manual = gzip.decompress((self.root / "usr/share/man/man1/eigentrail.1.gz").read_bytes()).decode()

@@ -349,8 +349,10 @@ class Studies(FigureTest):
         runs = np.flatnonzero((study.method.values == "eigentrail") & (study.order.values == 3))
         self.assertEqual(sorted(line.x), sorted(study.points.values[runs]))
         self.assertEqual(sorted(line.y), sorted(study.error.values[runs]))
-        self.assert_apart(panel)
-        self.assertTrue(study.eigentrail.work_precision().data)
+        self.assertEqual({trace.name for trace in study.eigentrail.work_precision().data if trace.showlegend},
+                         {line.name for line in panel.of(Line)})
+        legend = study.eigentrail.work_precision(backend="matplotlib").legends[0]
+        self.assertIn("eigentrail, order 3", [text.get_text() for text in legend.get_texts()])
         with self.assertRaisesRegex(ValueError, "'wall_time', 'factorizations', 'points'"):
             study.eigentrail.work_precision("money")
 

@@ -125,7 +125,8 @@ class LociFigure:
             inside = np.flatnonzero((px >= 0) & (px <= right) & (py >= 0) & (py <= top))
         if not len(inside):
             return
-        px, py = px[inside], py[inside]
+        order = inside if px[inside[-1]] >= px[inside[0]] else inside[::-1]  # so that the last place is on the right
+        px, py = px[order], py[order]
         along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
         for place in np.arange(along[-1], 0.3 * along[-1] - 1e-9, -max(HEIGHT * NAME, 0.02 * along[-1])):
             label = room.beside(panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top),

@@ -105,6 +105,7 @@ class Label:
     dx: float = 0.0
     dy: float = 0.0
     turn: float = 0.0  # degrees, counterclockwise
+    halo: bool = False  # with a white edge, where lines are below it
     boxed: bool = False  # on a white ground, which hides the line behind it
 
 
@@ -137,6 +138,7 @@ class Picture:
     panels: list[Panel] = field(default_factory=list)
     legend: list = field(default_factory=list)  # items without data whose `legend` is the text
     legend_columns: int = 6
+    legend_right: bool = False  # in a column beside the panels instead of rows above them
 
     def add(self, left, bottom, right, top, x, y, **more):
         """A panel between margins and heights in inches from the lower left corner of the picture."""

@@ -24,9 +24,7 @@ def draw(picture):
     figure.update_layout(width=PIXELS * picture.width, height=PIXELS * picture.height, margin=dict(l=0, r=0, t=0, b=0),
                          paper_bgcolor="#fff", plot_bgcolor="#fff", hovermode="closest",
                          font=dict(family="system-ui, DejaVu Sans, sans-serif", size=9 * POINT, color=INK),
-                         legend=dict(orientation="h", x=left, xanchor="left", yanchor="top", font=dict(size=8 * POINT),
-                                     y=1 - (0.3 if picture.title else 0.05) / picture.height, bgcolor="rgba(255,255,255,0)",
-                                     itemclick=False, itemdoubleclick=False))
+                         legend=_legend_place(picture, left))
     if picture.title:
         figure.add_annotation(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
                               text=plain(picture.title), showarrow=False, font=dict(size=10 * POINT))
@@ -35,6 +33,15 @@ def draw(picture):
     for item in picture.legend:
         figure.add_trace(_legend_entry(go, item))
     return figure
+
+
+def _legend_place(picture, left):
+    place = dict(xanchor="left", yanchor="top", font=dict(size=8 * POINT), bgcolor="rgba(255,255,255,0)", itemclick=False,
+                 itemdoubleclick=False)
+    if not picture.legend_right:
+        return dict(place, orientation="h", x=left, y=1 - (0.3 if picture.title else 0.05) / picture.height)
+    panel = picture.panels[0]
+    return dict(place, x=panel.left + panel.width + 0.1 / picture.width, y=panel.bottom + panel.height)
 
 
 def plain(text):
@@ -100,12 +107,20 @@ def _draw_span(figure, go, item, axes, panel):
 
 
 def _draw_label(figure, go, item, axes, panel):
-    x = math.log10(item.x) if panel.x.log else item.x
-    y = math.log10(item.y) if panel.y.log else item.y
-    figure.add_annotation(x=x, y=y, xref=axes["xaxis"], yref=axes["yaxis"], text=plain(item.text), showarrow=False,
+    x, xref = _reference(panel.x, item.x, axes["xaxis"], panel.left, panel.width)
+    y, yref = _reference(panel.y, item.y, axes["yaxis"], panel.bottom, panel.height)
+    figure.add_annotation(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
                           font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
                           xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
                           bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
+
+
+def _reference(axis, value, name, start, length):
+    """A coordinate and what it refers to: plotly hides texts that refer to an axis beyond its ends."""
+    share = float(axis.share(value))
+    if not -1e-9 <= share <= 1 + 1e-9:
+        return start + share * length, "paper"
+    return (math.log10(value) if axis.log else value), name
 
 
 def _draw_cells(figure, go, item, axes, panel):
