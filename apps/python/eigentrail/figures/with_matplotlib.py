@@ -31,10 +31,9 @@ def draw(picture):
         FigureCanvasAgg(figure)
         for panel in picture.panels:
             _draw_panel(figure, panel)
-        left = min((panel.left for panel in picture.panels), default=0.05)
-        top = 1 - 0.1 / picture.height
+        left, top = picture.left, 1 - 0.1 / picture.height
         if picture.title:
-            figure.text(left, top, picture.title, va="top", ha="left", fontsize=10, color=INK, parse_math=False)
+            figure.text(left, top, picture.title, va="top", ha="left", fontsize=picture.title_size, color=INK, parse_math=False)
             top -= 0.2 / picture.height
         if picture.legend:
             _draw_legend(figure, picture, left, top)

@@ -20,14 +20,14 @@ def draw(picture):
         raise ImportError("figures need the package plotly: apt install python3-plotly, or pip install plotly; "
                           "backend=\"matplotlib\" does without it") from error
     figure = go.Figure()
-    left = min((panel.left for panel in picture.panels), default=0.05)
+    left = picture.left
     figure.update_layout(width=PIXELS * picture.width, height=PIXELS * picture.height, margin=dict(l=0, r=0, t=0, b=0),
                          paper_bgcolor="#fff", plot_bgcolor="#fff", hovermode="closest",
                          font=dict(family="system-ui, DejaVu Sans, sans-serif", size=9 * POINT, color=INK),
                          legend=_legend_place(picture, left))
     if picture.title:
         figure.add_annotation(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
-                              text=plain(picture.title), showarrow=False, font=dict(size=10 * POINT))
+                              text=plain(picture.title), showarrow=False, font=dict(size=picture.title_size * POINT))
     for number, panel in enumerate(picture.panels):
         _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
     for item in picture.legend:
@@ -59,7 +59,7 @@ def _draw_panel(figure, go, panel, suffix):
             anchor=f"{'y' if which == 'x' else 'x'}{suffix}", title=dict(text=plain(axis.title), standoff=8),
             showticklabels=axis.shown, **_ticks(axis))
     axes = dict(xaxis=f"x{suffix}", yaxis=f"y{suffix}")
-    for item in panel.items:
+    for item in sorted(panel.items, key=lambda item: isinstance(item, Marks)):  # marks lie on lines
         _DRAWN[type(item)](figure, go, item, axes, panel)
 
 
@@ -78,8 +78,8 @@ def _hover(panel, name):
 
 def _draw_line(figure, go, item, axes, panel):
     figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", name=item.name, showlegend=False, cliponaxis=item.clip,
-                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash]),
-                                **_hover(panel, item.name), **axes))
+                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash],
+                                          simplify=False), **_hover(panel, item.name), **axes))
 
 
 def _draw_marks(figure, go, item, axes, panel):
