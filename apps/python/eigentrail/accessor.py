@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 import xarray
 
-from . import boundary, files, tables
+from . import boundary, files, ross, tables
 from .selection import Selection
 
 
@@ -61,6 +61,15 @@ class Eigentrail:
         """Writes the file that the program would write for this result. An existing file of the same kind is replaced, others
         only with `force`."""
         files.save(self._data, path, force)
+
+    @property
+    def runs(self):
+        """Of a sweep: the Datasets of its traces by their values, `runs[2000,]`; an error where one could not begin."""
+        return self._data.encoding.get("eigentrail_runs", {})
+
+    def whirl(self):
+        """Direction and shape of the orbits of the nodes of a rotor, per stored point, mode and node; see `eigentrail.ross`."""
+        return ross.whirl(self._of("loci"))
 
     def curve(self, number, points=200):
         """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.

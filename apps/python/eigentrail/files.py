@@ -10,7 +10,9 @@ import numpy as np
 import xarray
 
 SCHEMA = 1
-IMAGE = "eigentrail_file"  # key of a Dataset's encoding: the bytes of its file
+# Keys of a Dataset's encoding.
+IMAGE = "eigentrail_file"  # the bytes of its file
+SCENE_FILES = "eigentrail_scene_files"  # files of matrices in memory that its scene names: their bytes by name
 
 # Variables that describe the rows of a file. They become coordinates and label plots and tables.
 COORDINATES = {
@@ -43,7 +45,7 @@ def save(data, path, force=False):
     """Writes the file that the Dataset was made from; the same bytes. Replaces files of eigentrail of the same kind, others
     only with `force`. The file is replaced as a whole."""
     image = data.encoding.get(IMAGE)
-    if image is None:
+    if image is None or not from_bytes(image).identical(data):
         raise ValueError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
                          "has returned, or write this one with to_netcdf")
     path = os.fspath(path)

@@ -19,7 +19,8 @@ Options = list[tuple[str, str]]
 
 def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
           settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
-          threads: int = 0, progress: Progress = None, **parameters: Any) -> xarray.Dataset:
+          events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
+          **parameters: Any) -> xarray.Dataset:
     """Follows the eigenvalues of a scene while a parameter changes: the Dataset that `open` gives for its loci file.
 
     `scene` is a path, the text of a scene, a dict of its tables, a `Family`, `Samples` or a `StateSpace`. Keywords are
@@ -32,13 +33,13 @@ def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None
     Without a range, [trace] of the scene gives it. `settings` is a dict of parameters whose names are keywords here.
     `tolerance` bounds the relative error of every eigenvalue, everywhere on the range (1e-6). `modes`: "all", a number, or a
     dict: dict(count=12, band=["0.05 Hz", "3 Hz"], damping_below=0.9). `options` are others of [trace]: order, reference,
-    first_step, max_step, max_nodes, constant_modes, branch, without.
+    first_step, max_step, max_nodes, constant_modes, branch, without. `events` are entries of [events]: dict(harmonics=[1, 2]).
 
     Ctrl-C stops at the next point and keeps what there is: the attribute `status` is then "interrupted". A trace that ends
     before its range does has the status "ended early" and warns with the reason. Raises SceneError for bad input, and
     TraceError where nothing can be traced.
     """
-    given = give(scene, {**(settings or {}), **parameters}, tolerance)
+    given = give(scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
     chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().trace(given.scene, chosen, given.function, threads, show)
@@ -49,7 +50,9 @@ def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None
         _tell(["interrupted: the Dataset has the points up to here"])
     elif outcome.message:
         _tell([f"ended early: {outcome.message}"])
-    return files.from_bytes(outcome.file)
+    loci = files.from_bytes(outcome.file)
+    loci.encoding[files.SCENE_FILES] = given.files
+    return loci
 
 
 def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,
@@ -63,7 +66,7 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     it is that of the second parameter. `damping_ratio`: the curves on which a pair has this damping ratio. `lines`: lines of
     the window that are searched in each direction (5). Raises KeyboardInterrupt for Ctrl-C.
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    given = give(scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
@@ -82,7 +85,7 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
     Ranges as for `boundary`. `grid`: values of the second parameter and of the first one, or one number for both. `jobs`:
     threads, 0 for one per core. Raises KeyboardInterrupt for Ctrl-C.
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    given = give(scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     rows, columns = (grid, grid) if isinstance(grid, int) else grid
@@ -100,7 +103,7 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
     The Dataset of an accuracy file. `orders` of the power series, `grids`: points of the grids of the other methods,
     `samples`: values at which errors are measured, `repeat`: runs whose median time counts.
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    given = give(scene, {**(settings or {}), **parameters})
     wanted = [10.0 ** -k for k in range(2, 13)] if tolerances is None else [float(t) for t in tolerances]
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().accuracy(given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat,
@@ -117,7 +120,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     Columns: the parameter, mode, eigenvalue (1/s), natural_frequency and damped_frequency (rad/s), damping_ratio, what_moves,
     condition; for samples also interpolation_error and digits_error (1/s). `at` is by default where [trace] begins.
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    given = give(scene, {**(settings or {}), **parameters})
     chosen = _trace_options(given, modes=modes, **(options or {}))
     values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
     found = engine().spectrum(given.scene, chosen, values)
@@ -132,6 +135,25 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     table.insert(4, "damped_frequency", np.abs(s.imag))
     table.insert(5, "damping_ratio", ratio)
     return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
+
+
+def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapping[str, Any]] = None,
+            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> "Explanation":
+    """What a scene simulates and how it will be solved: effects, structure, sizes, solvers; a text.
+
+    `sensitivity` ranks the effects by their influence on each mode where the trace begins.
+    """
+    given = give(scene, {**(settings or {}), **parameters})
+    text = engine().explain(given.scene, _trace_options(given, **(options or {})), sensitivity)
+    _tell(given.warnings)
+    return Explanation(text)
+
+
+class Explanation(str):
+    """A text of several lines that notebooks and interpreters show as it is."""
+
+    def __repr__(self) -> str:
+        return str(self)
 
 
 def events(loci: xarray.Dataset) -> pandas.DataFrame:
@@ -164,13 +186,6 @@ def _two_ranges(given: Given) -> tuple[Optional[str], str]:
     if names[1] == traced:
         names.reverse()
     return names[0], names[1]
-
-
-def _second_order_family(given: Given) -> Given:
-    if given.function is not None:
-        raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
-                         "for one range; give its matrices as a Family of powers and names, or as Samples")
-    return given
 
 
 def _begin(given: Given) -> float:
