@@ -70,10 +70,9 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
         values = ratio.values.reshape(len(places), -1)
         if not np.isfinite(values).any():
             raise SceneError("no mode has a damping ratio on this range")
-        row, column = np.unravel_index(np.nanargmin(values), values.shape)
-        best = Least(float(values[row, column]), float(places[row]), 0)
-        number = column % ratio.sizes["mode"]
-        best = best._replace(mode=labels.index(str(ratio.mode.values[number])))
+        row, column = divmod(int(np.nanargmin(values)), values.shape[1])
+        label = str(ratio.mode.values[column % ratio.sizes["mode"]])
+        best = Least(float(values[row, column]), float(places[row]), labels.index(label))
         low, high = places[max(row - 1, 0)], places[min(row + 1, len(places) - 1)]
         places = np.linspace(low, high, 2 * SAMPLES_PER_STEP + 1)
     assert best is not None
@@ -107,7 +106,7 @@ def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pa
     ds = found["derivative"][nearest]
     size = abs(s)
     # zeta = -Re s / |s|, so d zeta = -Im s Im(conj(s) ds) ... written with the parts of ds.
-    results = {"eigenvalue": (ds, s), "frequency": (ds.imag * np.sign(s.imag or 1.0), abs(s.imag)),
+    results: dict[str, tuple[Any, Any]] = {"eigenvalue": (ds, s), "frequency": (ds.imag * np.sign(s.imag or 1.0), abs(s.imag)),
                "damping_ratio": (-ds.real / size + s.real * (s.real * ds.real + s.imag * ds.imag) / size ** 3,
                                  -s.real / size)}
     derivative, result = results[quantity]

@@ -28,10 +28,10 @@ def from_ross(rotor: Any, speeds: Any = None, *, title: str = "") -> Union[Famil
     tables = [np.asarray(table, float) for table in _tables(rotor)]
     if speeds is None and not tables:
         C0, C1 = np.asarray(rotor.C(0.0)), np.asarray(rotor.G())
-        K = [np.asarray(rotor.K(0.0))] + _with_speed(rotor)
-        family: Union[Family, Samples] = Family(M=np.asarray(rotor.M()), C=[C0, C1], K=K, parameter="speed", unit="rad/s",
+        stiffness = [np.asarray(rotor.K(0.0))] + _with_speed(rotor)
+        family: Union[Family, Samples] = Family(M=np.asarray(rotor.M()), C=[C0, C1], K=stiffness, parameter="speed", unit="rad/s",
                                                 names=names, title=title or _title(rotor))
-        _compare(rotor, 100.0, C0 + 100.0 * C1, sum(100.0 ** power * matrix for power, matrix in enumerate(K)))
+        _compare(rotor, 100.0, C0 + 100.0 * C1, sum(100.0 ** power * matrix for power, matrix in enumerate(stiffness)))
         return family
     at = np.unique(np.concatenate(tables)) if speeds is None else np.asarray(speeds, float)
     gyroscopic, stiffening = np.asarray(rotor.G()), _with_speed(rotor)

@@ -3,7 +3,7 @@
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import pandas
@@ -39,20 +39,43 @@ def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None
     before its range does has the status "ended early" and warns with the reason. Raises SceneError for bad input, and
     TraceError where nothing can be traced.
     """
+    run = trace_file(scene, tolerance=tolerance, modes=modes, certify=certify, settings=settings, options=options,
+                     events=events, threads=threads, progress=progress, **parameters)
+    _tell(run.remarks)
+    return run.loci()
+
+
+class Run(NamedTuple):
+    """A trace as the engine leaves it."""
+
+    image: bytes  # of the loci file
+    message: str  # why it ended early; empty if it did not
+    remarks: list[str]
+    scene_files: dict[str, bytes]
+
+    def loci(self) -> xarray.Dataset:
+        loci = files.from_bytes(self.image)
+        loci.encoding[files.SCENE_FILES] = self.scene_files
+        return loci
+
+
+def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
+               settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
+               events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
+               **parameters: Any) -> Run:
+    """The same without reading the file."""
     given = give(scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
     chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().trace(given.scene, chosen, given.function, threads, show)
-    _tell(given.warnings + outcome.remarks)
     if not outcome.file:
         raise TraceError(f"{given.scene.path}: {outcome.message}")
+    remarks = given.warnings + outcome.remarks
     if outcome.interrupted:
-        _tell(["interrupted: the Dataset has the points up to here"])
+        remarks.append("interrupted: the Dataset has the points up to here")
     elif outcome.message:
-        _tell([f"ended early: {outcome.message}"])
-    loci = files.from_bytes(outcome.file)
-    loci.encoding[files.SCENE_FILES] = given.files
-    return loci
+        remarks.append(f"ended early: {outcome.message}")
+    return Run(outcome.file, outcome.message, remarks, given.files)
 
 
 def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,

@@ -2,7 +2,8 @@
 
 import itertools
 import os
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Optional
 
@@ -12,7 +13,8 @@ import xarray
 from .engine import SceneError, TraceError
 from .given import Source
 from .progress import Bar, Progress
-from .runs import trace
+from .files import part_from_bytes
+from .runs import Run, trace_file
 
 RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the single traces
 # Weight of the distance of loci beside modal assurance, both from 0 to 1: it decides where shapes are alike to a percent.
@@ -45,12 +47,23 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")
     places = list(itertools.product(*values.values()))
     runs = _run_all(scene, names, places, how, jobs or os.cpu_count() or 1, progress)
+    for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
+        warnings.warn(remark, stacklevel=2)
     return _together(names, values, places, runs, points)
 
 
+class _Traced:
+    """A trace of a sweep, or the error that kept it from beginning."""
+
+    def __init__(self, run: Any, like: Optional[xarray.Dataset]):
+        self.run = run
+        self.remarks: list[str] = run.remarks if isinstance(run, Run) else []
+        self.loci = part_from_bytes(run.image, like) if isinstance(run, Run) else None
+
+
 def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any], jobs: int,
-             progress: Progress) -> list[Any]:
-    """Per place the Dataset of its trace, or the error that kept it from beginning."""
+             progress: Progress) -> list[_Traced]:
+    """Per place its trace. The first ones are read while others run."""
     stopped = False
 
     def go_on(share: float, count: int) -> None:
@@ -59,17 +72,18 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
 
     def run(place: tuple[Any, ...]) -> Any:
         try:
-            settings = {**how.get("settings", {}), **dict(zip(names, place))}
-            return trace(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
+            settings: Any = {**how.get("settings", {}), **dict(zip(names, place))}
+            return trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
         except TraceError as error:
             return error
 
     with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
         try:
-            found = []
+            found: list[_Traced] = []
             for done, future in enumerate(futures):
-                found.append(future.result())
+                first = next((one.loci for one in found if one.loci is not None), None)
+                found.append(_Traced(future.result(), first))
                 if show is not None:
                     show((done + 1) / len(futures), done + 1)
             return found
@@ -80,14 +94,31 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             raise
 
 
+class Runs(Mapping[tuple[Any, ...], Any]):
+    """The Datasets of the traces by their values; a TraceError where one could not begin. Each is read when it is asked for."""
+
+    def __init__(self, places: Sequence[tuple[Any, ...]], traced: Sequence[Any]):
+        self._runs = dict(zip(places, traced))
+
+    def __getitem__(self, place: tuple[Any, ...]) -> Any:
+        run = self._runs[place]
+        return run.loci() if isinstance(run, Run) else run
+
+    def __iter__(self) -> Iterator[tuple[Any, ...]]:
+        return iter(self._runs)
+
+    def __len__(self) -> int:
+        return len(self._runs)
+
+
 def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places: Sequence[tuple[Any, ...]],
-              runs: Sequence[Any], points: Any) -> xarray.Dataset:
-    loci = [run for run in runs if isinstance(run, xarray.Dataset)]
+              runs: Sequence[_Traced], points: Any) -> xarray.Dataset:
+    loci = [run.loci for run in runs if run.loci is not None]
     if not loci:
-        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0]}")
+        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].run}")
     parameter = loci[0].attrs["parameter"]
     at = _common_values(loci, parameter, points)
-    parts = [_at(run, parameter, at) if isinstance(run, xarray.Dataset) else None for run in runs]
+    parts = [None if run.loci is None else _at(run.loci, parameter, at) for run in runs]
     n_modes = max(part.sizes["mode"] for part in parts if part is not None)
     shape = tuple(len(values[name]) for name in names)
     order = _orders(shape, runs, parts, n_modes)
@@ -98,14 +129,13 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
                                                      "scene": loci[0].attrs["scene"]})
     for column in COLUMNS:
         whole = np.stack([_column(part, column, order[i], at.size, n_modes) for i, part in enumerate(parts)])
-        attrs = next(part for part in parts if part is not None)[column].attrs
-        data[column] = ((*names, parameter, "mode"), whole.reshape(*shape, at.size, n_modes), attrs)
+        data[column] = ((*names, parameter, "mode"), whole.reshape(*shape, at.size, n_modes), loci[0][column].attrs)
     for name, of_run in (("flutter", _first_flutter), ("status", _status), ("message", _message)):
         data[name] = (names, np.array([of_run(run) for run in runs]).reshape(shape))
     data["flutter"].attrs = dict(loci[0][parameter].attrs, long_name="first flutter")
     data["least_damping"] = data["damping_ratio"].min([parameter, "mode"]).assign_attrs(
         long_name="least damping ratio", units="1")
-    data.encoding[RUNS] = dict(zip(places, runs))
+    data.encoding[RUNS] = Runs(places, [run.run for run in runs])
     return data
 
 
@@ -134,16 +164,18 @@ def _at(run: xarray.Dataset, parameter: str, at: Any) -> xarray.Dataset:
     return found.reindex({parameter: at}, fill_value={"certified": -1})
 
 
-def _orders(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any], n_modes: int) -> list[Any]:
+def _orders(shape: tuple[int, ...], runs: Sequence[_Traced], parts: Sequence[Any], n_modes: int) -> list[Any]:
     """Per trace the number of its mode that is the i-th one: that which resembles the i-th one of the trace before it, along
     the last dimension and at its start along the one before."""
     order: list[Any] = []
     for i, part in enumerate(parts):
         before = _before(i, shape)
-        if part is None or before is None or parts[before] is None:
+        there = None if before is None else runs[before].loci
+        here = runs[i].loci
+        if before is None or there is None or here is None:
             order.append(np.arange(n_modes))
             continue
-        unlike = 1.0 - _assurance(runs[before], runs[i], n_modes)[order[before]]
+        unlike = 1.0 - _assurance(there, here, n_modes)[order[before]]
         order.append(_assignment(unlike + TIE * _distance(parts[before], order[before], part, n_modes)))
     return order
 
@@ -172,8 +204,8 @@ def _assurance(before: xarray.Dataset, run: xarray.Dataset, n_modes: int) -> Any
 
 def _distance(before: Any, order: Any, part: Any, n_modes: int) -> Any:
     """Mean distance of the loci, relative to the largest one."""
-    there = _column(before, "eigenvalue", order, None, n_modes)
-    here = _column(part, "eigenvalue", np.arange(n_modes), None, n_modes)
+    there = _column(before, "eigenvalue", order, 0, n_modes)
+    here = _column(part, "eigenvalue", np.arange(n_modes), 0, n_modes)
     distance = np.abs(there[:, :, np.newaxis] - here[:, np.newaxis, :])
     known = np.isfinite(distance)
     mean = np.where(known, distance, 0.0).sum(0) / np.maximum(known.sum(0), 1)
@@ -187,7 +219,7 @@ def _assignment(cost: Any) -> Any:
     return linear_sum_assignment(cost)[1]
 
 
-def _column(part: Any, column: str, order: Any, count: Optional[int], n_modes: int) -> Any:
+def _column(part: Any, column: str, order: Any, count: int, n_modes: int) -> Any:
     fill: Any = {"eigenvalue": complex(np.nan, np.nan), "certified": -1}.get(column, np.nan)
     if part is None:
         return np.full((count, n_modes), fill)
@@ -197,16 +229,16 @@ def _column(part: Any, column: str, order: Any, count: Optional[int], n_modes: i
     return whole[:, order]
 
 
-def _first_flutter(run: Any) -> float:
-    if not isinstance(run, xarray.Dataset):
+def _first_flutter(run: _Traced) -> float:
+    if run.loci is None:
         return np.nan
-    flutter = np.flatnonzero(run.event_kind.values == "flutter")
-    return float(run.event_parameter.values[flutter[0]]) if len(flutter) else np.nan
+    flutter = np.flatnonzero(run.loci.event_kind.values == "flutter")
+    return float(run.loci.event_parameter.values[flutter[0]]) if len(flutter) else np.nan
 
 
-def _status(run: Any) -> str:
-    return str(run.attrs["status"]) if isinstance(run, xarray.Dataset) else "not traced"
+def _status(run: _Traced) -> str:
+    return "not traced" if run.loci is None else str(run.loci.attrs["status"])
 
 
-def _message(run: Any) -> str:
-    return str(run.attrs.get("message", "")) if isinstance(run, xarray.Dataset) else str(run)
+def _message(run: _Traced) -> str:
+    return str(run.run) if run.loci is None else str(run.loci.attrs.get("message", ""))
