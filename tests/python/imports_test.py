@@ -1,5 +1,6 @@
 """Models of other programs, read into memory: the same bits as after `eigentrail import`."""
 
+import pathlib
 import unittest
 
 import eigentrail as et
@@ -9,6 +10,7 @@ from loci_comparison import differences
 from program import SCENES, ProgramTest
 
 LINEARIZATIONS = SCENES.parent / "linearizations"
+DATA = pathlib.Path(__file__).resolve().parents[1] / "import" / "data"
 
 
 class Imports(ProgramTest):
@@ -31,6 +33,20 @@ class Imports(ProgramTest):
         self.run_well("trace", scene, "-o", "program.h5", "--quiet")
         loci = et.trace(model)
         np.testing.assert_array_equal(et.open(self.folder / "program.h5").eigenvalue, loci.eigenvalue)
+
+    def test_files_of_octave(self):
+        """Against the matrices that its script had (tests/import/data/README.md)."""
+        M, K, G = np.diag([2.0, 1.0]), np.array([[3.0, -1.0], [-1.0, 2.0]]), np.array([[0.0, 1.0], [-1.0, 0.0]])
+        for name in ("octave_v6.mat", "octave_v7.mat"):
+            with self.subTest(name):
+                loci = et.trace(et.from_files("matlab", DATA / name))
+                self.assertEqual(list(loci.coordinate.values), ["x", "y", "vx", "vy"])
+                for speed in (1.0, 6.3):
+                    A = np.block([[np.zeros((2, 2)), np.eye(2)],
+                                  [-np.linalg.solve(M, K), -np.linalg.solve(M, 0.01 * K + speed * G)]])
+                    s = np.linalg.eigvals(A)
+                    found = np.sort_complex(loci.eigentrail.sel(speed=speed).eigenvalue.values)
+                    np.testing.assert_allclose(found, np.sort_complex(s[s.imag > 0]), rtol=2e-6)
 
     def test_mistakes(self):
         for call, text in ((lambda: et.from_openfast("nowhere/*.lin"), "no file has such a name"),
