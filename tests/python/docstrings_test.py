@@ -9,6 +9,10 @@ import unittest
 import eigentrail
 
 
+# Constants, errors, and what needs files or rotors: other tests run them.
+WITHOUT_EXAMPLE = {"__version__", "SceneError", "TraceError", "Imported", "Eigentrail", "from_files", "from_openfast", "from_ross", "open"}
+
+
 class Docstrings(unittest.TestCase):
     def test_examples(self):
         for module in pkgutil.iter_modules(eigentrail.__path__):
@@ -23,6 +27,11 @@ class Docstrings(unittest.TestCase):
             thing = getattr(eigentrail, name)
             if callable(thing):
                 self.assertTrue(inspect.getdoc(thing), name)
+
+    def test_functions_have_examples(self):
+        for name in set(eigentrail.__all__) - WITHOUT_EXAMPLE:
+            with self.subTest(name):
+                self.assertIn(">>>", inspect.getdoc(getattr(eigentrail, name)))
 
 
 if __name__ == "__main__":
