@@ -238,7 +238,7 @@ int run_explain(const ExplainArguments& arguments) {
   const auto& [scene, options, model] = setup;
   warn_of_unused(scene, *model);
   check_parameter_name(scene, options.parameter);
-  if (arguments.sensitivity && is_matrix_family(scene))
+  if (arguments.sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
     throw InputError(arguments.scene + ": --sensitivity ranks effects; a family of matrices has none");
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
