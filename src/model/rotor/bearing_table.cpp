@@ -68,6 +68,52 @@ double error_left_out(const RationalInterpolant& interpolant, const std::vector<
   return largest > 0.0 ? worst / largest : 0.0;
 }
 
+/// Factor to the SI unit of the first column.
+double factor_of_argument(const CsvTable& csv, const std::string& wanted) {
+  const CsvColumn& first = csv.columns.front();
+  if (first.unit.empty()) return 1.0;
+  const auto unit = parse_unit(first.unit);
+  if (!unit)
+    throw TableFault(csv.path + ": column " + first.name + ": unit '" + first.unit + "' is not known; " +
+                     unit_suggestion(first.unit));
+  if (!wanted.empty() && !(unit->dimension == parse_unit(wanted)->dimension))
+    throw TableFault(csv.path + ": column " + first.name + " is in " + first.unit + ", but " + wanted +
+                     " is expected");
+  return unit->factor;
+}
+
+/// Checks the size of the table and the names of its columns.
+void check_columns(const CsvTable& csv) {
+  const std::vector<std::string>& known = coefficient_names();
+  const std::string& first = csv.columns.front().name;
+  if (std::find(known.begin(), known.end(), first) != known.end())
+    throw TableFault(csv.path + ": the first column is the speed, or what 'over' says; found '" + first +
+                     "'");
+  if (csv.columns.size() < 2) throw TableFault(csv.path + ": has no column of a coefficient, such as kxx");
+  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
+    const std::string& name = csv.columns[i].name;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw TableFault(csv.path + ": unknown column '" + name + "'; " + suggestion(name, known));
+  }
+  if (csv.rows() > limits::samples)
+    throw TableFault(csv.path + ": has " + std::to_string(csv.rows()) + " rows; at most " +
+                     std::to_string(limits::samples) + " are read");
+  if (csv.rows() < 2) throw TableFault(csv.path + ": has one row; expected two at least");
+}
+
+std::vector<std::vector<double>> coefficients_of(const CsvTable& csv) {
+  std::vector<std::vector<double>> columns;
+  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
+    const CsvColumn& column = csv.columns[i];
+    try {
+      columns.push_back(si_values(csv, column, coefficient_unit(column.name)));
+    } catch (const InputError& error) {
+      throw TableFault(error.what());
+    }
+  }
+  return columns;
+}
+
 }  // namespace
 
 std::shared_ptr<const TabulatedFactor> BearingTable::find(const std::string& key) const {
@@ -98,43 +144,18 @@ std::string BearingTable::in_words() const {
          " at most";
 }
 
-BearingTable tabulate(const CsvTable& csv, const Expression& argument) {
+BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std::string& unit) {
+  check_columns(csv);
   const CsvColumn& first = csv.columns.front();
-  const std::vector<std::string>& known = coefficient_names();
   BearingTable table;
   table.argument = argument;
   table.first_name = first.name;
   table.first_unit = first.unit;
-  if (std::find(known.begin(), known.end(), first.name) != known.end())
-    throw TableFault(csv.path + ": the first column is the speed, or what 'over' says; found '" + first.name +
-                     "'");
-  if (csv.rows() > limits::samples)
-    throw TableFault(csv.path + ": has " + std::to_string(csv.rows()) + " rows; at most " +
-                     std::to_string(limits::samples) + " are read");
-  if (csv.rows() < 2) throw TableFault(csv.path + ": has one row; expected two at least");
-  if (csv.columns.size() < 2) throw TableFault(csv.path + ": has no column of a coefficient, such as kxx");
-  if (!first.unit.empty()) {
-    const auto unit = parse_unit(first.unit);
-    if (!unit)
-      throw TableFault(csv.path + ": column " + first.name + ": unit '" + first.unit + "' is not known; " +
-                       unit_suggestion(first.unit));
-    table.factor = unit->factor;
-  }
+  table.factor = factor_of_argument(csv, unit);
   std::vector<double> nodes = first.values;
   for (double& node : nodes) node *= table.factor;
   check_ascending(csv, nodes);
-  std::vector<std::vector<double>> columns;
-  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
-    const CsvColumn& column = csv.columns[i];
-    if (std::find(known.begin(), known.end(), column.name) == known.end())
-      throw TableFault(csv.path + ": unknown column '" + column.name + "'; " +
-                       suggestion(column.name, known));
-    try {
-      columns.push_back(si_values(csv, column, coefficient_unit(column.name)));
-    } catch (const InputError& error) {
-      throw TableFault(error.what());
-    }
-  }
+  const std::vector<std::vector<double>> columns = coefficients_of(csv);
   std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, std::nullopt);
   table.interpolant = std::make_shared<const RationalInterpolant>(std::move(pieces.front().interpolant));
   table.error = std::nan("");

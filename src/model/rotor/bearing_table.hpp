@@ -37,7 +37,8 @@ struct BearingTable {
   std::string in_words() const;
 };
 
-/// The first column is the argument, ascending; all others are coefficients. Throws TableFault.
-BearingTable tabulate(const CsvTable& csv, const Expression& argument);
+/// The first column is the argument, ascending, in `unit` (empty: any) or one of its dimension; all others
+/// are coefficients. Throws TableFault.
+BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std::string& unit);
 
 }  // namespace eigentrail

@@ -96,7 +96,7 @@ std::optional<BearingTable> read_columns(RotorDraft& rotor, TableReader& table, 
                                   : rotor.shafts[place.shaft].speed;
   const CsvTable csv = rotor.read_table(table, "table");
   try {
-    BearingTable columns = tabulate(csv, argument);
+    BearingTable columns = tabulate(csv, argument, table.has("over") ? "" : "rad/s");
     for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {
       const double at = rotor.draft.check_values(argument)[i];
       if (const std::string fault = columns.outside(at); !fault.empty())

@@ -91,7 +91,9 @@ Stations stations_of_scene(TableReader& shaft) {
   std::size_t count = result.length.size();
   result.outer = table.list("outer", "m");
   result.inner = table.has("inner") ? table.list("inner", "m") : std::vector<Expression>{0.0};
-  for (const auto* column : {&result.outer, &result.inner}) count = std::max(count, column->size());
+  for (const auto* column : {&result.outer, &result.inner}) {
+    if (count == 1) count = column->size();
+  }
   const auto spread = [&](std::vector<Expression>& column, const std::string& key) {
     if (column.size() == 1) column.resize(count, column.front());
     if (column.size() != count)
