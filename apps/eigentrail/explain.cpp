@@ -229,7 +229,7 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity) {
   const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
-  if (sensitivity && is_matrix_family(scene))
+  if (sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
     throw InputError(scene.path + ": --sensitivity ranks effects; a family of matrices has none");
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);

@@ -4,7 +4,7 @@ import re
 
 CONTENTS = {
     "Start": ["install", "first-trace", "commands", "glossary"],
-    "Describe a system": ["scene", "scene-tables", "scenes/README"],
+    "Describe a system": ["scene", "rotor", "scene-tables", "scenes/README"],
     "Models of other programs": ["bring-your-own-matrices", "large-models", "sampled-families", "state-space", "openfast",
                                  "coming-from-ross", "coming-from-matlab"],
     "Read the results": ["events", "boundaries", "stability-map", "report"],

@@ -133,6 +133,10 @@ void LociTables::append(const LociRows& rows) {
   file_.write_rows("mode_shape", points_, rows.mode_shape);
   file_.write_rows("residual", points_, rows.residual);
   file_.write_rows("condition", points_, rows.condition);
+  if (!rows.whirl.empty()) {
+    file_.write_rows("whirl", points_, rows.whirl);
+    file_.write_rows("whirl_reverse", points_, rows.whirl_reverse);
+  }
   file_.write_rows("equilibrium", points_, rows.equilibrium);
   if (has_constraints_) file_.write_rows("multiplier", points_, rows.multiplier);
   if (rows.steps() > 0) {
