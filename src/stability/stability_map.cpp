@@ -162,9 +162,8 @@ StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>
   std::vector<std::size_t> numbers(static_cast<std::size_t>(setup.options.n_second));
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   Threads threads(setup.options.jobs);
-  return map_of(setup, map_lines(setup, numbers, threads, [&done](std::size_t lines) {
-                  done(static_cast<int>(lines));
-                }));
+  return map_of(setup, map_lines(setup, numbers, threads,
+                                 [&done](std::size_t lines) { done(static_cast<int>(lines)); }));
 }
 
 }  // namespace eigentrail

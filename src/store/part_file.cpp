@@ -80,8 +80,8 @@ void check_same_run(const PartFile& first, const PartFile& other) {
   }
   const bool one = missing.size() == 1;
   throw InputError((one ? "part " : "parts ") + numbers + " of " + std::to_string(count) +
-                   (one ? " is missing" : " are missing") +
-                   "; give all files, or repeat the command with " + options);
+                   (one ? " is missing" : " are missing") + "; give all files, or repeat the command with " +
+                   options);
 }
 
 }  // namespace
