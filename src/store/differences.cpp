@@ -1,5 +1,6 @@
 #include "store/differences.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -29,6 +30,9 @@ std::string first_difference(const std::string& before, const std::string& now) 
 }
 
 std::string bytes_of_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path + ": is a folder; give the name of a file");
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file && !file.eof()) throw InputError(path + ": cannot be read");

@@ -54,17 +54,24 @@ void check_same_run(const PartFile& first, const PartFile& other) {
   };
   if (first.run.command != other.run.command)
     refuse("one is of eigentrail " + first.run.command + ", the other of eigentrail " + other.run.command);
+  const auto difference = [](const std::string& before, const std::string& now) {
+    const bool short_texts = (before + now).find('\n') == std::string::npos;
+    return short_texts ? "was '" + printable(before) + "' and is '" + printable(now) + "'"
+                       : first_difference(before, now);
+  };
   const std::map<std::string, std::string> before(first.run.settings.begin(), first.run.settings.end());
   const std::map<std::string, std::string> now(other.run.settings.begin(), other.run.settings.end());
   for (const auto& [label, text] : before) {
-    const auto there = now.find(label);
-    const std::string found = there == now.end() ? "" : there->second;
-    if (found != text) refuse(label + ": " + first_difference(text, found));
+    const std::string found = other.run.setting(label).value_or("");
+    if (found != text) refuse(label + ": " + difference(text, found));
+  }
+  for (const auto& [label, text] : now) {
+    if (!before.contains(label)) refuse(label + ": " + difference("", text));
   }
   if (first.part.count != other.part.count)
     throw InputError(other.path + ": is " + part_name(other.part) + ", but " + first.path + " is " +
                      part_name(first.part) + "; merge the parts of one division");
-  if (before.size() != now.size() || first.run.n_pieces != other.run.n_pieces) refuse("other settings");
+  if (first.run.n_pieces != other.run.n_pieces) refuse("another number of pieces");
 }
 
 [[noreturn]] void refuse_missing(const std::vector<int>& missing, int count) {
@@ -86,6 +93,12 @@ void check_same_run(const PartFile& first, const PartFile& other) {
 
 }  // namespace
 
+std::optional<std::string> SharedRun::setting(const std::string& label) const {
+  const auto found =
+      std::find_if(settings.begin(), settings.end(), [&](const auto& one) { return one.first == label; });
+  return found == settings.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene) {
   std::string files;
   add_files(scene.root, std::filesystem::path(scene.path).parent_path(), files);
@@ -102,7 +115,7 @@ void write_part(const PartFile& file) {
   head.set_attribute("part", std::int64_t{file.part.number});
   head.set_attribute("part_count", std::int64_t{file.part.count});
   const std::string pieces =
-      packed(file.run.command, file.run.scene_path, file.run.settings, file.run.request,
+      packed(file.run.command, file.run.scene_path, file.run.settings,
              static_cast<std::uint64_t>(file.run.n_pieces), file.part.number, file.part.count, file.pieces);
   const std::string bytes = head.image() + pieces;
   PartMark mark{{}, pieces.size(), fingerprint(bytes)};
@@ -135,7 +148,7 @@ PartFile read_part_file(const std::string& path) {
         throw InputError(path + ": was written by eigentrail " + printable(text) + ", this is " + version() +
                          "; merge with the version that wrote the parts");
     }
-    archive(file.run.request, n_pieces, file.part.number, file.part.count, file.pieces);
+    archive(n_pieces, file.part.number, file.part.count, file.pieces);
     archive.finish();
   } catch (const ArchiveError&) {
     throw damaged;

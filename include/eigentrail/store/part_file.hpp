@@ -5,6 +5,7 @@
 // where its readers do not look, are the pieces, and a mark with a checksum of the whole file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,10 +23,13 @@ inline constexpr int part_schema_version = 1;
 struct SharedRun {
   std::string command;     ///< "map", "boundary" or "sweep"
   std::string scene_path;  ///< as the user gave it; may differ
-  /// What the result depends on, as labels and texts: version, scene, contents of its files, options.
+  /// What the result depends on, as labels and texts: version, scene, contents of its files, options. The
+  /// command goes on from these when the parts are joined.
   std::vector<std::pair<std::string, std::string>> settings;
-  std::string request;  ///< bytes from which the command goes on when the parts are joined
   std::size_t n_pieces = 0;
+
+  /// The text of a setting; empty if there is none of this label.
+  std::optional<std::string> setting(const std::string& label) const;
 };
 
 struct PartFile {
