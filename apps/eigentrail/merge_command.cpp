@@ -19,6 +19,7 @@ int run_merge(const MergeArguments& arguments, Team& team) {
   const SharedRun& run = parts.front().run;
   if (run.command == "map") return merge_map(run, pieces, arguments.output, team);
   if (run.command == "boundary") return merge_boundary(run, pieces, arguments.output, team);
+  if (run.command == "sweep") return merge_sweep(run, pieces, arguments.output, team);
   throw InputError(parts.front().path + ": is a part of '" + run.command +
                    "', which this version cannot join");
 }

@@ -38,5 +38,7 @@ int merge_map(const SharedRun& run, const std::vector<std::string>& pieces, cons
               Team& team);
 int merge_boundary(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
                    Team& team);
+int merge_sweep(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
+                Team& team);
 
 }  // namespace eigentrail::app

@@ -9,17 +9,15 @@
 
 #include "check_output.hpp"
 #include "commands.hpp"
-#include "eigentrail/accuracy/data_errors.hpp"
-#include "eigentrail/accuracy/shallow_extrema.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "eigentrail/stability/undecided_ranges.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/projection_file.hpp"
 #include "interruption.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
+#include "trace_end.hpp"
 #include "trace_summary.hpp"
 
 namespace eigentrail::app {
@@ -117,18 +115,11 @@ class TraceRun {
       return interruption_.exit_code();
     }
     const RecordedPath path = recorder_.path();
-    const EigenvalueAccuracy accuracy{setup_.options.tolerance, result_.s_ref};
-    std::vector<StableRange> ranges = stable_ranges(path, result_.events, accuracy);
-    std::optional<DataErrors> errors = data_errors(*setup_.model, setup_.options, path, result_.events);
-    const int shallow = errors ? remove_shallow_extrema(path, result_.events, *errors) : 0;
-    if (shallow > 0)
-      result_.notes.push_back(std::to_string(shallow) + (shallow == 1 ? " extremum" : " extrema") +
-                              " of damping ratios left out: no deeper than the errors of the data");
-    if (errors) ranges = with_undecided(ranges, path, result_.events, *errors, accuracy);
-    writer_->finish(result_, ranges, errors ? &*errors : nullptr);
+    const TraceEnd end = complete_file(setup_, result_, path, *writer_);
     if (!arguments_.quiet) {
-      print_summary({setup_, result_, path, writer_->mode_names(), ranges, errors ? &*errors : nullptr},
-                    arguments_.verbose);
+      print_summary(
+          {setup_, result_, path, writer_->mode_names(), end.ranges, end.errors ? &*end.errors : nullptr},
+          arguments_.verbose);
       std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
                   std::filesystem::path(output).replace_extension(".html").c_str());
     }
@@ -183,12 +174,6 @@ int run_trace(const TraceArguments& arguments) {
   return done;
 }
 
-/// The command line flag of an option of the trace: "max_step" becomes --max-step.
-std::string flag(std::string key) {
-  std::replace(key.begin(), key.end(), '_', '-');
-  return "--" + key;
-}
-
 }  // namespace
 
 void add_trace(CLI::App& program, int& exit_code) {
@@ -214,17 +199,7 @@ void add_trace(CLI::App& program, int& exit_code) {
   auto* quiet = command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
   command->add_flag("--verbose", arguments->verbose, "the summary with all figures of the work")
       ->excludes(quiet);
-  TraceOptions defaults;
-  TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {
-    const std::string name = key;
-    if (name == "certify") return;  // a flag, below
-    command->add_option_function<std::string>(
-        flag(name), [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        std::string(help) + " (overrides the scene)");
-  });
-  command->add_flag_callback(
-      "--no-certify", [arguments] { arguments->options["certify"] = "false"; },
-      "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
+  add_trace_options(*command, arguments->options);
   command
       ->add_option("--threads", arguments->threads,
                    "threads that share the modes of a point; 0: one per core (results are the same)")
