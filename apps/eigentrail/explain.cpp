@@ -100,7 +100,8 @@ void print_states(std::FILE* to, const Model& model) {
 
 /// Prints the effects for each mode, ordered by their influence on its eigenvalue.
 void print_influences(std::FILE* to, const Influences& influences, const std::string& at) {
-  std::fprintf(to, 
+  std::fprintf(
+      to,
       "influence of each effect on each mode at %s\n"
       "    change of s, relative to abs(s), per relative growth of the effect; the equilibrium follows\n",
       at.c_str());
@@ -112,7 +113,7 @@ void print_influences(std::FILE* to, const Influences& influences, const std::st
       return std::abs(a->derivatives[i]) > std::abs(b->derivatives[i]);
     });
     std::fprintf(to, "  mode %s  %s\n", std::to_string(i + 1).c_str(),
-                complex_text(s.real(), s.imag(), 8).c_str());
+                 complex_text(s.real(), s.imag(), 8).c_str());
     std::vector<std::vector<std::string>> rows;
     for (const EffectInfluence* influence : ranked) {
       const Complex change = influence->derivatives[i] / (std::abs(s) > 0.0 ? std::abs(s) : 1.0);
@@ -153,8 +154,8 @@ std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
   return text + "; followed one by one";
 }
 
-void print_structure(std::FILE* to, const Structure& structure, bool has_constraints, const std::string& in_parts,
-                     const std::string& parameter) {
+void print_structure(std::FILE* to, const Structure& structure, bool has_constraints,
+                     const std::string& in_parts, const std::string& parameter) {
   const auto along = [&](bool constant) {
     return constant ? "constant along " + parameter : "changes with " + parameter;
   };
@@ -188,8 +189,8 @@ std::string describe_route(const Structure& structure, const ModeWork& work) {
   return how + ": about " + rounded(100.0 * share, 2) + " % of the work of one LU per mode";
 }
 
-void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work, bool chosen,
-                   bool sparse) {
+void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work,
+                   bool chosen, bool sparse) {
   const int order = work.order;
   std::fprintf(to, "solvers\n");
   std::string equilibrium =

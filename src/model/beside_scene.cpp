@@ -22,7 +22,7 @@ std::string beside_scene(const Scene& scene, TableReader& table, const std::stri
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   if (!error && !within) {
     table.fail(key, "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
-                           "; expected a file in the folder or below it");
+                        "; expected a file in the folder or below it");
   }
   return (beside / path).string();
 }

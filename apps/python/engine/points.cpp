@@ -8,8 +8,8 @@
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/continuation/sensitivities.hpp"
-#include "eigentrail/projection/project.hpp"
 #include "eigentrail/explain.hpp"
+#include "eigentrail/projection/project.hpp"
 #include "engine.hpp"
 #include "watch.hpp"
 
