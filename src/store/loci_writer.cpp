@@ -102,11 +102,12 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
 
 LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
                        const TraceStart& start, const TracePoint& first) {
-  ModeMotions motions(model.description(), first);
+  ModeMotions motions(model, first);
   LociTables tables = new_tables("loci file", scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{{},
                                            nullptr,
                                            std::move(tables),
+                                           model,
                                            options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()),
                                            usual_interval,
