@@ -29,13 +29,19 @@ struct OrbitAreas {
   }
 };
 
+/// The orbits of all nodes, in the sense of the first shaft that spins.
 void add_shafts(const Model& model, const std::vector<double>& si, const ComplexVector& shape,
                 OrbitAreas& areas) {
-  for (const SpinningShaft& shaft : model.description().shafts) {
+  const std::vector<SpinningShaft>& shafts = model.description().shafts;
+  double sense = 0.0;
+  for (const SpinningShaft& shaft : shafts) {
     const double speed = shaft.speed.evaluate(std::span<const double>(si));
-    if (speed == 0.0) continue;
+    if (sense == 0.0 && speed != 0.0) sense = std::copysign(1.0, speed);
+  }
+  if (sense == 0.0) return;
+  for (const SpinningShaft& shaft : shafts) {
     for (const std::array<Complex, 2>& at : displacements(model, shaft, shape))
-      areas.add(at[0], at[1], std::copysign(1.0, speed));
+      areas.add(at[0], at[1], sense);
   }
 }
 

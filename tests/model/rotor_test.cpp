@@ -32,6 +32,7 @@ speed = "300*p"
 alpha = "p"
 beta = "1e-5*p"
 internal_damping = "2e-5*p"
+refined = true
 axial = true
 torsion = true
 [[shaft]]
@@ -135,7 +136,9 @@ TEST(Rotor, FreedomsHaveTheNamesOfTheirNodes) {
   EXPECT_TRUE(has("outer node 3: rx"));
   EXPECT_FALSE(has("outer node 3: x"));  // held
   EXPECT_FALSE(has("outer node 1: z"));  // not asked for
-  EXPECT_EQ(names.size(), 4U * 6U + 3U * 4U - 2U);
+  EXPECT_TRUE(has("inner element 3: ry"));
+  EXPECT_FALSE(has("outer element 1: x"));  // not refined
+  EXPECT_EQ(names.size(), 4U * 6U + 3U * 4U + 3U * 4U - 2U);
 }
 
 /// A piece of shaft that is free in space, of any section.
@@ -196,13 +199,14 @@ TEST(Rotor, AFreeShaftMovesAsARigidBodyWithItsMassAndInertia) {
 
 TEST(Rotor, StiffnessIsExactForForcesAtTheEnds) {
   // A cantilever of one element or ten under a force at its end: F l^3 / (3 E I) + F l / (k G A).
-  for (const int elements : {1, 10}) {
+  for (const auto& [elements, more] :
+       {std::pair(1, ""), std::pair(10, ""), std::pair(10, "refined = true\n")}) {
     for (const double length : {0.02, 2.0}) {
       const Setting setting = make_setting(
           "[trace]\nparameter = \"speed\"\nfrom = 0\nto = 1\n[parameters]\nspeed = 0\n[[shaft]]\n"
           "stations = { length = " +
           std::to_string(length) + ", outer = 0.05, inner = 0.03 }\nelements = " + std::to_string(elements) +
-          "\nE = 2e11\nnu = 0.3\ndensity = 7800\nspeed = \"speed\"\n"
+          "\nE = 2e11\nnu = 0.3\ndensity = 7800\nspeed = \"speed\"\n" + more +
           "[[support]]\nnode = 1\nholds = [\"x\", \"y\", \"rx\", \"ry\"]\n");
       const Matrix K = linearization(*setting.model, 0.0, 0).K[0].dense();
       Vector force = Vector::Zero(K.rows());

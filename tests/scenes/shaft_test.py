@@ -28,6 +28,7 @@ E = 2.1e11
 nu = 0.3
 density = 7850
 speed = "speed"
+refined = {refined}
 [[support]]
 node = [1, {last}]
 """
@@ -61,9 +62,9 @@ def lowest(length, outer, inner, speed, count):
 
 
 class PinnedShaft(RotorTest):
-    def traced(self, elements, length=1.0, outer=0.1, inner=0.0, to=4000.0):
+    def traced(self, elements, length=1.0, outer=0.1, inner=0.0, to=4000.0, refined="false"):
         return self.trace_text(PINNED.format(length=length, outer=outer, inner=inner, elements=elements, last=elements + 1,
-                                             to=to), output=f"{elements}.h5")
+                                             to=to, refined=refined), output=f"{elements}.h5")
 
     def errors(self, elements, speed, count, **shape):
         file = self.traced(elements, **shape)
@@ -92,6 +93,15 @@ class PinnedShaft(RotorTest):
             self.assertGreater(np.log2(few / more).min(), 3.9, speed)
             self.assertGreater(np.log2(more / most).min(), 3.5, speed)
 
+    def test_order_of_convergence_of_refined_elements_is_four(self):
+        """Also where they are shorter than thick: three pairs with 4, 8 and 16 elements, solid and hollow."""
+        for inner in (0.0, 0.07):
+            for speed in (0.0, 4000.0):
+                few, more, most = (self.errors(n, speed, 6, inner=inner, refined="true") for n in (4, 8, 16))
+                self.assertGreater(np.log2(few / more).min(), 3.9, (inner, speed))
+                self.assertGreater(np.log2(more / most).min(), 3.9, (inner, speed))
+                self.assertLess(most.max(), 3e-5, (inner, speed))
+
     def test_slender_limit_is_that_of_euler_and_bernoulli(self):
         """w = (n pi / l)^2 sqrt(E I / rho A); rotary inertia and shear fall with the square of the slenderness. Nothing
         locks: the error of the elements does not grow."""
@@ -105,7 +115,7 @@ class PinnedShaft(RotorTest):
     def test_modes_have_the_names_of_the_trade(self):
         """The n-th pair splits into an n-th backward and an n-th forward bending mode."""
         summary = self.run_well("trace", self.write("named.toml", PINNED.format(
-            length=1.0, outer=0.1, inner=0.0, elements=12, last=13, to=4000.0).replace("from = 0", "from = 1000")))
+            length=1.0, outer=0.1, inner=0.0, elements=12, last=13, to=4000.0, refined="false").replace("from = 0", "from = 1000")))
         names = re.findall(r"^ +\d+ .* (\d\w\w (?:forward|backward) bending)", summary, re.MULTILINE)
         self.assertEqual(sorted(names), sorted(f"{n} {sense} bending" for n in ("1st", "2nd", "3rd", "4th")
                                                for sense in ("backward", "forward")))

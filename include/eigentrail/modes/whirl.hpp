@@ -24,9 +24,10 @@ struct Whirl {
 /// Whether the model has something that spins: shafts, or discs on axes of bodies.
 bool has_whirl(const ModelDescription& description);
 
-/// The whirl of a mode. Shafts: the orbits of their nodes. Discs on bodies: those of the bodies' centres and
-/// of the tips of their axes, about the axes of the starting guess; the larger of both measures counts.
-/// `parameters`: declared units; `shape`: coordinates of the model, of the eigenvalue with Im s > 0.
+/// The whirl of a mode. Shafts: the orbits of their nodes, in the sense of the first shaft that spins. Discs
+/// on bodies: those of the bodies' centres and of the tips of their axes, about the axes of the starting
+/// guess; the larger of both measures counts. `parameters`: declared units; `shape`: coordinates of the
+/// model, of the eigenvalue with Im s > 0.
 Whirl whirl_of(const Model& model, const Vector& parameters, const ComplexVector& shape);
 
 /// "forward", "backward", "mixed" if nodes differ, or "" where nothing is clear: orbits that are nearly

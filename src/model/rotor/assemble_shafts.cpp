@@ -16,28 +16,18 @@
 namespace eigentrail {
 namespace {
 
-using Entries = std::array<std::array<Expression, 4>, 4>;
-
-Entries entries_of(const PlaneMatrix& matrix) {
-  Entries result;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) result[i][j] = matrix(i, j);
-  }
-  return result;
-}
-
 /// The freedoms of an element in a plane, and the sign with which rotations enter.
 struct ElementPlane {
-  std::array<Eigen::Index, 4> coordinates;
+  std::array<Eigen::Index, 6> coordinates;
   double sign;
 
   double at(std::size_t i) const { return i % 2 == 1 ? sign : 1.0; }
 };
 
-void add_block(MatrixSum& to, const ElementPlane& rows, const ElementPlane& columns, const Entries& entries,
-               const Expression& factor, double value) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j)
+void add_block(MatrixSum& to, const ElementPlane& rows, const ElementPlane& columns,
+               const ElementMatrix& entries, const Expression& factor, double value) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j)
       to.add_product(rows.coordinates[i], columns.coordinates[j], factor, entries[i][j],
                      value * rows.at(i) * columns.at(j));
   }
@@ -65,7 +55,7 @@ void add_rod(PencilSum& sum, const ShaftDraft& shaft, const NodeCoordinates& lef
 
 /// What all elements of a segment have in common.
 struct SegmentMatrices {
-  Entries stiffness, inertia, rotation;
+  ElementMatrix stiffness, inertia, rotation;
   Expression axial_stiffness, axial_inertia, torsional_stiffness, torsional_inertia;
 };
 
@@ -79,11 +69,12 @@ SegmentMatrices matrices_of(const ShaftDraft& shaft, const ShaftSegment& segment
                          shaft.G,
                          shaft.density,
                          shear};
-  const ShaftMatrices plane = shaft_matrices(piece);
+  const ShaftMatrices<PlaneMatrix> ends = end_matrices(piece);
+  const ShaftMatrices<InnerRows> inner = shaft.refined ? inner_matrices(piece) : ShaftMatrices<InnerRows>();
   const Expression polar = Expression(2.0) * piece.second_moment();
-  return {entries_of(plane.stiffness),
-          entries_of(plane.translation + plane.rotation),
-          entries_of(plane.rotation),
+  return {element_matrix(ends.stiffness, inner.stiffness),
+          element_matrix(ends.translation + ends.rotation, inner.translation + inner.rotation),
+          element_matrix(ends.rotation, inner.rotation),
           shaft.E * piece.area() / piece.length,
           shaft.density * piece.area() * piece.length,
           shaft.G * polar / piece.length,
@@ -92,8 +83,12 @@ SegmentMatrices matrices_of(const ShaftDraft& shaft, const ShaftSegment& segment
 
 void add_element(PencilSum& sum, const ShaftDraft& shaft, const SegmentMatrices& element, std::size_t node) {
   const NodeCoordinates &left = shaft.nodes[node], &right = shaft.nodes[node + 1];
-  const ElementPlane x{{left[along_x], left[about_y], right[along_x], right[about_y]}, 1.0};
-  const ElementPlane y{{left[along_y], left[about_x], right[along_y], right[about_x]}, -1.0};
+  InnerCoordinates inner{-1, -1, -1, -1};
+  if (shaft.refined) inner = shaft.inner[node];
+  const ElementPlane x{
+      {left[along_x], left[about_y], right[along_x], right[about_y], inner[along_x], inner[about_y]}, 1.0};
+  const ElementPlane y{
+      {left[along_y], left[about_x], right[along_y], right[about_x], inner[along_y], inner[about_x]}, -1.0};
   for (const ElementPlane* plane : {&x, &y}) {
     add_block(sum.M, *plane, *plane, element.inertia, 1.0, 1.0);
     add_block(sum.K, *plane, *plane, element.stiffness, 1.0, 1.0);

@@ -35,19 +35,27 @@ void read_supports(RotorDraft& rotor) {
   }
 }
 
-/// Numbers the freedoms that are left, node by node.
+/// Adds a coordinate, and returns its index.
+Eigen::Index new_coordinate(RotorDraft& rotor, const std::string& of, const char* freedom) {
+  rotor.coordinate_names.push_back(of + ": " + freedom);
+  rotor.coordinate_units.emplace_back(freedom[0] == 'r' ? "rad" : "m");
+  return static_cast<Eigen::Index>(rotor.coordinate_names.size()) - 1;
+}
+
+/// Numbers the freedoms that are left, node by node, each element's inner ones behind its first node.
 void number_freedoms(RotorDraft& rotor) {
   for (ShaftDraft& shaft : rotor.shafts) {
     for (std::size_t node = 0; node < shaft.held.size(); ++node) {
       NodeCoordinates& coordinates = shaft.nodes.emplace_back();
       coordinates.fill(-1);
       for (std::size_t freedom = 0; freedom < freedom_names.size(); ++freedom) {
-        if (shaft.held[node][freedom]) continue;
-        coordinates[freedom] = static_cast<Eigen::Index>(rotor.coordinate_names.size());
-        rotor.coordinate_names.push_back(shaft.node_name(node) + ": " + freedom_names[freedom]);
-        const bool turns = freedom == about_x || freedom == about_y || freedom == about_z;
-        rotor.coordinate_units.emplace_back(turns ? "rad" : "m");
+        if (!shaft.held[node][freedom])
+          coordinates[freedom] = new_coordinate(rotor, shaft.node_name(node), freedom_names[freedom]);
       }
+      if (!shaft.refined || node + 1 == shaft.held.size()) continue;
+      InnerCoordinates& inner = shaft.inner.emplace_back();
+      for (std::size_t freedom = 0; freedom < inner.size(); ++freedom)
+        inner[freedom] = new_coordinate(rotor, shaft.element_name(node), freedom_names[freedom]);
     }
   }
 }

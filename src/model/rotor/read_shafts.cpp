@@ -214,6 +214,7 @@ void read_shafts(RotorDraft& rotor) {
     shaft.alpha = draft.read_number(table, "alpha", "1/s", Range::any, 0.0);
     shaft.beta = draft.read_number(table, "beta", "s", Range::any, 0.0);
     shaft.internal = draft.read_number(table, "internal_damping", "s", Range::non_negative, 0.0);
+    shaft.refined = table.has("refined") && table.flag("refined");
     shaft.axial = table.has("axial") && table.flag("axial");
     shaft.torsion = table.has("torsion") && table.flag("torsion");
     table.finish();

@@ -27,6 +27,10 @@ std::string ShaftDraft::node_name(std::size_t node) const {
   return (name.empty() ? "" : name + " ") + "node " + std::to_string(node + 1);
 }
 
+std::string ShaftDraft::element_name(std::size_t element) const {
+  return (name.empty() ? "" : name + " ") + "element " + std::to_string(element + 1);
+}
+
 std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::string& key) const {
   std::vector<NodePlace> places;
   std::vector<std::string> names;

@@ -20,6 +20,9 @@ inline constexpr std::array<const char*, 6> freedom_names = {"x", "y", "rx", "ry
 /// Coordinate of each freedom; -1: not among those of the shaft, or held by a support.
 using NodeCoordinates = std::array<Eigen::Index, 6>;
 
+/// The coordinates of an element's inner freedoms, by x, y, rx and ry.
+using InnerCoordinates = std::array<Eigen::Index, 4>;
+
 /// A uniform piece of a shaft, as many elements of one length.
 struct ShaftSegment {
   Expression length, outer, inner;
@@ -34,11 +37,15 @@ struct ShaftDraft {
   std::optional<Expression> shear;  ///< given shear coefficient
   Expression alpha, beta, internal;
   bool axial = false, torsion = false;
+  bool refined = false;  ///< whether elements have inner freedoms
   std::vector<NodeCoordinates> nodes;
   std::vector<std::array<bool, 6>> held;
+  std::vector<InnerCoordinates> inner;  ///< per element; empty unless refined
 
   /// "node 3" or "inner node 3" for the index 2.
   std::string node_name(std::size_t node) const;
+  /// "element 3" or "inner element 3".
+  std::string element_name(std::size_t element) const;
 };
 
 /// A node: indices from 0.

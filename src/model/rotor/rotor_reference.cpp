@@ -29,6 +29,8 @@ std::vector<EffectHelp> rotor_reference() {
        {"alpha", "1/s", "damping that does not rotate: alpha times the shaft's mass matrix", "0"},
        {"beta", "s", "and beta times its stiffness matrix", "0"},
        {"internal_damping", "s", "damping that rotates with the shaft, times its stiffness matrix", "0"},
+       {"refined", "true or false",
+        "inner freedoms, two in each plane of an element: few elements, also shorter than thick", "false"},
        {"axial", "true or false", "whether nodes move along z", "false"},
        {"torsion", "true or false", "whether nodes turn about z, beside the speed", "false"}}};
   EffectHelp disc{"disc",

@@ -23,12 +23,23 @@ namespace eigentrail {
 ///     |  d   f  -b   e |
 struct PlaneMatrix {
   Expression a, b, c, d, e, f;
-
-  /// The entry at a row and a column from 0.
-  Expression operator()(std::size_t row, std::size_t column) const;
 };
 
+/// What two inner freedoms of an element add to such a matrix: rows of the first and the second one, behind
+/// those of the ends.
+///
+///     |  a   b   a  -b   p   0 |
+///     |  c   d  -c   d   0   q |
+struct InnerRows {
+  Expression a, b, c, d, p, q;
+};
+
+/// The whole matrix: freedoms u1, t1, u2, t2 and the inner ones.
+using ElementMatrix = std::array<std::array<Expression, 6>, 6>;
+ElementMatrix element_matrix(const PlaneMatrix& ends, const InnerRows& inner);
+
 PlaneMatrix operator+(const PlaneMatrix& one, const PlaneMatrix& other);
+InnerRows operator+(const InnerRows& one, const InnerRows& other);
 
 /// A uniform piece of shaft, SI units.
 struct ShaftPiece {
@@ -48,12 +59,23 @@ struct ShaftPiece {
 ///     k = 6 (1 + nu) (1 + m^2)^2 / ((7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2)
 Expression cowper_shear_coefficient(const Expression& nu, const Expression& outer, const Expression& inner);
 
-/// Matrices of an element in one plane.
+/// Matrices of an element in one plane: stiffness, inertia of the displacements, and inertia of the rotations
+/// of the sections, whose polar one is twice that.
+template <class Rows>
 struct ShaftMatrices {
-  PlaneMatrix stiffness;
-  PlaneMatrix translation;  ///< inertia of the displacements
-  PlaneMatrix rotation;     ///< inertia of the rotations of the sections; the polar one is twice that
+  Rows stiffness, translation, rotation;
 };
-ShaftMatrices shaft_matrices(const ShaftPiece& element);
+ShaftMatrices<PlaneMatrix> end_matrices(const ShaftPiece& element);
+
+/// The same for the inner freedoms, with the displacement and the rotation (x = z / l from 0 to 1)
+///
+///     first    u = (x^2 (1-x)^2 + phi x (1-x)) / (1 + phi),   t = 2 x (1-x) (1-2x) / (l (1 + phi))
+///     second   u = -l x (1-x) (1-2x) / 6,                     t = x (1-x)
+///
+/// The first is the static shape under a load that is spread evenly, the second that under a spread moment;
+/// both vanish at the ends. Without them the shear strain is constant in an element, and where elements are
+/// shorter than thick the error of frequencies falls with the square of their length; with them with the
+/// fourth power.
+ShaftMatrices<InnerRows> inner_matrices(const ShaftPiece& element);
 
 }  // namespace eigentrail
