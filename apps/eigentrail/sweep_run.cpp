@@ -162,7 +162,8 @@ SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settin
     }
     project_if_large(setup.model, setup.options);
     check_parameter_name(setup.scene, setup.options.parameter);
-    RunOfSweep(std::move(setup), path).into(row);
+    RunOfSweep run(std::move(setup), path);
+    run.into(row);
   } catch (const InputError& error) {
     row.exit_code = bad_input;
     row.reason = error.what();

@@ -1,8 +1,10 @@
 """--part and `eigentrail merge`: parts of a run give together what the whole run gives, and nothing else is joined."""
 
+import os
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -229,6 +231,23 @@ class BadPart(ProgramTest):
         before = self.contents()
         self.assert_refused(self.run_program(*MAP, "--part", text, "-o", "new.h5"), ["--part: expected i/N"])
         self.assertEqual(self.contents(), before)
+
+
+@unittest.skipIf(os.environ.get("EIGENTRAIL_MPI") == "1", "tests/distributed has the tests of a program with MPI")
+class Launched(ProgramTest):
+    """A program built without MPI that mpirun starts several times."""
+
+    def test_processes_that_know_nothing_of_each_other_are_refused(self):
+        self.write("scene.toml", BLADE)
+        before = self.contents()
+        for variable in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"):
+            with self.subTest(variable), unittest.mock.patch.dict(os.environ, {variable: "4"}):
+                self.assert_refused(self.run_program(*MAP, "-o", "new.h5"),
+                                    ["4 processes were started together, but this eigentrail was built without MPI",
+                                     "-DEIGENTRAIL_MPI=ON", "--part"])
+                self.assertEqual(self.contents(), before)
+        with unittest.mock.patch.dict(os.environ, {"PMI_SIZE": "1"}):
+            self.run_well(*MAP, "-o", "new.h5", "--quiet")
 
 
 if __name__ == "__main__":
