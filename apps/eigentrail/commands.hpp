@@ -26,6 +26,8 @@ void add_explain(CLI::App& program, int& exit_code);
 void add_verify(CLI::App& program, int& exit_code);
 void add_accuracy(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);
+void add_plot(CLI::App& program, int& exit_code);
+void add_export(CLI::App& program, int& exit_code);
 void add_reference(CLI::App& program, int& exit_code);
 
 }  // namespace eigentrail::app

@@ -79,6 +79,8 @@ int run(int argc, char** argv) {
   add_verify(program, exit_code);
   add_accuracy(program, exit_code);
   add_report(program, exit_code);
+  add_plot(program, exit_code);
+  add_export(program, exit_code);
   add_reference(program, exit_code);
   reject_empty_numbers(program);
   reject_unknown_command(program, argc, argv);

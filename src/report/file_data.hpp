@@ -34,6 +34,11 @@ Json curves_data(const LociFile& loci, const ReportBudget& budget);
 /// Mode shapes at all points, or at as many as the budget allows (shape_data.cpp).
 Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget);
 
+/// The excitation frequency (rad/s) at equidistant parameter values, whose harmonics pictures draw, and the
+/// harmonics named in the scene. It is the excitation of the scene, or the traced parameter if that has a
+/// unit of frequency; otherwise the result is null (loci_data.cpp).
+Json excitation_data(const LociFile& loci);
+
 /// Points, bodies, places on them and the links between these, from the scene; null for matrix families
 /// (geometry_data.cpp). `nodes`: points of the trace at which the parameters are evaluated.
 Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes);

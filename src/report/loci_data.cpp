@@ -107,9 +107,8 @@ Json ranges_data(const LociFile& loci) {
   return list;
 }
 
-/// The excitation frequency (rad/s) at equidistant parameter values, whose harmonics the page draws, and the
-/// harmonics named in the scene. It is the excitation of the scene, or the traced parameter if that has a
-/// unit of frequency; otherwise the result is null.
+}  // namespace
+
 Json excitation_data(const LociFile& loci) {
   constexpr int places = 64;
   try {
@@ -139,8 +138,6 @@ Json excitation_data(const LociFile& loci) {
     return nullptr;  // a scene that this version cannot read: the page has no lines of harmonics
   }
 }
-
-}  // namespace
 
 Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget) {
   if (loci.n_nodes() < 2) {

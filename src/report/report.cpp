@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "report/file_data.hpp"
@@ -42,6 +43,14 @@ void write_report(const std::vector<std::string>& files, const std::string& path
   if (mark == std::string_view::npos || !page().starts_with(signature))
     throw std::logic_error("write_report: the page in this program is damaged; build it again");
   write_durably(path, {page().substr(0, mark), data, page().substr(mark + data_mark.size())});
+}
+
+std::string drawing_data(const std::string& loci_path, std::size_t node) {
+  const LociFile loci = read_loci(loci_path);
+  if (node >= loci.n_nodes())
+    throw InputError(loci_path + ": holds " + std::to_string(loci.n_nodes()) + " points, found number " +
+                     std::to_string(node));
+  return page_json({{"excitation", excitation_data(loci)}, {"geometry", geometry_data(loci, {node})}});
 }
 
 bool is_report(const std::string& path) {

@@ -10,12 +10,15 @@ import pandas
 import xarray
 
 from . import boundary, files, ross, tables
+from .figures import Figures
 from .selection import Selection
 
 
 @xarray.register_dataset_accessor("eigentrail")
-class Eigentrail:
-    """For a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; for a boundary file: `curve`."""
+class Eigentrail(Figures):
+    """For a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; for a boundary file: `curve`.
+
+    Figures: `campbell`, `root_locus`, `damping`, `mode_shape`, `plane`, `work_precision`; see `figures.Figures`."""
 
     def __init__(self, data: xarray.Dataset):
         self._data = data

@@ -77,6 +77,11 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool
     if os.path.exists(path) and not force and _kind_of(path) != data.attrs["format"]:
         raise FileExistsError(f"{path}: exists and is no file of the kind {data.attrs['format']}; give another name, or "
                               "force=True")
+    replace(path, image)
+
+
+def replace(path, image):
+    """Writes bytes to a file, which is then either the complete new one or the old one."""
     handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", prefix=os.path.basename(path) + ".partial.")
     try:
         with os.fdopen(handle, "wb") as file:

@@ -36,6 +36,8 @@ void add_files(py::module_& module) {
   module.def("import_files", &import_files, py::arg("format"), py::arg("files"), py::arg("options"),
              py::arg("folder"));
   module.def("import_formats", &formats);
+  module.def("drawing_data", &drawing_data, py::arg("path"), py::arg("node"),
+             py::call_guard<py::gil_scoped_release>());
   module.def("write_report", &write_report, py::arg("files"), py::arg("path"),
              py::call_guard<py::gil_scoped_release>());
 }

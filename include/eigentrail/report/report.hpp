@@ -1,6 +1,7 @@
 // Writes one self-contained HTML page from files of eigentrail: loci, boundaries, maps, accuracy studies.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@ namespace eigentrail {
 /// complete new page or what was there before. Throws InputError if a file cannot be read or contains nothing
 /// to show, and std::runtime_error if the page cannot be written.
 void write_report(const std::vector<std::string>& files, const std::string& path);
+
+/// What a picture of a trace shows that its file has only in the scene, as a JSON object. `excitation`: the
+/// frequency (rad/s) at equidistant values of the parameter and the harmonics named in the scene; null if the
+/// scene has no excitation and the parameter is no angular velocity. `geometry`: points, bodies, places on
+/// them and the links between these at the stored point `node`; null for matrices. Throws InputError if the
+/// file is no loci file or has no such point.
+std::string drawing_data(const std::string& loci_path, std::size_t node);
 
 /// Whether a file is a page written by `write_report`.
 bool is_report(const std::string& path);

@@ -1,8 +1,10 @@
 // Reads a loci file: stored points, dense output, provenance.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,5 +69,11 @@ struct LociFile : RecordedPath {
 /// Reads a loci file. Throws InputError if the file is missing, is no loci file, has another schema version
 /// or is inconsistent.
 LociFile read_loci(const std::string& path);
+
+/// Calls `use` with the mode shapes of every stored point: mode x coordinate, row-major, NaN where a mode
+/// does not exist. Reads one point at a time. Throws InputError if the file does not fit `loci`, which was
+/// read from it.
+void read_mode_shapes(const LociFile& loci,
+                      const std::function<void(std::size_t node, std::span<const Complex> shapes)>& use);
 
 }  // namespace eigentrail

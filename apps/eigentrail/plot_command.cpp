@@ -1,0 +1,222 @@
+// Pictures as SVG, PDF and PNG. The Python package draws them; this command checks the files, finds the
+// package and an interpreter, and runs it.
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include "check_output.hpp"
+#include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/store/output_file.hpp"
+#include "scene_arguments.hpp"
+
+extern char** environ;  // NOLINT: of POSIX
+
+namespace eigentrail::app {
+namespace {
+
+struct PlotArguments {
+  std::vector<std::string> files;
+  std::string output;
+  std::string kind, harmonics, unit, mode, at, view, size;
+  bool log = false;
+  bool force = false;
+  bool quiet = false;
+};
+
+/// A kind of picture by the ending of its name: how its files begin.
+struct PictureKind {
+  std::string_view ending, beginning;
+};
+constexpr std::array<PictureKind, 3> picture_kinds{
+    {{".svg", "<?xml"}, {".pdf", "%PDF"}, {".png", "\x89PNG"}}};
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+const PictureKind* kind_of(const std::string& path) {
+  const auto* const found =
+      std::find_if(picture_kinds.begin(), picture_kinds.end(),
+                   [ending = ending_of(path)](const PictureKind& kind) { return kind.ending == ending; });
+  return found == picture_kinds.end() ? nullptr : found;
+}
+
+void check_picture_name(const std::string& output) {
+  if (kind_of(output) != nullptr) return;
+  std::string known;
+  for (const PictureKind& kind : picture_kinds)
+    known += (known.empty() ? "" : ", ") + std::string(kind.ending);
+  const std::string page = ending_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
+  throw InputError(output + ": expected a name that ends in one of " + known + page);
+}
+
+/// Whether a file is a picture that this command has written: of its kind, and with the mark of the program.
+bool is_picture(const std::string& path) {
+  const PictureKind* kind = kind_of(path);
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  return kind != nullptr && content.starts_with(kind->beginning) &&
+         content.find("eigentrail ") != std::string::npos;
+}
+
+/// The folder with the package `eigentrail`, beside the program: in the build tree, under the prefix of an
+/// installation, or of the Debian package. Empty where there is none.
+std::string package_folder() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return "";
+  const auto folder = program.parent_path();
+  for (const auto& candidate : {folder / ".." / "python", folder / ".." / "share" / "eigentrail" / "python",
+                                folder / ".." / "lib" / "python3" / "dist-packages"}) {
+    if (std::filesystem::exists(candidate / "eigentrail" / "plot.py", error))
+      return std::filesystem::weakly_canonical(candidate, error).string();
+  }
+  return "";
+}
+
+/// Exit code of the script below where a package of Python is missing.
+constexpr int package_missing = 97;
+
+/// Draws, or says which package is missing. Python's own messages would be a traceback.
+constexpr const char* script = R"(import sys
+try:
+    import matplotlib
+    from eigentrail import plot
+except ImportError as error:
+    if sys.argv[1] == "last":
+        print(f"eigentrail: {sys.executable}: {error}", file=sys.stderr)
+    sys.exit(97)
+sys.exit(plot.main(sys.argv[2:]))
+)";
+
+/// Environment with the package's folder first on the search path of Python.
+std::vector<std::string> environment() {
+  std::vector<std::string> list;
+  std::string path = package_folder();
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    if (!text.starts_with("PYTHONPATH=")) {
+      list.push_back(text);
+    } else if (text.size() > 11) {
+      path += (path.empty() ? "" : ":") + text.substr(11);
+    }
+  }
+  if (!path.empty()) list.push_back("PYTHONPATH=" + path);
+  list.emplace_back("MPLBACKEND=agg");
+  return list;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+/// Runs an interpreter. Returns its exit code; empty if it could not be started or was killed.
+/// `last`: no other follows, so a missing package is reported.
+std::optional<int> run_python(const std::string& interpreter, bool last,
+                              const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{interpreter, "-c", script, last ? "last" : "other"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environment();
+  pid_t child = 0;
+  if (posix_spawnp(&child, interpreter.c_str(), nullptr, nullptr, pointers(words).data(),
+                   pointers(variables).data()) != 0)
+    return std::nullopt;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return std::nullopt;
+  }
+  return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
+}
+
+/// Interpreters to try: the one that the user names, or that of Debian, for which the engine is built, and
+/// that of the path.
+std::vector<std::string> interpreters() {
+  const char* named = std::getenv("EIGENTRAIL_PYTHON");
+  if (named != nullptr && *named != '\0') return {named};
+  return {"/usr/bin/python3", "python3"};
+}
+
+std::vector<std::string> words(const PlotArguments& arguments) {
+  std::vector<std::string> list = arguments.files;
+  for (const auto& [option, value] :
+       {std::pair{"--output", &arguments.output}, std::pair{"--kind", &arguments.kind},
+        std::pair{"--harmonics", &arguments.harmonics}, std::pair{"--unit", &arguments.unit},
+        std::pair{"--mode", &arguments.mode}, std::pair{"--at", &arguments.at},
+        std::pair{"--view", &arguments.view}, std::pair{"--size", &arguments.size}}) {
+    if (!value->empty()) list.push_back(std::string(option) + "=" + *value);
+  }
+  if (arguments.log) list.emplace_back("--log");
+  return list;
+}
+
+int run_plot(const PlotArguments& arguments) {
+  check_picture_name(arguments.output);
+  check_output(arguments.output, arguments.force, OtherOutput{is_picture, "picture of eigentrail"});
+  check_can_create(arguments.output);
+  const std::vector<std::string> candidates = interpreters();
+  for (const std::string& interpreter : candidates) {
+    const std::optional<int> code =
+        run_python(interpreter, interpreter == candidates.back(), words(arguments));
+    if (!code || *code == package_missing || *code == 127) continue;
+    if (*code == done && !arguments.quiet) std::printf("wrote %s\n", arguments.output.c_str());
+    return *code;
+  }
+  throw InputError(
+      "plot draws with Python: expected an interpreter with numpy, xarray, h5netcdf, h5py and matplotlib "
+      "(apt install python3-matplotlib python3-xarray python3-h5netcdf); EIGENTRAIL_PYTHON=/path/to/python3 "
+      "names one; eigentrail report draws without it");
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<PlotArguments>();
+  CLI::App* command =
+      program.add_subcommand("plot", "a picture: Campbell diagram, root locus, map, ... as SVG, PDF, PNG");
+  command->add_option("FILE", arguments->files, "a loci file, a map and its boundary, or an accuracy study")
+      ->required();
+  auto* output =
+      command->add_option("-o,--output", arguments->output,
+                          "picture to write, .svg, .pdf or .png; default: the name of the first file, .svg");
+  command->add_option("--kind", arguments->kind, "what to draw; default by the kind of the file")
+      ->check(CLI::IsMember({"campbell", "root-locus", "damping", "shape", "plane", "accuracy"}));
+  command->add_option("--harmonics", arguments->harmonics,
+                      "rays of a Campbell diagram: 1,2; default: those of the scene");
+  command->add_option("--unit", arguments->unit, "of frequencies: rad/s, Hz, rpm, rev/s, deg/s");
+  command->add_flag("--log", arguments->log, "logarithmic frequency in a Campbell diagram");
+  command->add_option("--mode", arguments->mode, "mode of a shape: its number or its name; default: 1");
+  command->add_option("--at", arguments->at,
+                      "value of the parameter of a shape; default: the begin of the trace");
+  command->add_option("--view", arguments->view, "view of a shape: 3D, xy, xz, yz");
+  command->add_option("--size", arguments->size, "width and height in inches: 9x6");
+  command->add_flag("--force", arguments->force, "replace an existing picture");
+  command->add_flag("-q,--quiet", arguments->quiet, "say nothing");
+  command->footer(
+      "Examples:\n  eigentrail plot rotor.h5 -o campbell.svg --harmonics 1,2 --unit Hz\n"
+      "  eigentrail plot blade.h5 --kind shape --at 40 --mode 2 -o flap.png\n"
+      "  eigentrail plot drag.h5 flutter.h5 -o plane.pdf\n"
+      "Python draws: EIGENTRAIL_PYTHON names another interpreter than python3.");
+  command->callback([arguments, output, &exit_code] {
+    if (output->count() == 0) arguments->output = beside(arguments->files.front(), ".svg");
+    exit_code = run_plot(*arguments);
+  });
+}
+
+}  // namespace eigentrail::app

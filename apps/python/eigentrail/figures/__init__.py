@@ -1,0 +1,63 @@
+"""Figures of results: `loci.eigentrail.campbell()` and others.
+
+A figure is first a description (`picture`), with all places decided; `with_plotly` and `with_matplotlib` draw it. The libraries
+are imported when a figure is drawn.
+"""
+
+from importlib import import_module
+
+BACKENDS = {"plotly": "with_plotly", "matplotlib": "with_matplotlib"}
+
+
+def drawn(picture, backend):
+    """The figure of a library."""
+    if backend not in BACKENDS:
+        raise ValueError(f"backend={backend!r}: expected one of {', '.join(map(repr, BACKENDS))}")
+    return import_module(f".{BACKENDS[backend]}", __name__).draw(picture)
+
+
+class Figures:
+    """The figures of the accessor `.eigentrail`. Each is a plotly figure, or with backend="matplotlib" a matplotlib one.
+
+    `size`: width and height in inches.
+    """
+
+    def campbell(self, harmonics=None, unit=None, backend="plotly", log=False, size=None):
+        """Campbell diagram: damped frequency over the parameter, the damping ratio (percent) below.
+
+        `harmonics`: multiples of the excitation frequency to draw as rays; by default those of the scene, an empty list for
+        none. The axis then ends at the highest ray. `unit` of the frequency: rad/s, Hz, rpm, rev/s, deg/s; by default that of
+        the parameter if it is an angular velocity, else Hz. `log`: logarithmic frequency."""
+        from .trace_figures import campbell_picture
+        return drawn(campbell_picture(self._of("loci"), harmonics, unit, log, size), backend)
+
+    def root_locus(self, unit=None, backend="plotly", size=None):
+        """Im s (in `unit`) over Re s (1/s); a ring where a mode begins, a dot where it ends."""
+        from .trace_figures import root_locus_picture
+        return drawn(root_locus_picture(self._of("loci"), unit, size), backend)
+
+    def damping(self, backend="plotly", size=None):
+        """Damping ratio (percent) of oscillating modes over the parameter."""
+        from .trace_figures import damping_picture
+        return drawn(damping_picture(self._of("loci"), size), backend)
+
+    def mode_shape(self, mode, view="3D", backend="plotly", size=None, **at):
+        """The shape of a mode at the stored point nearest to a value of the parameter: mode_shape(omega=120, mode=3).
+
+        `mode`: number from 1, label or name. Scenes of points and bodies are drawn as on the report page, displaced where the
+        largest component is real, with the orbits of points; `view`: "3D", "xy", "xz", "yz". Rotors whose nodes lie on a
+        straight line are drawn as their bent axis, families of matrices as bars."""
+        from .shapes import shape_picture
+        return drawn(shape_picture(self._of("loci"), self._wanted(at), mode, view, size), backend)
+
+    def plane(self, boundary=None, backend="plotly", size=None):
+        """The plane of two parameters: the cells of a map file by their growing modes, with the located events on its lines;
+        the curves of a boundary file. `boundary`: Dataset of a boundary file to draw on a map."""
+        from .planes import plane_picture
+        data = self._data if self._data.attrs.get("format") == "eigentrail-boundary" else self._of("map")
+        return drawn(plane_picture(data, boundary, size), backend)
+
+    def work_precision(self, work="wall_time", backend="plotly", size=None):
+        """Largest relative error over the work of all runs of an accuracy study; `work`: wall_time (s), factorizations, points."""
+        from .studies import work_precision_picture
+        return drawn(work_precision_picture(self._of("accuracy"), work, size), backend)

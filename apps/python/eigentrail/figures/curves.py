@@ -1,0 +1,173 @@
+"""Smooth curves of all modes along the path of a trace, from its dense output."""
+
+import numpy as np
+
+from ..dense_output import DenseOutput
+from ..interpolation import TwoPointTaylor
+from .style import SAME_AS_ZERO
+
+FIRST_PLACES = 5       # of each step before it is refined
+MOST_REFINEMENTS = 7
+BENT = 4e-4            # largest distance of a curve from its polygon, as a share of the usual range
+BISECTIONS = 50
+SOLID, DASHED, DOTTED = 0, 1, 2
+ROUND = 0.1            # an orbit whose short axis is below a twentieth of the long one counts as a line
+
+
+class Curves:
+    """Values of all modes at places along the path.
+
+    `step` (n), `t` (n): places; `parameter` (n); `s` (n, mode), NaN where a mode does not exist and where it is infinite.
+    The places are dense enough to be joined by straight lines; steps follow each other, so that the end of a step is there
+    twice.
+    """
+
+    def __init__(self, loci):
+        if not loci.sizes["step"]:
+            raise ValueError("the trace has no steps: there are no curves to draw")
+        self._loci = loci
+        self._dense = DenseOutput(loci)
+        self._parameter = TwoPointTaylor(loci.step_length.values, loci.step_parameter.values)
+        self.turns_back = self._dense.path.turns_back
+        self._refine()
+
+    def eigenvalues(self, step, t):
+        """Eigenvalues (n, mode) and the parameter (n) at t (n) on steps (n)."""
+        s = self._dense.at(step, t)
+        s = np.where(np.isfinite(s), s, complex(np.nan, np.nan))
+        rounding = np.abs(s.real) < SAME_AS_ZERO * np.abs(s)
+        return np.where(rounding, 1j * s.imag, s), self._parameter[step](t)
+
+    def styles(self, mode):
+        """Of the line between each place and the next (n - 1): solid; dashed where the identity is not certified; dotted where
+        the mode whirls backward, if the file says so."""
+        step = self.step[1:]
+        certified = self._loci.certified.values[step, mode]
+        style = np.where(certified == 0, DASHED, SOLID)
+        if "whirl" in self._loci and {"mode"} < set(self._loci.whirl.dims):
+            style[self._whirl(mode)[1:] < -ROUND] = DOTTED
+        return style
+
+    def errors(self, mode):
+        """Bounds (n) of the errors of the eigenvalue that come from the data, 1/s; None if the file has none."""
+        names = [name for name in ("interpolation_error", "digits_error") if name in self._loci]
+        if not names:
+            return None
+        return sum(np.nan_to_num(self._loci[name].values[self.step, mode]) for name in names)
+
+    def crossings(self, mode, excess):
+        """Places where `excess(parameter, s)` of a mode passes through zero: parameter and eigenvalue, (k) each."""
+        value = excess(self.parameter, self.s[:, mode])
+        same = self.step[1:] == self.step[:-1]
+        with np.errstate(invalid="ignore"):
+            at = np.flatnonzero(same & (value[:-1] * value[1:] < 0))
+        step, low, high = self.step[at], self.t[at].copy(), self.t[at + 1].copy()
+        rising = value[at] < 0
+        for _ in range(BISECTIONS if len(at) else 0):
+            middle = 0.5 * (low + high)
+            s, p = self.eigenvalues(step, middle)
+            before = (excess(p, s[:, mode]) < 0) == rising
+            low, high = np.where(before, middle, low), np.where(before, high, middle)
+        if not len(at):
+            return np.empty(0), np.empty(0, complex)
+        s, p = self.eigenvalues(step, 0.5 * (low + high))
+        return p, s[:, mode]
+
+    def _whirl(self, mode):
+        whirl = self._loci.whirl
+        values = whirl.isel(mode=mode).values
+        if whirl.dims[0] == "node":
+            return np.where(self.t < 0.5, values[self.step], values[self.step + 1])
+        return values[self.step]
+
+    def _refine(self):
+        steps = self._loci.sizes["step"]
+        places = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, FIRST_PLACES))
+        step, t = np.repeat(np.arange(steps), len(places)), np.tile(places, steps)
+        s, p = self.eigenvalues(step, t)
+        new = np.ones(len(t), bool)
+        for _ in range(MOST_REFINEMENTS):
+            usual = _usual_size(s)
+            pairs = np.flatnonzero((step[1:] == step[:-1]) & (new[1:] | new[:-1]))
+            if not len(pairs):
+                break
+            between = 0.5 * (t[pairs] + t[pairs + 1])
+            s_between, p_between = self.eigenvalues(step[pairs], between)
+            bent = _largest_bend(s[pairs], s_between, s[pairs + 1], usual) > BENT
+            at = pairs[bent] + 1
+            step, t, p = (np.insert(array, at, values) for array, values in
+                          ((step, step[pairs[bent]]), (t, between[bent]), (p, p_between[bent])))
+            s = np.insert(s, at, s_between[bent], axis=0)
+            new = np.insert(np.zeros(len(new), bool), at, True)
+        self.step, self.t, self.s, self.parameter = step, t, s, p
+
+
+def _usual_size(s):
+    """Usual magnitudes of Im s and Re s."""
+    imag, real = np.abs(s.imag), np.abs(s.real)
+    sizes = [np.nanquantile(part, 0.97) if np.isfinite(part).any() else 1.0 for part in (imag, real)]
+    return [size or 1.0 for size in sizes]
+
+
+def _largest_bend(left, middle, right, usual):
+    """Largest distance (n) of the middle from the chord over all modes: of Im s and Re s as shares of their usual sizes, and of
+    the damping ratio."""
+    imag, real = usual
+    mean = 0.5 * (left + right)
+    parts = [np.abs(middle.imag - mean.imag) / imag, np.abs(middle.real - mean.real) / real]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = [part.real / np.abs(part) for part in (left, middle, right)]
+        parts.append(np.abs(ratio[1] - 0.5 * (ratio[0] + ratio[2])))
+    return np.nan_to_num(np.max(parts, axis=0), nan=0.0).max(axis=1)
+
+
+def oscillates(s):
+    """Whether eigenvalues (n) belong to complex pairs."""
+    with np.errstate(invalid="ignore"):
+        return np.abs(s.imag) > SAME_AS_ZERO * np.abs(s)
+
+
+def with_ends(mask):
+    """The places of a mask (n) and those next to them, so that lines reach the place where a pair becomes real."""
+    grown = mask.copy()
+    grown[1:] |= mask[:-1]
+    grown[:-1] |= mask[1:]
+    return grown
+
+
+def damping_percent(s):
+    """Damping ratio in percent."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return -100.0 * s.real / np.abs(s) + 0.0
+
+
+def parts(x, y, styles, style):
+    """The lines x, y (n) where the styles (n - 1) have this value: arrays with NaN between the parts."""
+    joined = (styles == style) & np.isfinite(x[1:]) & np.isfinite(x[:-1]) & np.isfinite(y[1:]) & np.isfinite(y[:-1])
+    if not joined.any():
+        return np.empty(0), np.empty(0)
+    pieces, start = [], None
+    for i, on in enumerate(np.append(joined, False)):
+        if on and start is None:
+            start = i
+        elif not on and start is not None:
+            pieces.append(slice(start, i + 1))
+            start = None
+    gap = [np.nan]
+    return tuple(np.concatenate([part for piece in pieces for part in (values[piece], gap)])[:-1] for values in (x, y))
+
+
+def usual_range(values):
+    """Range of the values without a few that are far larger than all others, as where a mode goes to infinity."""
+    values = np.sort(values[np.isfinite(values)])
+    n = len(values)
+    if not n:
+        return 0.0, 1.0
+    low, high = values[0], values[-1]
+    lowest, highest = (values[min(int(share * n), n - 1)] for share in (0.03, 0.97))
+    most = max(highest - lowest, 1e-12 * max(abs(low), abs(high)))
+    if n > 60 and high - highest > 25 * most:
+        high = highest + 0.5 * most
+    if n > 60 and lowest - low > 25 * most:
+        low = lowest - 0.5 * most
+    return low, high

@@ -1,0 +1,57 @@
+"""What only the scene in a file says: the frequency of the excitation, and the links between points and bodies.
+
+The compiled engine reads it. Without the engine the excitation is known where the parameter is an angular velocity, and
+figures of shapes have no links.
+"""
+
+import json
+import os
+import tempfile
+from collections import namedtuple
+
+import numpy as np
+
+from .. import files
+from ..engine import SceneError, engine
+from .style import ANGULAR
+
+Excitation = namedtuple("Excitation", "parameter frequency harmonics")  # values of the parameter, rad/s, those of the scene
+
+
+def excitation(loci):
+    """The frequency whose multiples are the harmonics; None where there is none."""
+    found = _read(loci, 0)
+    if found is not None:
+        known = found["excitation"]
+        return Excitation(known["parameter"], known["frequency"], known["harmonics"]) if known else None
+    parameter = loci[loci.attrs["parameter"]]
+    factor = ANGULAR.get(parameter.attrs.get("units"))
+    if factor is None:
+        return None
+    ends = np.array([float(parameter.min()), float(parameter.max())])
+    return Excitation(ends, factor * ends, [])
+
+
+def geometry(loci, node):
+    """Carriers (points and bodies), places on them and links between these at a stored point; None where there are none."""
+    found = _read(loci, node)
+    return found["geometry"] if found is not None else None
+
+
+def _read(loci, node):
+    image = loci.encoding.get(files.IMAGE)
+    if image is None:
+        return None
+    try:
+        compiled = engine()
+    except ImportError:
+        return None
+    handle, path = tempfile.mkstemp(suffix=".h5")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(image)
+        return json.loads(compiled.drawing_data(path, node))
+    except SceneError:
+        return None
+    finally:
+        os.unlink(path)

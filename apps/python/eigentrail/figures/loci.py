@@ -1,0 +1,315 @@
+"""What the figures of a trace have in common: lines of modes with their names, events, stable ranges."""
+
+import numpy as np
+
+from .curves import DASHED, DOTTED, SOLID, Curves, parts
+from .labels import HEIGHT, Room, spread, text_width
+from .picture import Area, Axis, Label, Line, Marks, Picture, Span
+from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, SAME_AS_ZERO, mode_colour, mode_symbol, number,
+                    with_unit)
+
+MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
+MOST_NAMES_LISTED = 80
+NAME, SMALL = 8.0, 7.0  # sizes of texts in points
+LONGEST_NAME = 26
+MARKS_PER_LINE = 4
+OF_FREQUENCY = ("crossing", "veering")  # events that say nothing about damping
+CROWDED = 40           # more events than this: those of frequency are small
+CANDIDATES = 24       # places of a line at which its number is tried
+DASH = {SOLID: "solid", DASHED: "dash", DOTTED: "dot"}
+STYLE_WORDS = {DASHED: "identity not certified", DOTTED: "backward whirl"}
+ERROR_WORDS = "error of the data"
+LEFT, RIGHT, BOTTOM, TOP = 0.8, 0.25, 0.6, 0.18  # margins in inches
+TITLE, LEGEND_ROW = 0.22, 0.185
+
+
+class LociFigure:
+    """What the figures of a trace have in common."""
+
+    def __init__(self, loci, unit=None):
+        self.loci = loci
+        self.parameter = loci.attrs["parameter"]
+        self.parameter_unit = loci[self.parameter].attrs.get("units", "1")
+        self.unit = unit or (self.parameter_unit if self.parameter_unit in ANGULAR else "Hz")
+        if self.unit not in ANGULAR:
+            raise ValueError(f"unit={unit!r}: expected a unit of frequency: {', '.join(ANGULAR)}")
+        self.factor = ANGULAR[self.unit]
+        self.curves = Curves(loci)
+        self.modes = [mode for mode in range(loci.sizes["mode"]) if np.isfinite(self.curves.s[:, mode]).any()]
+        values = self.curves.parameter
+        self.range = (float(values.min()), float(values.max()))
+        self.legend = {}
+
+    # Modes.
+
+    def name(self, mode):
+        """Name of a mode, or "mode 3"."""
+        names = self.loci.mode_name.values if "mode_name" in self.loci.coords else self.loci.mode.values
+        return str(names[mode] or self.loci.mode.values[mode])
+
+    def short_name(self, mode):
+        """The name with the number, cut where it is long."""
+        name = self.name(mode)
+        text = name if name == str(self.loci.mode.values[mode]) else f"{mode + 1} {name}"
+        return text if len(text) <= LONGEST_NAME else text[:LONGEST_NAME - 1] + "\u2026"
+
+    def add_modes(self, panel, modes, x, y, shown):
+        """Lines of modes: x, y and shown map a mode to values (n) of all places."""
+        for mode in modes:
+            keep = shown(mode)
+            across, up = x(mode), np.where(keep, y(mode), np.nan)
+            styles = self.curves.styles(mode)
+            for style, dash in DASH.items():
+                line = parts(across, up, styles, style)
+                if len(line[0]):
+                    panel.items.append(Line(*line, mode_colour(mode), 1.6 if len(modes) <= 30 else 1.1, dash, f"mode {mode + 1}"))
+                    if style in STYLE_WORDS:
+                        self.explain(Line([], [], GREY, 1.4, dash, legend=STYLE_WORDS[style]))
+            if 1 < len(modes) <= MOST_NAMED:
+                self.add_marks_on(panel, mode, across, up)
+
+    def add_marks_on(self, panel, mode, x, y):
+        """A few marks on a line, by which lines can be distinguished without colours."""
+        px, py = panel.place(x, y)
+        inside = np.flatnonzero(np.isfinite(px) & np.isfinite(py) & (px >= 0) & (px <= panel.points[0]) & (py >= 0)
+                                & (py <= panel.points[1]))
+        if len(inside) < 2:
+            return
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px[inside]), np.diff(py[inside])))])
+        shift = 0.13 * ((mode * 3) % 5 - 2)
+        wanted = along[-1] * (np.arange(MARKS_PER_LINE) + 0.5 + shift) / MARKS_PER_LINE
+        at = inside[np.unique(np.abs(along[:, np.newaxis] - wanted).argmin(axis=0))]
+        panel.items.append(Marks(x[at], y[at], mode_symbol(mode), mode_colour(mode), 5.0, f"marks of mode {mode + 1}"))
+
+    def add_bands(self, panel, modes, value, error, shown):
+        """Bands in which values lie as far as the errors of the data tell."""
+        for mode in modes:
+            bound = self.curves.errors(mode)
+            if bound is None:
+                return
+            keep = shown(mode) & np.isfinite(value(mode))
+            edges = np.flatnonzero(np.diff(np.concatenate([[0], keep.astype(int), [0]])))
+            for begin, end in edges.reshape(-1, 2):
+                if end - begin < 2:
+                    continue
+                p, middle = self.curves.parameter[begin:end], value(mode)[begin:end]
+                half = (bound * error(mode) * np.ones(len(bound)))[begin:end]
+                panel.items.append(Area(np.concatenate([p, p[::-1]]), np.concatenate([middle + half, (middle - half)[::-1]]),
+                                        mode_colour(mode), 0.16, f"error of mode {mode + 1}"))
+            self.explain(Area([], [], GREY, 0.3, legend=ERROR_WORDS))
+
+    def add_end_names(self, panel, room, modes, x, y, shown):
+        """Names of modes: in the margin where a line ends at the right edge, else beside its last place in the window."""
+        right, top = panel.points
+        ends, inner = [], []
+        for mode in modes:
+            px, py = panel.place(x(mode), np.where(shown(mode), y(mode), np.nan))
+            with np.errstate(invalid="ignore"):
+                inside = (py >= -1) & (py <= top + 1) & (px >= -1) & (px <= right + 1)
+            if inside.any():
+                at = np.flatnonzero(inside)[np.argmax(px[inside])]
+                (ends if px[at] > 0.97 * right else inner).append((mode, px[at], py[at]))
+        for mode, _, _ in inner:
+            self._add_inner_name(panel, room, mode, *panel.place(x(mode), np.where(shown(mode), y(mode), np.nan)))
+        heights = spread([py for _, _, py in ends], HEIGHT * NAME, 0.0, top)
+        for (mode, px, py), height in zip(ends, heights):
+            place = (panel.x.value(1.0), panel.y.value(height / top))
+            panel.items.append(Line([panel.x.value(px / right), panel.x.value(1 + 7 / right)],
+                                    [panel.y.value(py / top), place[1]], mode_colour(mode), 0.6, name="leader", clip=False))
+            panel.items.append(Label(*place, self.short_name(mode), mode_colour(mode), NAME, "left", 9))
+
+    def _add_inner_name(self, panel, room, mode, px, py):
+        """The name beside the last place of a line (points) in the window at which there is room."""
+        right, top = panel.points
+        with np.errstate(invalid="ignore"):
+            inside = np.flatnonzero((px >= 0) & (px <= right) & (py >= 0) & (py <= top))
+        if not len(inside):
+            return
+        px, py = px[inside], py[inside]
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
+        for place in np.arange(along[-1], 0.3 * along[-1] - 1e-9, -max(HEIGHT * NAME, 0.02 * along[-1])):
+            label = room.beside(panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top),
+                                self.short_name(mode), NAME, 4, mode_colour(mode))
+            if label:
+                panel.items.append(label)
+                return
+
+    def add_numbers(self, panel, room, modes, x, y, shown):
+        """Numbers of modes on their lines, where there is room."""
+        right, top = panel.points
+        for i, mode in enumerate(modes):
+            px, py = panel.place(x(mode), np.where(shown(mode), y(mode), np.nan))
+            with np.errstate(invalid="ignore"):
+                inside = np.flatnonzero((px > 0) & (px < right) & (py > 0) & (py < top))
+            if not len(inside):
+                continue
+            px, py = px[inside], py[inside]
+            along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
+            places = along[-1] * (0.04 + 0.92 * ((np.arange(CANDIDATES) + 0.37 * i) % CANDIDATES) / CANDIDATES)
+            texts = room.on_line(panel.x.value(np.interp(places, along, px) / right),
+                                 panel.y.value(np.interp(places, along, py) / top), str(mode + 1), SMALL, mode_colour(mode))
+            if not texts:
+                beside = room.beside(panel.x.value(px[-1] / right), panel.y.value(py[-1] / top), str(mode + 1), SMALL, 3,
+                                     mode_colour(mode))
+                texts = [beside] if beside else []
+            panel.items.extend(texts)
+
+    def name_width(self, modes):
+        """Inches that names in the right margin need."""
+        if len(modes) <= MOST_NAMED:
+            return (text_width(max((self.short_name(mode) for mode in modes), key=len, default=""), NAME) + 14) / 72
+        return len(self._listed(modes)) * self._column(modes) / 72
+
+    def _listed(self, modes, rows=44):
+        """Modes in columns of the list of names; empty where modes have no names of their own."""
+        named = [mode for mode in modes if self.name(mode) != str(self.loci.mode.values[mode])]
+        if not named or len(modes) > MOST_NAMES_LISTED:
+            return []
+        return [modes[i:i + rows] for i in range(0, len(modes), rows)]
+
+    def _column(self, modes):
+        return text_width(max((self.short_name(mode) for mode in modes), key=len), SMALL) + 8
+
+    def add_list(self, panel, modes):
+        """Numbers and names of modes in the right margin."""
+        width, height = panel.points
+        for column, members in enumerate(self._listed(modes)):
+            for row, mode in enumerate(members):
+                panel.items.append(Label(panel.x.value(1.0), panel.y.value(1.0), self.short_name(mode), mode_colour(mode), SMALL,
+                                         "left", 8 + column * self._column(modes), -(row + 0.5) * HEIGHT * SMALL))
+
+    # Events, ranges, rays.
+
+    def event_table(self):
+        """Kind, parameter, eigenvalue and value of events."""
+        loci = self.loci
+        return list(zip(loci.event_kind.values, loci.event_parameter.values, loci.event_eigenvalue.values,
+                        loci.event_value.values, loci.event_modes.values))
+
+    def add_names(self, panel, room, modes, x, y, shown):
+        """Names at the ends of the lines, or numbers on them where there are many."""
+        if len(modes) <= MOST_NAMED:
+            self.add_end_names(panel, room, modes, x, y, shown)
+        else:
+            self.add_numbers(panel, room, modes, x, y, shown)
+            self.add_list(panel, modes)
+
+    def add_events(self, panel, place, labelled=True, further=(), before=lambda room: ()):
+        """Marks of events, and labels where there is room. `place` maps the parameter and s to data coordinates; NaN: none.
+
+        `further`: events that the file does not have; `before`: gives labels that come first. Returns the room that is left."""
+        found = {}
+        for kind, p, s, value, modes in [*self.event_table(), *further]:
+            if abs(s.real) < SAME_AS_ZERO * abs(s):
+                s = 1j * s.imag
+            x, y = place(p, s)
+            if np.isfinite(x) and np.isfinite(y) and _within(panel, x, y) and (labelled or kind not in OF_FREQUENCY):
+                found.setdefault(kind, []).append((x, y, event_label(kind, p, value), modes))
+        count = sum(map(len, found.values()))
+        for kind, marks in found.items():
+            symbol, words = EVENTS.get(kind, (OTHER_EVENT, kind))
+            xs, ys, texts, _ = zip(*marks)
+            size, colour = (6.0, INK) if count <= CROWDED or kind not in OF_FREQUENCY else (3.5, GREY)
+            panel.items.append(Marks(np.array(xs), np.array(ys), symbol, colour, size, kind, list(texts)))
+            self.explain(Marks([], [], symbol, colour, 6.0, legend=words))
+        if labelled:
+            self._add_intervals(panel, place)
+        room = Room(panel)
+        panel.items.extend(before(room))
+        for kind in sorted(found, key=lambda kind: list(EVENTS).index(kind) if kind in EVENTS else 99):
+            for x, y, text, _ in found[kind] if labelled else ():
+                label = room.beside(x, y, text, NAME, 6) if text else None
+                if label:
+                    panel.items.append(label)
+        return room
+
+    def _add_intervals(self, panel, place):
+        """Bars over the values of the parameter between which events lie as far as the errors of the data tell."""
+        if "event_interval" not in self.loci or panel.x.title not in ("", self.parameter_axis().title):
+            return
+        for (_, p, s, _, _), (low, high) in zip(self.event_table(), self.loci.event_interval.values.reshape(-1, 2)):
+            _, y = place(p, s)
+            if np.isfinite([low, high, y]).all() and high > low and _within(panel, p, y):
+                panel.items.append(Line([low, high], [y, y], INK, 1.1, name="interval of the event"))
+                panel.items.append(Marks([low, high], [y, y], "line-ns-open", INK, 6.0, "interval of the event"))
+
+    def add_folds(self, panel):
+        """Vertical lines where the path turns back or branches and no mode is at the place."""
+        for kind, p, s, _, modes in self.event_table():
+            if kind in ("fold", "branch_point"):
+                panel.items.append(Line([p, p], [panel.y.low, panel.y.high], GREY, 0.8, "dot", kind))
+
+    def add_ranges(self, panel):
+        """Shaded ranges on which no mode grows."""
+        if "stable_kind" not in self.loci.variables:
+            return
+        for kind, begin, end in zip(self.loci.stable_kind.values, self.loci.stable_from.values, self.loci.stable_to.values):
+            colour, opacity, words = RANGES.get(kind, (FAINT, 0.2, kind))
+            panel.items.append(Span(min(begin, end), max(begin, end), colour, opacity))
+            self.explain(Span(0, 0, colour, min(2.2 * opacity, 1.0), legend=words))
+
+    def explain(self, item):
+        """Adds an entry to the legend, once."""
+        self.legend.setdefault(item.legend, item)
+
+    # Frame.
+
+    def begin(self, size, modes, further=()):
+        """The picture, and the height (inches) at which panels end below the title and the legend. `further`: texts that the
+        legend has besides those of events, ranges and styles of lines."""
+        picture = Picture(*size, title=str(self.loci.attrs.get("title", "")))
+        texts = self._legend_texts(modes) + list(further)
+        picture.legend_columns, rows = legend_grid(texts, size[0] - LEFT)
+        return picture, size[1] - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * rows
+
+    def _legend_texts(self, modes):
+        loci = self.loci
+        texts = [words for kind, (_, words) in EVENTS.items() if kind in set(loci.event_kind.values)]
+        if "stable_kind" in loci.variables:
+            texts += [RANGES[kind][2] for kind in set(loci.stable_kind.values) if kind in RANGES]
+        texts += [] if self.curves.errors(0) is None else [ERROR_WORDS]
+        styles = {style for mode in modes for style in self.curves.styles(mode)}
+        return texts + [words for style, words in STYLE_WORDS.items() if style in styles]
+
+    def parameter_axis(self):
+        low, high = self.range
+        pad = 0.01 * (high - low) or 0.01 * abs(low) or 0.01
+        return Axis(with_unit(self.parameter, self.parameter_unit), low - pad, high + pad)
+
+    def finish(self, picture):
+        """Adds the legend."""
+        picture.legend = list(self.legend.values())
+        return picture
+
+
+def legend_grid(texts, width):
+    """Columns and rows of a legend on this width (inches)."""
+    widest = max((text_width(text, NAME) + 34 for text in texts), default=1)
+    columns = max(min(int(72 * width // widest), len(texts)), 1)
+    return columns, -(-len(texts) // columns)
+
+
+def event_label(kind, p, value):
+    """A short label; empty for kinds that have only a mark."""
+    place = number(p)
+    if kind == "resonance":
+        return f"{number(value)}\u00d7 {place}"
+    if kind in ("damping_ratio", "extremum"):
+        return f"{number(100 * value, 3)} % at {place}" if kind == "damping_ratio" else ""
+    if kind == "log_decrement":
+        return f"\u03b4 {number(value, 3)} at {place}"
+    if kind in ("flutter", "divergence", "collision", "fold", "branch_point"):
+        return f"{EVENTS[kind][1]} {place}"
+    return ""
+
+
+def _within(panel, x, y):
+    a, b = panel.x.share(x), panel.y.share(y)
+    return -0.001 <= a <= 1.001 and -0.001 <= b <= 1.001
+
+
+def padded(low, high, below, above):
+    size = high - low
+    if size <= 1e-12 * max(abs(low), abs(high), 1e-300):
+        size = 0.1 * max(abs(low), abs(high)) or 1.0
+    return low - below * size, high + above * size

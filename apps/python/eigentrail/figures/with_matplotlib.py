@@ -1,0 +1,165 @@
+"""Draws a picture with matplotlib."""
+
+import io
+
+import numpy as np
+
+from .picture import Area, Cells, Label, Line, Marks, Span
+from .style import GRID, INK
+
+DASHES = {"solid": "solid", "dash": (0, (4, 2)), "dot": (0, (1.2, 1.8))}
+SYMBOLS = {"circle": "o", "square": "s", "diamond": "D", "triangle-up": "^", "triangle-down": "v", "triangle-left": "<",
+           "cross": "P", "x": "X", "star": "*", "pentagon": "p", "hexagram": (6, 1, 0), "hexagon": "h", "asterisk": (8, 2, 0),
+           "bowtie": [(-1, -1), (-1, 1), (1, -1), (1, 1), (-1, -1)], "line-ew": "_", "line-ns": "|", "circle-open-dot": "o"}
+STROKES = {"asterisk", "line-ew", "line-ns"}  # marks without an inside
+LARGER = {"star": 1.5, "hexagram": 1.4}
+KINDS = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png"}
+RESOLUTION = 200  # dots per inch of PNG files
+
+
+def draw(picture):
+    """A matplotlib Figure."""
+    try:
+        import matplotlib
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("pictures with matplotlib need the package matplotlib: apt install python3-matplotlib, or "
+                          "pip install matplotlib") from error
+    with matplotlib.rc_context(_style()):
+        figure = Figure(figsize=(picture.width, picture.height), dpi=110)
+        FigureCanvasAgg(figure)
+        for panel in picture.panels:
+            _draw_panel(figure, panel)
+        left = min((panel.left for panel in picture.panels), default=0.05)
+        top = 1 - 0.1 / picture.height
+        if picture.title:
+            figure.text(left, top, picture.title, va="top", ha="left", fontsize=10, color=INK, parse_math=False)
+            top -= 0.2 / picture.height
+        if picture.legend:
+            _draw_legend(figure, picture, left, top)
+    return figure
+
+
+def image(picture, kind, version=""):
+    """The bytes of a file of the kind svg, pdf or png; the same for the same picture."""
+    import matplotlib
+    creator = f"eigentrail {version}".strip()
+    metadata = {"svg": {"Creator": creator, "Date": None}, "pdf": {"Creator": creator, "CreationDate": None, "Producer": None},
+                "png": {"Software": creator}}[kind]
+    figure, file = draw(picture), io.BytesIO()
+    with matplotlib.rc_context({**_style(), "svg.hashsalt": "eigentrail"}):
+        figure.savefig(file, format=kind, metadata=metadata, dpi=RESOLUTION)
+    return file.getvalue()
+
+
+def _style():
+    return {"font.size": 9, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "axes.edgecolor": "#555555",
+            "axes.labelcolor": INK, "axes.linewidth": 0.8, "xtick.color": "#333333", "ytick.color": "#333333",
+            "axes.unicode_minus": True, "axes.formatter.useoffset": False, "text.usetex": False, "mathtext.default": "regular",
+            "svg.fonttype": "path", "path.simplify": True, "lines.scale_dashes": True}
+
+
+def _draw_panel(figure, panel):
+    axes = figure.add_axes((panel.left, panel.bottom, panel.width, panel.height))
+    axes.set_axisbelow(True)
+    if not panel.frame:
+        axes.axis("off")
+    for axis, which in ((panel.x, "x"), (panel.y, "y")):
+        _set_axis(axes, axis, which)
+    axes.grid(True, color=GRID, linewidth=0.7)
+    axes.spines[["top", "right"]].set_visible(False)
+    for item in panel.items:
+        _DRAWN[type(item)](axes, item)
+    return axes
+
+
+def _set_axis(axes, axis, which):
+    if axis.log:
+        getattr(axes, f"set_{which}scale")("log")
+    getattr(axes, f"set_{which}lim")(axis.low, axis.high)
+    getattr(axes, f"set_{which}label")(axis.title, parse_math=False)
+    target = getattr(axes, f"{which}axis")
+    if axis.ticks is not None:
+        target.set_ticks([place for place, _ in axis.ticks], [text for _, text in axis.ticks])
+    elif axis.log and axis.high < 500 * axis.low:
+        from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+        target.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        target.set_major_formatter(StrMethodFormatter("{x:g}"))
+        target.set_minor_formatter(NullFormatter())
+    if not axis.shown:
+        axes.tick_params(**{f"label{'bottom' if which == 'x' else 'left'}": False})
+
+
+def _mark(symbol, colour, size):
+    """Keywords of a line that shows a mark."""
+    base = symbol.removesuffix("-open")
+    open_ = symbol != base or base.endswith("-dot")
+    width = 1.3 if open_ or base in STROKES else 0.5
+    return {"marker": SYMBOLS[base], "markersize": size * LARGER.get(base, 1.0), "markeredgewidth": width,
+            "markerfacecolor": "none" if open_ else colour, "markeredgecolor": colour if open_ or base in STROKES else "white"}
+
+
+def _draw_line(axes, item):
+    axes.plot(item.x, item.y, color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash], clip_on=item.clip,
+              solid_capstyle="round", label=item.name or None)
+
+
+def _draw_marks(axes, item):
+    axes.plot(item.x, item.y, linestyle="none", zorder=3, label=item.name or None, clip_on=False,
+              **_mark(item.symbol, item.colour, item.size))
+
+
+def _draw_area(axes, item):
+    axes.fill(item.x, item.y, color=item.colour, alpha=item.opacity, linewidth=0, label=item.name or None)
+
+
+def _draw_span(axes, item):
+    axes.axvspan(item.low, item.high, color=item.colour, alpha=item.opacity, linewidth=0, zorder=0)
+
+
+def _draw_label(axes, item):
+    from matplotlib.patheffects import withStroke
+    axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align, va="center",
+                  fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5, parse_math=False,
+                  rotation_mode="anchor" if item.turn else "default", path_effects=[withStroke(linewidth=2, foreground="white")],
+                  bbox=dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85) if item.boxed else None)
+
+
+def _draw_cells(axes, item):
+    from matplotlib.colors import ListedColormap
+    axes.pcolormesh(_edges(item.x), _edges(item.y), np.asarray(item.kind), cmap=ListedColormap(item.colours), vmin=-0.5,
+                    vmax=len(item.colours) - 0.5, zorder=0, rasterized=False, linewidth=0, edgecolors="none", antialiased=False)
+
+
+def _edges(values):
+    values = np.asarray(values, float)
+    if len(values) < 2:
+        return np.array([values[0] - 0.5, values[0] + 0.5])
+    middle = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([[values[0]], middle, [values[-1]]])
+
+
+_DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_span, Label: _draw_label, Cells: _draw_cells}
+
+
+def _draw_legend(figure, picture, left, top):
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    handles = []
+    for item in picture.legend:
+        if isinstance(item, Marks):
+            line = item.legend_line
+            handle = Line2D([], [], linestyle=DASHES[line] if line else "none", color=item.colour,
+                            **_mark(item.symbol, item.colour, item.size))
+        elif isinstance(item, Line):
+            handle = Line2D([], [], color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash])
+        else:
+            handle = Patch(facecolor=item.colour, alpha=item.opacity, linewidth=0)
+        handle.set_label(item.legend)
+        handles.append(handle)
+    legend = figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(left, top), ncols=picture.legend_columns,
+                           frameon=False, borderaxespad=0, borderpad=0, fontsize=8, handlelength=1.7, handletextpad=0.5,
+                           columnspacing=1.4, labelspacing=0.35)
+    for text in legend.get_texts():
+        text.set_parse_math(False)

@@ -1,0 +1,131 @@
+"""Draws a picture with plotly."""
+
+import math
+
+import numpy as np
+
+from .picture import Area, Cells, Label, Line, Marks, Span
+from .style import GRID, INK
+
+DASHES = {"solid": "solid", "dash": "6px,3px", "dot": "2px,3px"}
+PIXELS = 96     # per inch
+POINT = 96 / 72  # pixels
+
+
+def draw(picture):
+    """A plotly Figure."""
+    try:
+        import plotly.graph_objects as go
+    except ImportError as error:
+        raise ImportError("figures need the package plotly: apt install python3-plotly, or pip install plotly; "
+                          "backend=\"matplotlib\" does without it") from error
+    figure = go.Figure()
+    left = min((panel.left for panel in picture.panels), default=0.05)
+    figure.update_layout(width=PIXELS * picture.width, height=PIXELS * picture.height, margin=dict(l=0, r=0, t=0, b=0),
+                         paper_bgcolor="#fff", plot_bgcolor="#fff", hovermode="closest",
+                         font=dict(family="system-ui, DejaVu Sans, sans-serif", size=9 * POINT, color=INK),
+                         legend=dict(orientation="h", x=left, xanchor="left", yanchor="top", font=dict(size=8 * POINT),
+                                     y=1 - (0.3 if picture.title else 0.05) / picture.height, bgcolor="rgba(255,255,255,0)",
+                                     itemclick=False, itemdoubleclick=False))
+    if picture.title:
+        figure.add_annotation(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
+                              text=plain(picture.title), showarrow=False, font=dict(size=10 * POINT))
+    for number, panel in enumerate(picture.panels):
+        _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
+    for item in picture.legend:
+        figure.add_trace(_legend_entry(go, item))
+    return figure
+
+
+def plain(text):
+    """A text in which plotly finds no markup."""
+    return str(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _draw_panel(figure, go, panel, suffix):
+    common = dict(gridcolor=GRID, zeroline=False, linecolor="#555", showline=panel.frame, ticks="outside" if panel.frame else "",
+                  ticklen=4, tickcolor="#555", exponentformat="power", minexponent=4, showgrid=panel.frame, visible=panel.frame)
+    for which, axis, start, length in (("x", panel.x, panel.left, panel.width), ("y", panel.y, panel.bottom, panel.height)):
+        ends = [math.log10(axis.low), math.log10(axis.high)] if axis.log else [axis.low, axis.high]
+        figure.layout[f"{which}axis{suffix}"] = dict(
+            common, domain=[start, start + length], range=ends, type="log" if axis.log else "linear",
+            anchor=f"{'y' if which == 'x' else 'x'}{suffix}", title=dict(text=plain(axis.title), standoff=8),
+            showticklabels=axis.shown, **_ticks(axis))
+    axes = dict(xaxis=f"x{suffix}", yaxis=f"y{suffix}")
+    for item in panel.items:
+        _DRAWN[type(item)](figure, go, item, axes, panel)
+
+
+def _ticks(axis):
+    if axis.ticks is not None:
+        return dict(tickvals=[place for place, _ in axis.ticks], ticktext=[plain(text) for _, text in axis.ticks])
+    if axis.log and axis.high < 500 * axis.low:
+        return dict(dtick="D2")
+    return dict(dtick=max(1, round(math.log10(axis.high / axis.low) / 7))) if axis.log else {}
+
+
+def _hover(panel, name):
+    return dict(hovertemplate=f"{plain(panel.x.title or 'x')}: %{{x:.6g}}<br>{plain(panel.y.title)}: %{{y:.6g}}<extra>{plain(name)}</extra>") \
+        if name else dict(hoverinfo="skip")
+
+
+def _draw_line(figure, go, item, axes, panel):
+    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", name=item.name, showlegend=False, cliponaxis=item.clip,
+                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash]),
+                                **_hover(panel, item.name), **axes))
+
+
+def _draw_marks(figure, go, item, axes, panel):
+    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="markers", name=item.name, showlegend=False, text=item.texts,
+                                marker=_mark(item), cliponaxis=False, **_hover(panel, item.name), **axes))
+
+
+def _mark(item):
+    return dict(symbol=item.symbol, color=item.colour, size=item.size * POINT,
+                line=dict(width=1.7 if "-open" in item.symbol else 0.5, color=item.colour if "-open" in item.symbol else "#fff"))
+
+
+def _draw_area(figure, go, item, axes, panel):
+    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", fill="toself", line=dict(width=0), name=item.name,
+                                fillcolor=_faded(item), hoverinfo="skip", showlegend=False, **axes))
+
+
+def _faded(item):
+    return f"rgba({','.join(str(int(item.colour[i:i + 2], 16)) for i in (1, 3, 5))},{item.opacity:g})"
+
+
+def _draw_span(figure, go, item, axes, panel):
+    figure.add_shape(type="rect", x0=item.low, x1=item.high, y0=0, y1=1, xref=axes["xaxis"], yref=f"{axes['yaxis']} domain",
+                     fillcolor=item.colour, opacity=item.opacity, line=dict(width=0), layer="below")
+
+
+def _draw_label(figure, go, item, axes, panel):
+    x = math.log10(item.x) if panel.x.log else item.x
+    y = math.log10(item.y) if panel.y.log else item.y
+    figure.add_annotation(x=x, y=y, xref=axes["xaxis"], yref=axes["yaxis"], text=plain(item.text), showarrow=False,
+                          font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
+                          xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
+                          bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
+
+
+def _draw_cells(figure, go, item, axes, panel):
+    n = len(item.colours)
+    scale = [[(i + side) / n, colour] for i, colour in enumerate(item.colours) for side in (0, 1)]
+    names = np.asarray(item.names, object)[np.asarray(item.kind)]
+    figure.add_trace(go.Heatmap(x=item.x, y=item.y, z=np.asarray(item.kind), zmin=-0.5, zmax=n - 0.5, colorscale=scale,
+                                showscale=False, text=[[plain(name) for name in row] for row in names],
+                                hovertemplate="%{x:.6g}, %{y:.6g}: %{text}<extra></extra>", **axes))
+
+
+_DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_span, Label: _draw_label, Cells: _draw_cells}
+
+
+def _legend_entry(go, item):
+    common = dict(x=[None], y=[None], name=plain(item.legend), showlegend=True, hoverinfo="skip")
+    if isinstance(item, Marks):
+        line = item.legend_line
+        return go.Scatter(mode="lines+markers" if line else "markers", marker=_mark(item),
+                          line=dict(color=item.colour, dash=DASHES[line or "solid"]), **common)
+    if isinstance(item, Line):
+        return go.Scatter(mode="lines", line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash]), **common)
+    return go.Scatter(mode="markers", marker=dict(symbol="square", size=11, color=_faded(item), line=dict(width=0)), **common)
