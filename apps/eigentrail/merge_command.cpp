@@ -36,9 +36,8 @@ void add_merge(CLI::App& program, int& exit_code) {
   command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
   command->footer(
       "Example:\n"
-      "  eigentrail map scene.toml --second drag --from 1 --to 20 --part 1/2 -o part_1.h5   (machine 1)\n"
-      "  eigentrail map scene.toml --second drag --from 1 --to 20 --part 2/2 -o part_2.h5   (machine 2)\n"
-      "  eigentrail merge part_*.h5 -o drag.h5");
+      "  eigentrail merge part_1.h5 part_2.h5 -o drag.h5\n\n"
+      "The parts come from the same command with --part 1/2 -o part_1.h5 and --part 2/2 -o part_2.h5.");
   command->callback([arguments, &exit_code] {
     exit_code = together([&](Team& team) { return run_merge(*arguments, team); });
   });
