@@ -12,7 +12,8 @@ shaft, a column under load, or any matrices M(p), C(p), K(p). A scene file goes 
 labelled loci of known accuracy come out.
 .
 The package has the program, the C++ library with its headers and CMake configuration,
-and the Python package, which computes and reads its files.")
+and the Python package, which computes, reads its files, and draws the pictures of
+`eigentrail plot`.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_STRIP_FILES ON)
@@ -20,7 +21,8 @@ set(CPACK_STRIP_FILES ON)
 # static library need further packages, which are only recommended or suggested because not every user needs
 # them.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-h5py, python3-matplotlib, python3-numpy, python3-pandas, python3-plotly, python3-scipy, python3-tqdm, python3-xarray")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
+  "python3, python3-h5py, python3-matplotlib, python3-numpy, python3-pandas, python3-plotly, python3-scipy, python3-tqdm, python3-xarray")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
   "cmake, g++, libeigen3-dev, libhdf5-dev, liblapacke-dev, libmatio-dev, libopenblas-dev, libsuitesparse-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, zlib1g-dev")
 

@@ -7,7 +7,7 @@ CONTENTS = {
     "Describe a system": ["scene", "rotor", "scene-tables", "scenes/README"],
     "Models of other programs": ["bring-your-own-matrices", "large-models", "sampled-families", "state-space", "openfast",
                                  "coming-from-ross", "coming-from-matlab"],
-    "Read the results": ["events", "boundaries", "stability-map", "many-machines", "report"],
+    "Read the results": ["events", "boundaries", "stability-map", "many-machines", "report", "plots"],
     "Use the numbers": ["loci-file", "python", "notebooks/*", "cpp"],
     "Trust them": ["how-it-works", "accuracy", "reliability"],
     "For developers": ["developers/README"],

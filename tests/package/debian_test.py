@@ -49,7 +49,8 @@ class DebianPackage(unittest.TestCase):
         depends = self.field("Depends")
         for library in ("libc6", "libhdf5", "liblapacke", "libsundials-kinsol"):
             self.assertIn(library, depends)
-        self.assertIn("python3-xarray", self.field("Recommends"))
+        for package in ("python3-xarray", "python3-matplotlib", "python3-plotly"):
+            self.assertIn(package, self.field("Recommends"))
 
     def test_program_and_python_package_work_together(self):
         program = self.root / "usr/bin/eigentrail"
@@ -62,6 +63,9 @@ class DebianPackage(unittest.TestCase):
         nodes = run("/usr/bin/python3", "-c", script, loci, SCENE, env={**os.environ, "PYTHONPATH": str(reader)}).split()
         self.assertGreater(int(nodes[0]), 1)
         self.assertEqual(nodes[0], nodes[1])
+        picture = Path(self.folder.name) / "out.svg"
+        run(program, "plot", loci, "-o", picture)
+        self.assertTrue(picture.read_bytes().startswith(b"<?xml"))
 
     def test_manual_names_every_command(self):
         manual = gzip.decompress((self.root / "usr/share/man/man1/eigentrail.1.gz").read_bytes()).decode()

@@ -276,6 +276,16 @@ class Shapes(FigureTest):
         self.assertEqual([item for item in panel.of(Line) if item.name == "rod"], [])
         self.assertTrue([item for item in panel.of(Marks) if item.name == "displaced"])
 
+    def test_nodes_on_a_line_are_a_bent_axis(self):
+        loci = self.traced(SCENES / "beck_column.toml")
+        (panel,) = shapes.shape_picture(loci, 0, 1).panels
+        x, y = self.line(panel, "y")
+        self.assertEqual({line.name for line in panel.of(Line)}, {"axis", "y"})  # the mode is real, in a plane
+        moved = loci.mode_shape.values[0, 0][[i for i, name in enumerate(loci.coordinate.values) if str(name).endswith(".y")
+                                              and "axis" not in str(name)]]
+        np.testing.assert_allclose(y, (moved / moved[np.abs(moved).argmax()]).real * y[np.abs(y).argmax()], atol=1e-9)
+        self.assertTrue(np.all(np.diff(x) > 0))
+
     def test_a_family_has_bars(self):
         loci = self.traced(oscillators([1.0, 1.3, 2.0], [0.5, -0.5, 0.1], 0.01))
         (panel,) = shapes.shape_picture(loci, -1, 2).panels
@@ -349,8 +359,10 @@ class Studies(FigureTest):
         runs = np.flatnonzero((study.method.values == "eigentrail") & (study.order.values == 3))
         self.assertEqual(sorted(line.x), sorted(study.points.values[runs]))
         self.assertEqual(sorted(line.y), sorted(study.error.values[runs]))
-        self.assert_apart(panel)
-        self.assertTrue(study.eigentrail.work_precision().data)
+        self.assertEqual({trace.name for trace in study.eigentrail.work_precision().data if trace.showlegend},
+                         {line.name for line in panel.of(Line)})
+        legend = study.eigentrail.work_precision(backend="matplotlib").legends[0]
+        self.assertIn("eigentrail, order 3", [text.get_text() for text in legend.get_texts()])
         with self.assertRaisesRegex(ValueError, "'wall_time', 'factorizations', 'points'"):
             study.eigentrail.work_precision("money")
 

@@ -35,8 +35,7 @@ class Curves:
         """Eigenvalues (n, mode) and the parameter (n) at t (n) on steps (n)."""
         s = self._dense.at(step, t)
         s = np.where(np.isfinite(s), s, complex(np.nan, np.nan))
-        rounding = np.abs(s.real) < SAME_AS_ZERO * np.abs(s)
-        return np.where(rounding, 1j * s.imag, s), self._parameter[step](t)
+        return without_rounding(s), self._parameter[step](t)
 
     def styles(self, mode):
         """Of the line between each place and the next (n - 1): solid; dashed where the identity is not certified; dotted where
@@ -119,6 +118,11 @@ def _largest_bend(left, middle, right, usual):
         ratio = [part.real / np.abs(part) for part in (left, middle, right)]
         parts.append(np.abs(ratio[1] - 0.5 * (ratio[0] + ratio[2])))
     return np.nan_to_num(np.max(parts, axis=0), nan=0.0).max(axis=1)
+
+
+def without_rounding(s):
+    """Eigenvalues whose real part is zero where it is rounding, as in the stability analysis."""
+    return np.where(np.abs(s.real) < SAME_AS_ZERO * np.abs(s), 1j * s.imag, s)
 
 
 def oscillates(s):

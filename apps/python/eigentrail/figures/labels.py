@@ -65,7 +65,7 @@ class Room:
                 continue
             cost = self.covered(box)
             if best is None or cost < best[0]:
-                best = (cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py))
+                best = (cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py, halo=cost > 0))
         if best is None:
             return None
         self.take(best[1])
@@ -98,12 +98,12 @@ class Room:
         if best is None:
             return None
         self.take(best[2])
-        return Label(xs[best[1]], ys[best[1]], text, colour, size, "right", -4, 1 + height / 2)
+        return Label(xs[best[1]], ys[best[1]], text, colour, size, "right", -4, 1 + height / 2, halo=best[0] > 0)
 
 
 def _along(x, y):
     """Places (k, 2) along a line at most SPACING points apart."""
-    x, y = (np.asarray(values, float) for values in (x, y))
+    x, y = (np.where(np.isfinite(values), values, np.nan) for values in (x, y))
     if len(x) < 2:
         return np.empty((0, 2))
     with np.errstate(invalid="ignore"):

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from .curves import DASHED, DOTTED, SOLID, Curves, parts
+from .curves import DASHED, DOTTED, SOLID, Curves, parts, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
-from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, SAME_AS_ZERO, mode_colour, mode_symbol, number,
+from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, mode_colour, mode_symbol, number,
                     with_unit)
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
@@ -125,7 +125,8 @@ class LociFigure:
             inside = np.flatnonzero((px >= 0) & (px <= right) & (py >= 0) & (py <= top))
         if not len(inside):
             return
-        px, py = px[inside], py[inside]
+        order = inside if px[inside[-1]] >= px[inside[0]] else inside[::-1]  # so that the last place is on the right
+        px, py = px[order], py[order]
         along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
         for place in np.arange(along[-1], 0.3 * along[-1] - 1e-9, -max(HEIGHT * NAME, 0.02 * along[-1])):
             label = room.beside(panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top),
@@ -200,8 +201,7 @@ class LociFigure:
         `further`: events that the file does not have; `before`: gives labels that come first. Returns the room that is left."""
         found = {}
         for kind, p, s, value, modes in [*self.event_table(), *further]:
-            if abs(s.real) < SAME_AS_ZERO * abs(s):
-                s = 1j * s.imag
+            s = complex(without_rounding(np.complex128(s)))
             x, y = place(p, s)
             if np.isfinite(x) and np.isfinite(y) and _within(panel, x, y) and (labelled or kind not in OF_FREQUENCY):
                 found.setdefault(kind, []).append((x, y, event_label(kind, p, value), modes))
@@ -230,8 +230,8 @@ class LociFigure:
         for (_, p, s, _, _), (low, high) in zip(self.event_table(), self.loci.event_interval.values.reshape(-1, 2)):
             _, y = place(p, s)
             if np.isfinite([low, high, y]).all() and high > low and _within(panel, p, y):
-                panel.items.append(Line([low, high], [y, y], INK, 1.1, name="interval of the event"))
-                panel.items.append(Marks([low, high], [y, y], "line-ns-open", INK, 6.0, "interval of the event"))
+                panel.items.append(Line([low, high], [y, y], GREY, 1.0, name="interval of the event"))
+                panel.items.append(Marks([low, high], [y, y], "line-ns-open", GREY, 6.0, "interval of the event"))
 
     def add_folds(self, panel):
         """Vertical lines where the path turns back or branches and no mode is at the place."""

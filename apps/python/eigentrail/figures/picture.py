@@ -105,6 +105,7 @@ class Label:
     dx: float = 0.0
     dy: float = 0.0
     turn: float = 0.0  # degrees, counterclockwise
+    halo: bool = False  # with a white edge, where lines are below it
     boxed: bool = False  # on a white ground, which hides the line behind it
 
 
@@ -137,6 +138,18 @@ class Picture:
     panels: list[Panel] = field(default_factory=list)
     legend: list = field(default_factory=list)  # items without data whose `legend` is the text
     legend_columns: int = 6
+    legend_right: bool = False  # in a column beside the panels instead of rows above them
+
+    @property
+    def left(self):
+        """Where titles and legends begin, as a share of the width."""
+        return min((panel.left for panel in self.panels), default=0.05)
+
+    @property
+    def title_size(self):
+        """Size of the title in points: smaller where it is long."""
+        room = 72 * self.width * (1 - self.left) - 8
+        return min(10.0, room / (0.58 * max(len(self.title), 1)))
 
     def add(self, left, bottom, right, top, x, y, **more):
         """A panel between margins and heights in inches from the lower left corner of the picture."""

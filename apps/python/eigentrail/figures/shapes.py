@@ -4,7 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
-from .curves import damping_percent
+from .curves import damping_percent, without_rounding
 from .drawing import geometry
 from .labels import Room, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture
@@ -19,6 +19,7 @@ LARGEST = 0.3          # displacement in the picture, as a share of the radius o
 MOST_NAMED = 24        # points and bodies with names
 MOST_BARS = 60         # coordinates drawn as bars with names
 ON_AN_AXIS = 4         # so many carriers on a straight line are drawn as a bent axis
+NOTHING = 1e-3         # a displacement below this share of the largest is not drawn
 PHASES = np.linspace(0.0, 2 * np.pi, 73)
 
 
@@ -62,7 +63,7 @@ def mode_number(loci, mode):
 def _title(loci, node, column):
     parameter = loci[loci.attrs["parameter"]]
     unit = parameter.attrs.get("units", "1")
-    s = complex(loci.eigenvalue.values[node, column])
+    s = without_rounding(np.complex128(loci.eigenvalue.values[node, column]))
     name = str(loci.mode_name.values[column]) if "mode_name" in loci.coords else ""
     where = f"mode {column + 1}{' ' + name if name else ''} at {parameter.name} = {number(float(parameter[node]), 6)}"
     where += "" if unit == "1" else f" {unit}"
@@ -71,7 +72,7 @@ def _title(loci, node, column):
     if s.imag == 0.0:
         return f"{where}: s = {number(s.real)} 1/s"
     known = unit if unit in ANGULAR else "Hz"
-    return f"{where}: {number(abs(s.imag) / ANGULAR[known])} {known}, damping {number(float(damping_percent(np.complex128(s))))} %"
+    return f"{where}: {number(abs(s.imag) / ANGULAR[known])} {known}, damping {number(float(damping_percent(s)))} %"
 
 
 class _Carriers:
@@ -103,6 +104,12 @@ class _Carriers:
         axes = [x[i + 3:i + 12].reshape(3, 3) if body else np.zeros((3, 3)) for i, body in zip(self.first, self.body)]
         places = [local if carrier is None else origins[carrier] + local @ axes[carrier] for carrier, local in self.places]
         return origins, axes, np.array(places).reshape(-1, 3)
+
+    def middles(self, displacement):
+        """Middles (k, 3) of the origins and the places of carriers, where their names stand."""
+        origins, _, places = self.at(displacement)
+        return np.array([np.mean([origin, *(place for (carrier, _), place in zip(self.places, places) if carrier == k)], axis=0)
+                         for k, origin in enumerate(origins)])
 
     def radius(self):
         return max(np.linalg.norm(np.ptp(self.rest, axis=0)) / 2, 1e-9) or 1.0
@@ -145,7 +152,7 @@ def _stick_figure(figure, shape, title, view, size):
     everything = np.concatenate([orbits.reshape(-1, 2), figure.rest @ flat])
     if size is None:  # as high as the figure needs
         wide, high = np.maximum(np.ptp(everything, axis=0), 0.3 * figure.radius())
-        size = (6.5, float(np.clip(5.8 * high / wide, 2.0, 4.7)) + 0.8)
+        size = (6.5, float(np.clip(5.8 * high / wide, 2.6, 4.7)) + 0.8)
     picture = Picture(*size, title=title)
     left, bottom, right, top = 0.35, 0.3, size[0] - 0.35, size[1] - 0.5
     x, y = _equal_axes(everything, (right - left) / (top - bottom), 0.3 * figure.radius())
@@ -157,7 +164,7 @@ def _stick_figure(figure, shape, title, view, size):
     _add_triad(panel, flat)
     if len(figure.names) <= MOST_NAMED:
         room = Room(panel)
-        for name, place in zip(figure.names, figure.at(shape.real)[0] @ flat):
+        for name, place in zip(figure.names, figure.middles(shape.real) @ flat):
             label = room.beside(*place, name, 8.0, 5, BLUE)
             if label:
                 panel.items.append(label)
@@ -221,7 +228,7 @@ def _bent_axis(figure, shape, title, size):
     moved = np.array([shape[i:i + 3] for i in figure.first])[order]
     parts = [(name, along[order], moved @ vector) for name, vector in zip("xyz", np.eye(3)) if abs(vector @ axis) < 0.9]
     if np.abs(moved @ axis).max() > 0.1 * np.abs(moved).max():
-        parts.append(("axial", along[order], moved @ axis))
+        parts.append(("along the axis", along[order], moved @ axis))
     return _over_the_axis(parts, title, size)
 
 
@@ -249,11 +256,13 @@ def _over_the_axis(parts, title, size):
                         Axis("displacement / largest", -1.12, 1.12))
     panel.items.append(Line([low - pad, high + pad], [0, 0], GREY, 0.8, name="axis"))
     for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
-        values = values / largest
         for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
-            panel.items.append(Line(places, (turned * values).real, colour, 1.6, dash, words + later))
+            height = (turned * values).real / largest
+            if np.abs(height).max() < NOTHING:
+                continue
+            panel.items.append(Line(places, height, colour, 1.6, dash, words + later))
+            panel.items.append(Marks(places, height, "circle", colour, 3.5, f"{words}{later}, nodes"))
             picture.legend.append(Line([], [], colour, 1.6, dash, legend=words + later))
-        panel.items.append(Marks(places, values.real, "circle", colour, 4.0, f"{words}, nodes"))
     return picture
 
 

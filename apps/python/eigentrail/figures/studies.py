@@ -4,7 +4,7 @@ import numpy as np
 
 from .labels import text_width
 from .loci import BOTTOM, NAME, RIGHT, TITLE, TOP
-from .picture import Axis, Label, Line, Marks, Picture
+from .picture import Axis, Line, Marks, Picture
 from .style import GREY, SYMBOLS, mode_colour, number
 
 WORK = {"wall_time": "wall time, s", "factorizations": "complex LU factorizations", "points": "points"}
@@ -23,8 +23,8 @@ def work_precision_picture(study, work="wall_time", size=None):
     if not groups:
         raise ValueError("no run of this study has an error that was measured")
     runs = np.concatenate(list(groups.values())).astype(int)
-    picture = Picture(*(size or (8.0, 5.0)), title=str(study.attrs.get("title", "")))
-    names = (max(text_width(name, NAME) for name in groups) + 44) / 72
+    picture = Picture(*(size or (8.0, 5.0)), title=str(study.attrs.get("title", "")), legend_right=True)
+    names = (max(text_width(name, NAME) for name in groups) + 50) / 72
     panel = picture.add(LEFT, BOTTOM, picture.width - RIGHT - names, picture.height - TOP - (TITLE if picture.title else 0),
                         _decades(study[work].values[runs], WORK[work]), _decades(study.error.values[runs], "largest relative error"))
     for i, (name, members) in enumerate(groups.items()):
@@ -38,20 +38,10 @@ def work_precision_picture(study, work="wall_time", size=None):
             if mask.any():
                 panel.items.append(Marks(x[mask], y[mask], symbol + ending, colour, 5.5, name,
                                          [text for text, on in zip(texts, mask) if on]))
-        _add_key(panel, i, name, symbol, colour, DASHES[i // 7 % 3])
+        picture.legend.append(Marks([], [], symbol, colour, 5.5, legend=name, legend_line=DASHES[i // 7 % 3]))
     if any(str(status) != "completed" for status in study.status.values[runs]):
-        panel.items.append(Label(panel.x.value(1.0), panel.y.value(1.0), "open: ended early", GREY, NAME, "left", 8,
-                                 -13.0 * (len(groups) + 1)))
+        picture.legend.append(Marks([], [], "circle-open", GREY, 5.5, legend="open: ended early"))
     return picture
-
-
-def _add_key(panel, row, name, symbol, colour, dash):
-    """An entry of the key in the right margin."""
-    width, height = panel.points
-    y = panel.y.value(1.0 - (6 + 13.0 * row) / height)
-    x = [panel.x.value(1 + part / width) for part in (8, 20, 32)]
-    panel.items += [Line([x[0], x[2]], [y, y], colour, 1.5, dash, "key", clip=False), Marks([x[1]], [y], symbol, colour, 5.5, "key"),
-                    Label(x[2], y, name, "#1a1a1a", NAME, "left", 4)]
 
 
 def _decades(values, title):

@@ -31,10 +31,9 @@ def draw(picture):
         FigureCanvasAgg(figure)
         for panel in picture.panels:
             _draw_panel(figure, panel)
-        left = min((panel.left for panel in picture.panels), default=0.05)
-        top = 1 - 0.1 / picture.height
+        left, top = picture.left, 1 - 0.1 / picture.height
         if picture.title:
-            figure.text(left, top, picture.title, va="top", ha="left", fontsize=10, color=INK, parse_math=False)
+            figure.text(left, top, picture.title, va="top", ha="left", fontsize=picture.title_size, color=INK, parse_math=False)
             top -= 0.2 / picture.height
         if picture.legend:
             _draw_legend(figure, picture, left, top)
@@ -133,14 +132,23 @@ def _draw_label(axes, item):
     from matplotlib.patheffects import withStroke
     axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align, va="center",
                   fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5, parse_math=False,
-                  rotation_mode="anchor" if item.turn else "default", path_effects=[withStroke(linewidth=2, foreground="white")],
+                  rotation_mode="anchor" if item.turn else "default", path_effects=[withStroke(linewidth=2, foreground="white")] if item.halo else None,
                   bbox=dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85) if item.boxed else None)
 
 
 def _draw_cells(axes, item):
-    from matplotlib.colors import ListedColormap
-    axes.pcolormesh(_edges(item.x), _edges(item.y), np.asarray(item.kind), cmap=ListedColormap(item.colours), vmin=-0.5,
-                    vmax=len(item.colours) - 0.5, zorder=0, rasterized=False, linewidth=0, edgecolors="none", antialiased=False)
+    """Neighbours of a row with the same colour are one rectangle, which keeps files small. Each goes on below the next one
+    and the next row, which are drawn later, so that no gap shines through."""
+    from matplotlib.collections import PolyCollection
+    x, y, kind = _edges(item.x), _edges(item.y), np.asarray(item.kind)
+    polygons, colours = [], []
+    for row, values in enumerate(kind):
+        begins = np.flatnonzero(np.diff(values, prepend=-1))
+        for begin, end in zip(begins, np.append(begins[1:], len(values))):
+            right, top = x[min(end + 1, len(x) - 1)], y[min(row + 2, len(y) - 1)]
+            polygons.append([(x[begin], y[row]), (right, y[row]), (right, top), (x[begin], top)])
+            colours.append(item.colours[values[begin]])
+    axes.add_collection(PolyCollection(polygons, facecolors=colours, linewidths=0, antialiaseds=False, zorder=0))
 
 
 def _edges(values):
@@ -169,8 +177,12 @@ def _draw_legend(figure, picture, left, top):
             handle = Patch(facecolor=item.colour, alpha=item.opacity, linewidth=0)
         handle.set_label(item.legend)
         handles.append(handle)
-    legend = figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(left, top), ncols=picture.legend_columns,
-                           frameon=False, borderaxespad=0, borderpad=0, fontsize=8, handlelength=1.7, handletextpad=0.5,
+    columns = picture.legend_columns
+    if picture.legend_right:
+        panel = picture.panels[0]
+        left, top, columns = panel.left + panel.width + 0.15 / picture.width, panel.bottom + panel.height, 1
+    legend = figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(left, top), ncols=columns,
+                           frameon=False, borderaxespad=0, borderpad=0, fontsize=8, handlelength=2.6 if picture.legend_right else 1.7, handletextpad=0.5,
                            columnspacing=1.4, labelspacing=0.35)
     for text in legend.get_texts():
         text.set_parse_math(False)

@@ -20,21 +20,28 @@ def draw(picture):
         raise ImportError("figures need the package plotly: apt install python3-plotly, or pip install plotly; "
                           "backend=\"matplotlib\" does without it") from error
     figure = go.Figure()
-    left = min((panel.left for panel in picture.panels), default=0.05)
+    left = picture.left
     figure.update_layout(width=PIXELS * picture.width, height=PIXELS * picture.height, margin=dict(l=0, r=0, t=0, b=0),
                          paper_bgcolor="#fff", plot_bgcolor="#fff", hovermode="closest",
                          font=dict(family="system-ui, DejaVu Sans, sans-serif", size=9 * POINT, color=INK),
-                         legend=dict(orientation="h", x=left, xanchor="left", yanchor="top", font=dict(size=8 * POINT),
-                                     y=1 - (0.3 if picture.title else 0.05) / picture.height, bgcolor="rgba(255,255,255,0)",
-                                     itemclick=False, itemdoubleclick=False))
+                         legend=_legend_place(picture, left))
     if picture.title:
         figure.add_annotation(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
-                              text=plain(picture.title), showarrow=False, font=dict(size=10 * POINT))
+                              text=plain(picture.title), showarrow=False, font=dict(size=picture.title_size * POINT))
     for number, panel in enumerate(picture.panels):
         _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
     for item in picture.legend:
         figure.add_trace(_legend_entry(go, item))
     return figure
+
+
+def _legend_place(picture, left):
+    place = dict(xanchor="left", yanchor="top", font=dict(size=8 * POINT), bgcolor="rgba(255,255,255,0)", itemclick=False,
+                 itemdoubleclick=False)
+    if not picture.legend_right:
+        return dict(place, orientation="h", x=left, y=1 - (0.3 if picture.title else 0.05) / picture.height)
+    panel = picture.panels[0]
+    return dict(place, x=panel.left + panel.width + 0.1 / picture.width, y=panel.bottom + panel.height)
 
 
 def plain(text):
@@ -52,7 +59,7 @@ def _draw_panel(figure, go, panel, suffix):
             anchor=f"{'y' if which == 'x' else 'x'}{suffix}", title=dict(text=plain(axis.title), standoff=8),
             showticklabels=axis.shown, **_ticks(axis))
     axes = dict(xaxis=f"x{suffix}", yaxis=f"y{suffix}")
-    for item in panel.items:
+    for item in sorted(panel.items, key=lambda item: isinstance(item, Marks)):  # marks lie on lines
         _DRAWN[type(item)](figure, go, item, axes, panel)
 
 
@@ -71,8 +78,8 @@ def _hover(panel, name):
 
 def _draw_line(figure, go, item, axes, panel):
     figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", name=item.name, showlegend=False, cliponaxis=item.clip,
-                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash]),
-                                **_hover(panel, item.name), **axes))
+                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash],
+                                          simplify=False), **_hover(panel, item.name), **axes))
 
 
 def _draw_marks(figure, go, item, axes, panel):
@@ -100,12 +107,20 @@ def _draw_span(figure, go, item, axes, panel):
 
 
 def _draw_label(figure, go, item, axes, panel):
-    x = math.log10(item.x) if panel.x.log else item.x
-    y = math.log10(item.y) if panel.y.log else item.y
-    figure.add_annotation(x=x, y=y, xref=axes["xaxis"], yref=axes["yaxis"], text=plain(item.text), showarrow=False,
+    x, xref = _reference(panel.x, item.x, axes["xaxis"], panel.left, panel.width)
+    y, yref = _reference(panel.y, item.y, axes["yaxis"], panel.bottom, panel.height)
+    figure.add_annotation(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
                           font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
                           xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
                           bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
+
+
+def _reference(axis, value, name, start, length):
+    """A coordinate and what it refers to: plotly hides texts that refer to an axis beyond its ends."""
+    share = float(axis.share(value))
+    if not -1e-9 <= share <= 1 + 1e-9:
+        return start + share * length, "paper"
+    return (math.log10(value) if axis.log else value), name
 
 
 def _draw_cells(figure, go, item, axes, panel):
