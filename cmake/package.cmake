@@ -1,5 +1,5 @@
 # The Debian package, made by cpack or ./bootstrap package. It contains what `cmake --install` installs, under
-# /usr; the Python reader goes to the folder in which Debian's interpreter searches.
+# /usr; the Python package goes to the folder in which Debian's interpreter searches.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eigentrail)
 set(CPACK_PACKAGE_VENDOR "the maintainers of eigentrail")
@@ -12,16 +12,17 @@ shaft, a column under load, or any matrices M(p), C(p), K(p). A scene file goes 
 labelled loci of known accuracy come out.
 .
 The package has the program, the C++ library with its headers and CMake configuration,
-and a package for Python, which also draws the pictures of `eigentrail plot`.")
+and the Python package, which computes, reads its files, and draws the pictures of
+`eigentrail plot`.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_STRIP_FILES ON)
-# Depends on the libraries to which the program is linked, with their versions. The Python reader and the
+# Depends on the libraries to which the program is linked, with their versions. The Python package and the
 # static library need further packages, which are only recommended or suggested because not every user needs
 # them.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
-  "python3, python3-h5netcdf, python3-h5py, python3-matplotlib, python3-numpy, python3-pandas, python3-plotly, python3-xarray")
+  "python3, python3-h5py, python3-matplotlib, python3-numpy, python3-pandas, python3-plotly, python3-scipy, python3-tqdm, python3-xarray")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
   "cmake, g++, libeigen3-dev, libhdf5-dev, liblapacke-dev, libmatio-dev, libopenblas-dev, libsuitesparse-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, zlib1g-dev")
 

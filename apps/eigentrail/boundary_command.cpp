@@ -1,6 +1,8 @@
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "check_output.hpp"
 #include "commands.hpp"
@@ -10,6 +12,7 @@
 #include "eigentrail/store/boundary_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "output.hpp"
+#include "parts.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
 #include "values.hpp"
@@ -18,9 +21,8 @@ namespace eigentrail::app {
 namespace {
 
 struct BoundaryArguments : SceneArguments {
-  std::string output;
-  bool force = false;
-  bool quiet = false;
+  OutputChoice output;
+  std::optional<Part> part;
   BoundaryRequest request;
   std::string from, to;  ///< of the second parameter
   std::optional<std::string> first_from, first_to;
@@ -113,36 +115,108 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
       rounded(result.seconds, 3).c_str());
 }
 
-int run_boundary(BoundaryArguments& arguments) {
-  check_output(arguments.output, arguments.force, {boundary_format, "boundary file"});
-  Scene scene = given_scene(arguments);
-  read_ranges(scene, arguments);
-  const BoundarySetup setup = prepare_boundary(std::move(scene), arguments.request);
-  warn_of_unused(setup.scene, *setup.model);
-  check_boundary_names(setup.scene, setup.options);
-  check_can_create(arguments.output);
-  ProgressBar progress(arguments.quiet);
-  const BoundaryResult result = find_boundaries(
-      *setup.model, setup.options, [&progress](double share, int points) { progress.update(share, points); });
+/// Follows the boundaries from what was found on all lines, writes them and prints a summary.
+int finish_boundary(const BoundarySetup& setup, const std::vector<std::string>& scans,
+                    const OutputChoice& output, Team& team, Workers& workers, double seconds) {
+  ProgressBar progress(output.quiet);
+  BoundaryResult result =
+      follow_boundaries(*setup.model, setup.options, scans, workers,
+                        [&progress](double share, int points) { progress.update(share, points); });
   progress.finish();
+  result.seconds += seconds;
+  if (!team.leads()) return done;
   if (result.status == BoundaryStatus::no_equilibrium) {
     throw InputError(
         setup.scene.path +
         ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
   }
-  write_boundaries(arguments.output, setup, result);
-  if (!arguments.quiet) {
+  write_boundaries(output.path, setup, result);
+  if (!output.quiet) {
     print_summary(setup, result);
-    std::printf("wrote %s\n", arguments.output.c_str());
+    std::printf("wrote %s\n", output.path.c_str());
   }
   if (result.status == BoundaryStatus::completed) return done;
   std::fprintf(stderr, "eigentrail: %s; what was found is in %s\n", result.message.c_str(),
-               arguments.output.c_str());
+               output.path.c_str());
   return numbers_failed;
 }
 
+/// The numbers of a request that need not be given, with the labels of their settings.
+std::vector<std::pair<std::string, std::optional<double>*>> optional_numbers(BoundaryRequest& request) {
+  return {{"--first-from", &request.first_from},
+          {"--first-to", &request.first_to},
+          {"--tolerance", &request.tolerance},
+          {"--damping-ratio", &request.damping_ratio}};
+}
+
+SharedRun shared_run(const BoundarySetup& setup, BoundaryRequest request) {
+  SharedRun run{"boundary", setup.scene.path, settings_of(setup.scene), boundary_lines(setup.options)};
+  run.settings.insert(
+      run.settings.end(),
+      {{"--second", request.second}, {"--from", exact_text(request.from)}, {"--to", exact_text(request.to)}});
+  for (const auto& [label, number] : optional_numbers(request)) {
+    if (*number) run.settings.emplace_back(label, exact_text(**number));
+  }
+  if (request.parameter) run.settings.emplace_back("--parameter", *request.parameter);
+  if (request.lines) run.settings.emplace_back("--lines", std::to_string(*request.lines));
+  return run;
+}
+
+void check_boundary_output(const OutputChoice& output) {
+  check_output(output.path, output.force, {boundary_format, "boundary file"});
+  check_can_create(output.path);
+}
+
+int run_boundary(BoundaryArguments& arguments, Team& team) {
+  const OutputChoice& output = arguments.output;
+  Scene scene = given_scene(arguments);
+  read_ranges(scene, arguments);
+  const BoundarySetup setup = prepare_boundary(std::move(scene), arguments.request);
+  warn_of_unused(setup.scene, *setup.model);
+  check_boundary_names(setup.scene, setup.options);
+  if (team.leads()) arguments.part ? check_part_output(output) : check_boundary_output(output);
+  const auto workers = team.workers(0);
+  const std::vector<std::size_t> lines =
+      arguments.part.value_or(Part{}).pieces(boundary_lines(setup.options));
+  ProgressBar progress(output.quiet);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::string> scans =
+      scan_boundaries(*setup.model, setup.options, lines, *workers,
+                      [&progress](double share, int points) { progress.update(share, points); });
+  progress.finish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!arguments.part) return finish_boundary(setup, scans, output, team, *workers, seconds);
+  if (team.leads())
+    write_part(output, shared_run(setup, arguments.request), *arguments.part, std::move(scans));
+  return done;
+}
+
 }  // namespace
+
+int merge_boundary(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
+                   Team& team) {
+  BoundaryRequest request;
+  request.second = run.setting("--second").value_or("");
+  request.from = number_of(run, "--from");
+  request.to = number_of(run, "--to");
+  for (const auto& [label, number] : optional_numbers(request)) {
+    if (run.setting(label)) *number = number_of(run, label);
+  }
+  request.parameter = run.setting("--parameter");
+  if (run.setting("--lines")) request.lines = static_cast<int>(number_of(run, "--lines"));
+  Scene scene = parse_scene(run.setting("scene").value_or(""), run.scene_path);
+  // The curves are computed from the files beside the scene, which must be those of the lines.
+  const auto files = settings_of(scene).back();
+  if (run.setting(files.first) != files.second)
+    throw InputError(run.scene_path +
+                     ": the files that the scene names have changed since the parts were "
+                     "computed; restore them, or repeat the parts");
+  const BoundarySetup setup = prepare_boundary(std::move(scene), request);
+  if (team.leads()) check_boundary_output(output);
+  const auto workers = team.workers(0);
+  return finish_boundary(setup, pieces, output, team, *workers, 0.0);
+}
 
 void add_boundary(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<BoundaryArguments>();
@@ -150,8 +224,9 @@ void add_boundary(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "boundary", "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
   add_scene(*command, *arguments);
-  auto* output = command->add_option("-o,--output", arguments->output,
+  auto* output = command->add_option("-o,--output", arguments->output.path,
                                      "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
+  add_part(*command, arguments->part);
   command->add_option("--second", request.second, "name of the second parameter")->required();
   command->add_option("--from", arguments->from, "where its range begins, in its unit")->required();
   command->add_option("--to", arguments->to, "where its range ends")->required();
@@ -168,14 +243,15 @@ void add_boundary(CLI::App& program, int& exit_code) {
   command->add_option(
       "--lines", request.lines,
       "inner lines of the window that are searched in either direction, beside its edges (5)");
-  command->add_flag("--force", arguments->force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
+  command->add_flag("--force", arguments->output.force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
   command->footer(
       "Example:\n"
       "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");
   command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0) arguments->output = beside(arguments->scene, "_boundary.h5");
-    exit_code = run_boundary(*arguments);
+    if (output->count() == 0)
+      arguments->output.path = default_output(arguments->scene, "_boundary", arguments->part);
+    exit_code = together([&](Team& team) { return run_boundary(*arguments, team); });
   });
 }
 

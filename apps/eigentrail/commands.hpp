@@ -19,6 +19,8 @@ void add_eval(CLI::App& program, int& exit_code);
 void add_events(CLI::App& program, int& exit_code);
 void add_boundary(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
+void add_sweep(CLI::App& program, int& exit_code);
+void add_merge(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program, int& exit_code);
 void add_verify(CLI::App& program, int& exit_code);

@@ -73,6 +73,8 @@ int run(int argc, char** argv) {
   add_events(program, exit_code);
   add_boundary(program, exit_code);
   add_map(program, exit_code);
+  add_sweep(program, exit_code);
+  add_merge(program, exit_code);
   add_info(program, exit_code);
   add_verify(program, exit_code);
   add_accuracy(program, exit_code);

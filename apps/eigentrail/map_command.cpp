@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "check_output.hpp"
 #include "commands.hpp"
@@ -14,6 +15,7 @@
 #include "eigentrail/store/output_file.hpp"
 #include "map_picture.hpp"
 #include "output.hpp"
+#include "parts.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
 #include "values.hpp"
@@ -22,11 +24,10 @@ namespace eigentrail::app {
 namespace {
 
 struct MapArguments : SceneArguments {
-  std::string output;
+  OutputChoice output;
+  std::optional<Part> part;
   std::string from, to;  ///< of the second parameter
   std::string grid = "50";
-  bool force = false;
-  bool quiet = false;
   MapOptions options;
   std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
 };
@@ -46,36 +47,6 @@ void read_grid(const std::string& text, MapOptions& options) {
   const std::size_t cross = text.find('x');
   options.n_second = number(0, std::min(cross, text.size()));
   options.n_first = cross == std::string::npos ? options.n_second : number(cross + 1, text.size());
-}
-
-/// Notes for the user on lines that are incomplete: for each kind the number of lines and the first one.
-std::vector<std::string> notes_about(const StabilityMap& map, const MapSetup& setup) {
-  std::vector<std::string> notes;
-  const auto note = [&](const std::string& what, auto&& applies, bool with_reason) {
-    const auto first = std::find_if(map.lines.begin(), map.lines.end(), applies);
-    const auto count = std::count_if(map.lines.begin(), map.lines.end(), applies);
-    if (count == 0) return;
-    notes.push_back(std::to_string(count) + " of " + std::to_string(map.lines.size()) + " lines " + what +
-                    ", first at " + setup.options.second + " = " + rounded(first->second) +
-                    (with_reason ? ": " + first->message : ""));
-  };
-  note(
-      "could not be begun; their cells are unknown",
-      [](const MapLine& line) { return !has_started(line.status); }, true);
-  note(
-      "ended early; cells beyond are unknown",
-      [](const MapLine& line) { return has_started(line.status) && line.status != TraceStatus::completed; },
-      true);
-  note(
-      "miss a mode somewhere; their cells there are unknown",
-      [](const MapLine& line) { return line.doubtful_cells > 0; }, false);
-  note(
-      "turn back at a fold; their cells show the first passage",
-      [](const MapLine& line) { return line.turned_back; }, false);
-  note(
-      "followed some of their modes only and speak of these",
-      [](const MapLine& line) { return line.n_modes < line.n_available; }, false);
-  return notes;
 }
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -103,6 +74,7 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
 /// vectors on the companion form of size 2n takes 30 (2n)^3 (Golub and Van Loan, section 7.7).
 constexpr int lu_per_qz = 90;
 
+/// `seconds`: wall time; NaN if it is not known.
 void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
   Eigen::Index size = 0;
   for (const MapLine& line : map.lines) size = std::max(size, line.n_independent);
@@ -113,12 +85,12 @@ void print_work(const StabilityMap& map, const MapTotals& totals, double seconds
       map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
       static_cast<long long>(size) + 1,
       rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str(), lu_per_qz);
+  if (std::isnan(seconds)) return;
   std::printf("  time  %s s: %s ms per cell\n", rounded(seconds, 3).c_str(),
               rounded(1e3 * seconds / cells, 3).c_str());
 }
 
-void print_summary(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes,
-                   double seconds) {
+void print_summary(const MapSetup& setup, const StabilityMap& map, double seconds) {
   const TraceSetup& trace = setup.trace;
   const MapOptions& options = setup.options;
   const auto window = [&](const std::string& name, double from, double to) {
@@ -135,7 +107,8 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, const std::ve
   std::printf("  . no mode grows, 1 2 ... growing modes, ? unknown\n");
   const MapTotals totals = total(map);
   print_shares(map, totals);
-  for (const std::string& note : notes) std::printf("  note  %s\n", printable(note).c_str());
+  for (const std::string& note : notes_on(map, options.second))
+    std::printf("  note  %s\n", printable(note).c_str());
   print_work(map, totals, seconds);
 }
 
@@ -146,7 +119,43 @@ std::string failure(const StabilityMap& map) {
          (message.empty() ? "the trace missed a mode" : message);
 }
 
-int run_map(MapArguments& arguments) {
+/// Writes the map of lines that have all been computed, and prints its summary.
+int finish_map(const MapSetup& setup, const std::vector<std::string>& lines, const OutputChoice& output,
+               double seconds) {
+  const StabilityMap map = map_of(setup, lines);
+  const MapTotals totals = total(map);
+  if (totals.unknown == totals.cells) {
+    std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
+                 printable(failure(map)).c_str());
+    return numbers_failed;
+  }
+  write_map(output.path, setup, map);
+  if (!output.quiet) {
+    print_summary(setup, map, seconds);
+    std::printf("wrote %s\n", output.path.c_str());
+  }
+  return done;
+}
+
+SharedRun shared_run(const MapSetup& setup, const MapArguments& arguments) {
+  const MapOptions& options = setup.options;
+  SharedRun run{"map", setup.trace.scene.path, settings_of(setup.trace.scene),
+                static_cast<std::size_t>(options.n_second)};
+  run.settings.insert(run.settings.end(), {{"--second", options.second},
+                                           {"--from", exact_text(options.from)},
+                                           {"--to", exact_text(options.to)},
+                                           {"lines", std::to_string(options.n_second)},
+                                           {"cells", std::to_string(options.n_first)}});
+  for (const auto& [key, text] : arguments.trace_options) run.settings.emplace_back("option " + key, text);
+  return run;
+}
+
+void check_map_output(const OutputChoice& output) {
+  check_output(output.path, output.force, {map_format, "stability map"});
+  check_can_create(output.path);
+}
+
+int run_map(MapArguments& arguments, Team& team) {
   read_grid(arguments.grid, arguments.options);
   Scene scene = given_scene(arguments);
   const auto index = scene.parameters.index(arguments.options.second);
@@ -157,31 +166,45 @@ int run_map(MapArguments& arguments) {
       std::move(scene), {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
   warn_of_unused(setup.trace.scene, *setup.trace.model);
   check_map_names(setup);
-  check_output(arguments.output, arguments.force, {map_format, "stability map"});
-  check_can_create(arguments.output);
-  ProgressBar progress(arguments.quiet);
+  if (team.leads()) arguments.part ? check_part_output(arguments.output) : check_map_output(arguments.output);
+  const auto workers = team.workers(setup.options.jobs);
+  const std::vector<std::size_t> numbers =
+      arguments.part.value_or(Part{}).pieces(static_cast<std::size_t>(setup.options.n_second));
+  ProgressBar progress(arguments.output.quiet);
   const auto start = std::chrono::steady_clock::now();
-  const StabilityMap map = stability_map(setup, [&](int lines) {
-    progress.update(static_cast<double>(lines) / setup.options.n_second, lines, "lines");
+  std::vector<std::string> lines = map_lines(setup, numbers, *workers, [&](std::size_t finished) {
+    progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
+                    static_cast<int>(finished), "lines");
   });
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const MapTotals totals = total(map);
-  if (totals.unknown == totals.cells) {
-    std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
-                 printable(failure(map)).c_str());
-    return numbers_failed;
-  }
-  const std::vector<std::string> notes = notes_about(map, setup);
-  write_map(arguments.output, setup, map, notes);
-  if (!arguments.quiet) {
-    print_summary(setup, map, notes, seconds);
-    std::printf("wrote %s\n", arguments.output.c_str());
-  }
+  if (!team.leads()) return done;
+  if (!arguments.part) return finish_map(setup, lines, arguments.output, seconds);
+  write_part(arguments.output, shared_run(setup, arguments), *arguments.part, std::move(lines));
   return done;
 }
 
 }  // namespace
+
+int merge_map(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
+              Team& team) {
+  if (!team.leads()) return done;
+  MapOptions options;
+  options.second = run.setting("--second").value_or("");
+  options.from = number_of(run, "--from");
+  options.to = number_of(run, "--to");
+  options.n_second = static_cast<int>(number_of(run, "lines"));
+  options.n_first = static_cast<int>(number_of(run, "cells"));
+  OptionTexts overrides;
+  const std::string prefix = "option ";
+  for (const auto& [label, text] : run.settings) {
+    if (label.starts_with(prefix)) overrides.emplace_back(label.substr(prefix.size()), text);
+  }
+  const MapSetup setup =
+      read_map_setup(parse_scene(run.setting("scene").value_or(""), run.scene_path), overrides, options);
+  check_map_output(output);
+  return finish_map(setup, pieces, output, std::nan(""));
+}
 
 void add_map(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<MapArguments>();
@@ -195,8 +218,9 @@ void add_map(CLI::App& program, int& exit_code) {
   command->add_option("--to", arguments->to, "last value of the second parameter")->required();
   command->add_option("--grid", arguments->grid,
                       "N values of both, or NxM: N of the second by M of the first (50)");
-  auto* output = command->add_option("-o,--output", arguments->output,
+  auto* output = command->add_option("-o,--output", arguments->output.path,
                                      "map file to write (HDF5); default: SCENE_map.h5, here");
+  add_part(*command, arguments->part);
   for (const auto& [flag, key, help] :
        {std::array{"--parameter", "parameter", "name of the first parameter: the one that is traced"},
         std::array{"--first-from", "from", "where the window of the first parameter begins"},
@@ -213,15 +237,16 @@ void add_map(CLI::App& program, int& exit_code) {
       "--no-certify", [arguments] { arguments->trace_options["certify"] = "false"; },
       "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
   command->add_option("--jobs", options.jobs, "threads; 0: one per core");
-  command->add_flag("--force", arguments->force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
+  command->add_flag("--force", arguments->output.force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
   command->footer(
       "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
       "40x80 -o "
       "drag.h5");
   command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0) arguments->output = beside(arguments->scene, "_map.h5");
-    exit_code = run_map(*arguments);
+    if (output->count() == 0)
+      arguments->output.path = default_output(arguments->scene, "_map", arguments->part);
+    exit_code = together([&](Team& team) { return run_map(*arguments, team); });
   });
 }
 

@@ -52,9 +52,10 @@ void add_new(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("new", "write a commented scene to start from");
   command->add_option("SCENE", arguments->output, "scene file to write (TOML)")->required();
   command
-      ->add_option(
-          "--starter", arguments->starter,
-          "blade: bodies, hinges and a rotating frame; pendulum: a point on a rod; matrices: M, C, K")
+      ->add_option("--starter", arguments->starter,
+                   "blade: bodies, hinges and a rotating frame; pendulum: a point on a rod; rotor: a shaft "
+                   "with discs in "
+                   "bearings; matrices: M, C, K")
       ->capture_default_str();
   command->footer("Examples:\n  eigentrail new blade.toml\n  eigentrail new flutter.toml --starter matrices");
   command->callback([arguments, &exit_code] { exit_code = run_new(*arguments); });

@@ -93,7 +93,7 @@ std::string cell_text(const std::string& text) {
   return line.substr(0, head) + " ... " + line.substr(tail);
 }
 
-void print_table(const std::vector<std::vector<std::string>>& rows) {
+void print_table(const std::vector<std::vector<std::string>>& rows, std::FILE* to) {
   // Width in characters: continuation bytes of UTF-8 do not count.
   const auto width = [](const std::string& text) {
     return static_cast<std::size_t>(
@@ -111,7 +111,7 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
       if (i + 1 < row.size()) line += std::string(widths[i] - width(row[i]), ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
-    std::printf("%s\n", line.c_str());
+    std::fprintf(to, "%s\n", line.c_str());
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,6 @@ std::array<bool, 2> is_cut(const EventInterval& interval, double from, double to
 std::string cell_text(const std::string& text);
 
 /// Prints rows with aligned columns, two spaces apart, indented by two.
-void print_table(const std::vector<std::vector<std::string>>& rows);
+void print_table(const std::vector<std::vector<std::string>>& rows, std::FILE* to = stdout);
 
 }  // namespace eigentrail::app

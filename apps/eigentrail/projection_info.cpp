@@ -23,10 +23,10 @@ void print_projection(const Projection& projection, const std::string& parameter
   for (const std::string& note : projection.notes) std::printf("        %s\n", note.c_str());
 }
 
-void print_route(const ProjectionEstimate& estimate, const TraceOptions& options) {
+void print_route(const ProjectionEstimate& estimate, const TraceOptions& options, std::FILE* to) {
   const auto megabytes = [](double bytes) { return rounded(bytes / 1e6, 3) + " MB"; };
   const std::string followed = in_words(options.modes);
-  std::printf("route\n");
+  std::fprintf(to, "route\n");
   print_table(
       {{"  model", std::to_string(estimate.freedoms) + " freedoms, " + std::to_string(estimate.nonzeros) +
                        " nonzeros in M, C and K together"},
@@ -38,7 +38,8 @@ void print_route(const ProjectionEstimate& estimate, const TraceOptions& options
        {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"},
        {"  error", "of the projection below " + rounded(estimate.target, 3) +
                        " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
-                       " is that of the large model"}});
+                       " is that of the large model"}},
+      to);
 }
 
 }  // namespace eigentrail::app

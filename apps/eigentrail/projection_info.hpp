@@ -1,6 +1,7 @@
 // What the program says of large models and their projections.
 #pragma once
 
+#include <cstdio>
 #include <string>
 
 #include "eigentrail/projection/project.hpp"
@@ -11,6 +12,6 @@ namespace eigentrail::app {
 void print_projection(const Projection& projection, const std::string& parameter);
 
 /// What `explain` says before anything is factored.
-void print_route(const ProjectionEstimate& estimate, const TraceOptions& options);
+void print_route(const ProjectionEstimate& estimate, const TraceOptions& options, std::FILE* to);
 
 }  // namespace eigentrail::app

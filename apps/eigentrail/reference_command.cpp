@@ -88,6 +88,7 @@ EffectHelp sampled_family_help() {
 
 std::vector<EffectHelp> whole_reference() {
   std::vector<EffectHelp> all = {trace_help(), events_help(), matrix_family_help(), sampled_family_help()};
+  for (EffectHelp& table : rotor_reference()) all.push_back(std::move(table));
   for (EffectHelp& effect : effect_reference()) all.push_back(std::move(effect));
   return all;
 }

@@ -18,6 +18,7 @@
 #include "interruption.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
+#include "trace_flags.hpp"
 #include "trace_summary.hpp"
 
 namespace eigentrail::app {
@@ -174,12 +175,6 @@ int run_trace(const TraceArguments& arguments) {
   return done;
 }
 
-/// The command line flag of an option of the trace: "max_step" becomes --max-step.
-std::string flag(std::string key) {
-  std::replace(key.begin(), key.end(), '_', '-');
-  return "--" + key;
-}
-
 }  // namespace
 
 void add_trace(CLI::App& program, int& exit_code) {
@@ -205,17 +200,7 @@ void add_trace(CLI::App& program, int& exit_code) {
   auto* quiet = command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no summary");
   command->add_flag("--verbose", arguments->verbose, "the summary with all figures of the work")
       ->excludes(quiet);
-  TraceOptions defaults;
-  TraceOptions::fields(defaults, [&](const char* key, const char* help, const auto&) {
-    const std::string name = key;
-    if (name == "certify") return;  // a flag, below
-    command->add_option_function<std::string>(
-        flag(name), [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        std::string(help) + " (overrides the scene)");
-  });
-  command->add_flag_callback(
-      "--no-certify", [arguments] { arguments->options["certify"] = "false"; },
-      "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
+  add_trace_options(*command, arguments->options);
   command
       ->add_option("--threads", arguments->threads,
                    "threads that share the modes of a point; 0: one per core (results are the same)")

@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/modes/whirl.hpp"
 #include "frequency_unit.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
 #include "ranges.hpp"
-#include "whirl.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -119,11 +119,18 @@ bool is_onset(EventKind kind) {
   return kind == EventKind::flutter || kind == EventKind::divergence;
 }
 
+/// "forward", "backward", "mixed" or "" for the mode of an event.
+std::string whirl_at(const TraceSetup& setup, const Event& event) {
+  Vector values = setup.scene.parameters.declared_values();
+  values[setup.traced()] = event.p;
+  return whirl_in_words(whirl_of(*setup.model, values, event.shape));
+}
+
 /// "1x, forward" for a resonance with the first harmonic; its mode, frequency and damping.
 std::vector<std::string> critical_speed_row(const TraceSummary& trace, const Found& found,
                                             const FrequencyUnit& unit) {
   const Event& event = found.event;
-  const std::string whirl = whirl_direction(trace.setup, event);
+  const std::string whirl = whirl_at(trace.setup, event);
   const auto cells = motion_cells(event.s, unit, 0.0);
   return {"    " + rounded(event.value) + "x" + (whirl.empty() ? "" : ", " + whirl),
           trace.setup.options.parameter + " = " + rounded(event.p, 12),

@@ -4,9 +4,10 @@ import re
 
 CONTENTS = {
     "Start": ["install", "first-trace", "commands", "glossary"],
-    "Describe a system": ["scene", "scene-tables", "scenes/README"],
-    "Models of other programs": ["bring-your-own-matrices", "large-models", "sampled-families", "state-space", "openfast"],
-    "Read the results": ["events", "boundaries", "stability-map", "report", "plots"],
+    "Describe a system": ["scene", "rotor", "scene-tables", "scenes/README"],
+    "Models of other programs": ["bring-your-own-matrices", "large-models", "sampled-families", "state-space", "openfast",
+                                 "coming-from-ross", "coming-from-matlab"],
+    "Read the results": ["events", "boundaries", "stability-map", "many-machines", "report", "plots"],
     "Use the numbers": ["loci-file", "python", "notebooks/*", "cpp"],
     "Trust them": ["how-it-works", "accuracy", "reliability"],
     "For developers": ["developers/README"],

@@ -1,6 +1,7 @@
 #include "eigentrail/accuracy/verify.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,14 +19,24 @@
 namespace eigentrail {
 namespace {
 
-/// The file with the matrices of a scene, as the scene names it; empty if they stand in the scene.
+/// The text that a key of a table has; empty if it has none.
+std::string text_of(const Table& table, const char* key) {
+  const Value* value = table.find(key);
+  const auto* text = value != nullptr ? std::get_if<std::string>(&value->data) : nullptr;
+  return text == nullptr ? "" : *text;
+}
+
+/// The file with the matrices of a scene, or the first table of a rotor, as the scene names it; empty if they
+/// stand in the scene.
 std::string file_of_matrices(const Scene& scene) {
-  const Value* family = scene.root.find("matrix_family");
-  if (family == nullptr) family = scene.root.find("sampled_family");
-  const auto* table = family != nullptr ? std::get_if<Table>(&family->data) : nullptr;
-  const Value* file = table != nullptr ? table->find("file") : nullptr;
-  const auto* name = file != nullptr ? std::get_if<std::string>(&file->data) : nullptr;
-  return name == nullptr ? "" : *name;
+  constexpr std::array<std::pair<const char*, const char*>, 4> keys{
+      {{"matrix_family", "file"}, {"sampled_family", "file"}, {"shaft", "stations"}, {"bearing", "table"}}};
+  for (const auto& [name, key] : keys) {
+    for (const Table* table : tables(scene, name)) {
+      if (const std::string file = text_of(*table, key); !file.empty()) return file;
+    }
+  }
+  return "";
 }
 
 /// Where the scene of a loci file may be: its path as it was given to the trace, seen from here, from the

@@ -102,6 +102,7 @@ class ArchiveWriter {
     append(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(typename Dense::Scalar));
   }
   void write(const Eigen::Matrix3d& matrix) { append(matrix.data(), 9 * sizeof(double)); }
+  void write(const Eigen::Vector2d& vector) { append(vector.data(), 2 * sizeof(double)); }
   void write(const SystemMatrix& matrix) {
     write(matrix.is_sparse());
     if (!matrix.is_sparse()) return write_dense(matrix.dense());
@@ -238,6 +239,7 @@ class ArchiveReader {
     take(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
   }
   void read(Eigen::Matrix3d& matrix) { take(matrix.data(), 9 * sizeof(double)); }
+  void read(Eigen::Vector2d& vector) { take(vector.data(), 2 * sizeof(double)); }
   void read(SystemMatrix& matrix) {
     bool is_sparse = false;
     read(is_sparse);
@@ -264,5 +266,21 @@ class ArchiveReader {
 
   std::string_view left_;
 };
+
+/// The bytes of values.
+template <class... T>
+std::string packed(const T&... values) {
+  ArchiveWriter archive;
+  archive(values...);
+  return archive.bytes();
+}
+
+/// Reads values that are all that `bytes` hold. Throws ArchiveError.
+template <class... T>
+void unpack(std::string_view bytes, T&... values) {
+  ArchiveReader archive(bytes);
+  archive(values...);
+  archive.finish();
+}
 
 }  // namespace eigentrail

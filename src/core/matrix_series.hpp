@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <vector>
 
+#include "core/thin_product.hpp"
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
@@ -22,7 +23,7 @@ std::vector<Coefficient> multiply_series(const std::vector<Coefficient>& A, cons
                                          std::size_t count) {
   std::vector<Coefficient> product(count, Coefficient::Zero(A[0].rows(), B[0].cols()));
   for (std::size_t i = 0; i < A.size(); ++i) {
-    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) product[i + j].noalias() += A[i] * B[j];
+    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) product[i + j] += thin_product(A[i], B[j]);
   }
   return product;
 }

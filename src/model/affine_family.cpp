@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/transposition.hpp"
+#include "model/rotor/tabulated_factor.hpp"
 
 namespace eigentrail {
 namespace {
@@ -31,6 +32,13 @@ std::vector<Series<Real, Q>> si_series(const Parameters& parameters, const Basic
   return si;
 }
 
+/// The factor of a summand for given values of the parameters (SI).
+template <class Scalar, class Storage>
+Scalar factor_of(const AffineTerm<Storage>& term, std::span<const Scalar> si) {
+  const Scalar value = term.factor.evaluate(si);
+  return term.table ? (*term.table)(value) : value;
+}
+
 /// Coefficients of a sum along the path up to h^order, without trailing zeros. All sparse coefficients have
 /// the pattern of the whole sum.
 template <class Real, int Q, class Storage>
@@ -42,7 +50,7 @@ auto evaluate_sum(const std::vector<AffineTerm<Storage>>& terms, Eigen::Index n,
   std::vector<Scalar> factors;
   std::size_t count = 1;
   for (const AffineTerm<Storage>& term : terms) {
-    const Scalar& factor = factors.emplace_back(term.factor.evaluate(std::span<const Scalar>(si)));
+    const Scalar& factor = factors.emplace_back(factor_of(term, std::span<const Scalar>(si)));
     for (int k = 0; k <= order; ++k) {
       finite = finite && isfinite(factor[k]);
       if (factor[k] != Real(0.0)) count = std::max(count, static_cast<std::size_t>(k) + 1);
@@ -105,11 +113,12 @@ template <class Storage>
 AffinePencil<Storage> AffineFamily<Storage>::at(const Vector& parameters) const {
   const auto si = si_series<double, 0>(description().parameters, {parameters, {}, {}});
   AffinePencil<Storage> result;
-  const auto sum = [&](const std::vector<AffineTerm<Storage>>& terms) -> std::vector<AffineTerm<Storage>> {
-    Storage total = StorageOf<double, Storage>::zero(n_coordinates());
+  const auto sum = [&](const std::vector<AffineTerm<Storage>>& terms) {
+    std::vector<AffineTerm<Storage>> one(1);
+    one.front().matrix = StorageOf<double, Storage>::zero(n_coordinates());
     for (const AffineTerm<Storage>& term : terms)
-      total += term.factor.evaluate(std::span<const Series<double, 0>>(si))[0] * term.matrix;
-    return {{1.0, std::move(total)}};
+      one.front().matrix += factor_of(term, std::span<const Series<double, 0>>(si))[0] * term.matrix;
+    return one;
   };
   return {sum(pencil_.M), sum(pencil_.C), sum(pencil_.K)};
 }
@@ -194,6 +203,8 @@ std::vector<Expression> AffineFamily<Storage>::expressions() const {
   std::vector<Expression> all;
   for (const auto* terms : {&pencil_.M, &pencil_.C, &pencil_.K}) {
     for (const AffineTerm<Storage>& term : *terms) {
+      // A tabulated factor is as smooth as the steps between the rows of its table.
+      if (term.table) continue;
       const bool known = std::find(all.begin(), all.end(), term.factor) != all.end();
       if (!term.factor.is_constant() && !known) all.push_back(term.factor);
     }

@@ -5,13 +5,13 @@
 
 namespace eigentrail {
 
-std::string beside_scene(const Scene& scene, TableReader& table) {
+std::string beside_scene(const Scene& scene, TableReader& table, const std::string& key) {
   namespace fs = std::filesystem;
-  const std::string name = table.text("file");
+  const std::string name = table.text(key);
   const fs::path path(name);
   const bool leaves = std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
   if (path.is_absolute() || leaves || name.empty()) {
-    table.fail("file", "expected a file in the scene's folder or below it, found \"" + name + "\"");
+    table.fail(key, "expected a file in the scene's folder or below it, found \"" + name + "\"");
   }
   const fs::path beside = fs::path(scene.path).parent_path();
   std::error_code error;
@@ -21,8 +21,8 @@ std::string beside_scene(const Scene& scene, TableReader& table) {
   const bool within =
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   if (!error && !within) {
-    table.fail("file", "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
-                           "; expected a file in the folder or below it");
+    table.fail(key, "\"" + name + "\" leads out of the scene's folder, to " + file.string() +
+                        "; expected a file in the folder or below it");
   }
   return (beside / path).string();
 }

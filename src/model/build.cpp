@@ -6,6 +6,7 @@
 #include "model/draft.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
+#include "model/rotor/read_rotor.hpp"
 #include "model/sampled_family.hpp"
 
 namespace eigentrail {
@@ -30,19 +31,33 @@ void check_entries(const Scene& scene, const ModelRequest& request) {
 }  // namespace
 
 void check_top_level(const Scene& scene) {
-  std::vector<std::string> known = {"title",  "parameters",    "trace",
-                                    "events", "matrix_family", "sampled_family"};
-  const char* family = scene.root.find("matrix_family") != nullptr ? "matrix_family" : "sampled_family";
-  if (!is_matrix_family(scene)) {
-    for (const EffectHelp& effect : effect_reference()) known.push_back(effect.name);
-  } else {
-    std::erase_if(known,
-                  [family](const std::string& key) { return key.ends_with("_family") && key != family; });
+  std::vector<std::string> known = {"title", "parameters", "trace", "events"};
+  std::string family;
+  for (const char* name : {"shaft", "sampled_family", "matrix_family"}) {
+    if (scene.root.find(name) != nullptr) family = name;
   }
+  if (family.empty()) {
+    known.insert(known.end(), {"matrix_family", "sampled_family"});
+    for (const EffectHelp& effect : effect_reference()) known.push_back(effect.name);
+  } else if (family != "shaft") {
+    known.push_back(family);
+  }
+  if (family.empty() || family == "shaft") {
+    for (const std::string& name : rotor_tables()) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+    }
+  }
+  const std::string heading = family == "shaft" ? "[[shaft]]" : "[" + family + "]";
   for (const auto& [key, value] : scene.root.entries) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::string kind = is_matrix_family(scene) ? " in a scene with [" + std::string(family) + "]" : "";
+    const std::string kind = family.empty() ? "" : " in a scene with " + heading;
     throw scene_error(scene, value.where, key + ": unknown key" + kind + "; " + suggestion(key, known));
+  }
+  for (const char* name : {"disc", "support"}) {
+    const Value* value = scene.root.find(name);
+    if (value != nullptr && !is_rotor(scene))
+      throw scene_error(scene, value->where,
+                        std::string("[[") + name + "]]: belongs to a [[shaft]], and the scene has none");
   }
 }
 
@@ -54,13 +69,19 @@ bool is_matrix_family(const Scene& scene) {
   return scene.root.find("matrix_family") != nullptr || scene.root.find("sampled_family") != nullptr;
 }
 
+bool is_rotor(const Scene& scene) {
+  return scene.root.find("shaft") != nullptr;
+}
+
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
   check_top_level(scene);
-  if (!is_matrix_family(scene)) return read_multibody(scene, request);
+  if (!is_matrix_family(scene) && !is_rotor(scene)) return read_multibody(scene, request);
   if (!request.without.empty()) {
     throw without_error(scene, request.without.front(),
-                        "cannot be left out: a family of matrices has no effects");
+                        is_rotor(scene) ? "cannot be left out of a rotor; leave out its tables"
+                                        : "cannot be left out: a family of matrices has no effects");
   }
+  if (is_rotor(scene)) return read_rotor(scene, request);
   if (scene.root.find("sampled_family") != nullptr)
     return read_sampled_family(scene, request.used_elsewhere, request.check_at);
   std::unique_ptr<Model> model = read_matrix_family(scene, request.used_elsewhere);

@@ -266,6 +266,23 @@ std::optional<Eigen::Vector3d> axis_of(const Draft& draft, const ExpressionVecto
   return std::nullopt;
 }
 
+/// The discs that spin about an axis of a body: a direction that is one of its directors.
+std::vector<SpinningAxis> spinning_axes(const Draft& draft) {
+  std::vector<SpinningAxis> result;
+  for (const Placed<SpinningDisc>& disc :
+       std::get<std::vector<Placed<SpinningDisc>>>(draft.data.elements.lists)) {
+    const std::vector<Term>& terms = disc.element.axis.terms;
+    if (terms.size() != 1) continue;
+    for (const BodyDraft& body : draft.bodies) {
+      const int director = terms.front().triple - body.triple;
+      if (director >= 1 && director <= 3)
+        result.push_back({3 * Eigen::Index{body.triple}, 3 * Eigen::Index{terms.front().triple},
+                          disc.element.speed.expression});
+    }
+  }
+  return result;
+}
+
 ModelDescription describe(const Draft& draft) {
   ModelDescription description;
   const auto add = [&](const std::string& name, const char* unit) {
@@ -287,6 +304,7 @@ ModelDescription describe(const Draft& draft) {
   for (auto [names, of_states] : {std::pair(&description.coordinate_names, &draft.state_names),
                                   std::pair(&description.coordinate_units, &draft.state_units)})
     names->insert(names->end(), of_states->begin(), of_states->end());
+  description.spins = spinning_axes(draft);
   description.constraint_names = draft.constraint_names;
   description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {

@@ -3,10 +3,10 @@
 
 #include <memory>
 
+#include "core/hdf5_file.hpp"
 #include "eigentrail/model/model.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
-#include "core/hdf5_file.hpp"
 #include "eigentrail/scene/scene.hpp"
 #include "model/sample_interpolation.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/thin_product.hpp"
 #include "modes/pair_set.hpp"
 
 namespace eigentrail {
@@ -21,7 +22,7 @@ void times_blocks(const PairSet& pairs, const ComplexMatrix& Lambda, ComplexMatr
     if (place.size == 1) {
       columns *= Lambda(0, place.first);
     } else {
-      columns = (columns * pairs.block(Lambda, place)).eval();
+      columns = thin_product(columns, pairs.block(Lambda, place));
     }
   }
 }
@@ -41,6 +42,10 @@ ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const 
   return slope + multiply_many(K, pairs.Z);
 }
 
+ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
+  return residual(pencil.M, pencil.C, pencil.K, pairs);
+}
+
 namespace {
 
 /// Products of the blocks of A and B, pair by pair.
@@ -52,10 +57,6 @@ ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, cons
   return product;
 }
 
-ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
-  return residual(pencil.M, pencil.C, pencil.K, pairs);
-}
-
 /// I - (W0^H Z + W1^H Z Lambda), pair by pair.
 ComplexMatrix normalization_defect(const PairSet& pairs) {
   const Eigen::Index n = pairs.Z.rows();
@@ -65,8 +66,9 @@ ComplexMatrix normalization_defect(const PairSet& pairs) {
     const auto W = pairs.W.middleCols(place.first, place.size);
     auto block = defect.block(0, place.first, place.size, place.size);
     block.setIdentity();
-    block -= W.topRows(n).adjoint() * Z;
-    if (place.size > 1) block -= (W.bottomRows(n).adjoint() * Z) * pairs.block(pairs.Lambda, place);
+    block -= thin_product(W.topRows(n).adjoint(), Z);
+    if (place.size > 1)
+      block -= thin_product(thin_product(W.bottomRows(n).adjoint(), Z), pairs.block(pairs.Lambda, place));
   }
   return defect;
 }
@@ -128,9 +130,9 @@ bool has_blocks(const PairSet& pairs) {
 /// Chord-Newton on all pairs. Afterwards `basis` is the basis of the last iterate that was factored, close to
 /// the corrected pairs.
 bool newton(const PencilAtPoint& pencil, double reference, const CorrectorOptions& options, PairSet& pairs,
-            std::optional<ModalBasis>& basis, ModeCounts& counts) {
+            std::optional<Matrix>& leading_inverse, std::optional<ModalBasis>& basis, ModeCounts& counts) {
   const auto factor = [&] {
-    basis = ModalBasis::from(pencil, pairs);
+    basis = ModalBasis::from(pencil, pairs, leading_inverse);
     ++counts.modal_bases;
     if (basis) basis->prepare_division(pairs);
     return basis.has_value();
@@ -182,9 +184,10 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
                                             std::vector<InvariantPair>& corrected) {
   PairSet pairs = side_by_side(starts, reference);
   if (!pairs.Z.allFinite() || !pairs.Lambda.allFinite()) return nullptr;
+  std::optional<Matrix> leading_inverse;
   std::optional<ModalBasis> basis;
-  if (!newton(pencil, reference, options, pairs, basis, counts)) return nullptr;
-  basis = ModalBasis::from(pencil, pairs);
+  if (!newton(pencil, reference, options, pairs, leading_inverse, basis, counts)) return nullptr;
+  basis = ModalBasis::from(pencil, pairs, leading_inverse);
   ++counts.modal_bases;
   if (!basis) return nullptr;
   basis->prepare_division(pairs);
@@ -216,10 +219,7 @@ class AllEquations {
   std::vector<ComplexMatrix> Z, Lambda;
 
   AllEquations(const ReducedPencil& pencil, const PairSet& pairs, int order)
-      : pencil_(pencil),
-        pairs_(pairs),
-        undamped_(
-            std::all_of(pencil.C.begin(), pencil.C.end(), [](const Matrix& C) { return C.isZero(0.0); })) {
+      : pencil_(pencil), pairs_(pairs), undamped_(are_zero(pencil.C)), massless_(are_zero(pencil.M)) {
     const auto count = static_cast<std::size_t>(order) + 1;
     const ComplexMatrix none_Z = ComplexMatrix::Zero(pairs.Z.rows(), pairs.Z.cols());
     const ComplexMatrix none_L = ComplexMatrix::Zero(pairs.Lambda.rows(), pairs.Lambda.cols());
@@ -235,26 +235,27 @@ class AllEquations {
 
   /// Coefficient j of the residuals and normalizations with Z_j = Lambda_j = 0.
   void known_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) {
-    MZ_[j] = product(pencil_.M, j);
+    if (!massless_) MZ_[j] = product(pencil_.M, j);
     if (!undamped_) CZ_[j] = product(pencil_.C, j);
     residual = product(pencil_.K, j);
-    ComplexMatrix inner = ComplexMatrix::Zero(square_[0].rows(), square_[0].cols());
-    for (std::size_t i = 1; i < j; ++i) inner += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
-    residual += with_blocks(pairs_, MZ_[j], square_[0]) + with_blocks(pairs_, MZ_[0], inner);
-    if (!undamped_) residual += with_blocks(pairs_, CZ_[j], Lambda[0]);
-    for (std::size_t i = 1; i < j; ++i) {
-      residual += with_blocks(pairs_, MZ_[j - i], square_[i]);
-      if (!undamped_) residual += with_blocks(pairs_, CZ_[j - i], Lambda[i]);
+    if (!massless_) {
+      ComplexMatrix inner = ComplexMatrix::Zero(square_[0].rows(), square_[0].cols());
+      for (std::size_t i = 1; i < j; ++i) inner += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
+      residual += with_blocks(pairs_, MZ_[j], square_[0]) + with_blocks(pairs_, MZ_[0], inner);
+      for (std::size_t i = 1; i < j; ++i) residual += with_blocks(pairs_, MZ_[j - i], square_[i]);
     }
-    defect = ComplexMatrix::Zero(inner.rows(), inner.cols());
+    if (!undamped_) {
+      for (std::size_t i = 0; i < j; ++i) residual += with_blocks(pairs_, CZ_[j - i], Lambda[i]);
+    }
+    defect = ComplexMatrix::Zero(Lambda[0].rows(), Lambda[0].cols());
     const Eigen::Index n = pairs_.Z.rows();
     for (const PairSet::Place& place : pairs_.places) {
       if (place.size == 1) continue;
       const auto W1 = pairs_.W.bottomRows(n).middleCols(place.first, place.size);
       auto block = defect.block(0, place.first, place.size, place.size);
       for (std::size_t i = 1; i < j; ++i) {
-        block +=
-            W1.adjoint() * (Z[i].middleCols(place.first, place.size) * pairs_.block(Lambda[j - i], place));
+        block += thin_product(W1.adjoint(), thin_product(Z[i].middleCols(place.first, place.size),
+                                                         pairs_.block(Lambda[j - i], place)));
       }
     }
   }
@@ -262,35 +263,45 @@ class AllEquations {
   /// Adds the terms in Z_j and Lambda_j to them.
   void unknown_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) const {
     const PencilAtPoint pencil(pencil_);
-    ComplexMatrix slope = with_blocks(pairs_, multiply_many(pencil.M, Z[j]), Lambda[0]);
-    slope += with_blocks(pairs_, MZ_[0], Lambda[j]);
-    if (!undamped_) slope += multiply_many(pencil.C, Z[j]);
+    ComplexMatrix slope = ComplexMatrix::Zero(Z[j].rows(), Z[j].cols());
+    ComplexMatrix by_value = slope;
+    if (!massless_) {
+      slope = with_blocks(pairs_, multiply_many(pencil.M, Z[j]), Lambda[0]);
+      slope += with_blocks(pairs_, MZ_[0], Lambda[j]);
+      by_value = with_blocks(pairs_, MZ_[0], Lambda[0]);
+    }
+    if (!undamped_) {
+      slope += multiply_many(pencil.C, Z[j]);
+      by_value += CZ_[0];
+    }
     residual += with_blocks(pairs_, slope, Lambda[0]) + multiply_many(pencil.K, Z[j]);
-    ComplexMatrix by_value = MZ_[0];
-    times_blocks(pairs_, Lambda[0], by_value);
-    if (!undamped_) by_value += CZ_[0];
     residual += with_blocks(pairs_, by_value, Lambda[j]);
     const Eigen::Index n = pairs_.Z.rows();
     for (const PairSet::Place& place : pairs_.places) {
       const auto X = Z[j].middleCols(place.first, place.size);
       const auto W = pairs_.W.middleCols(place.first, place.size);
       auto block = defect.block(0, place.first, place.size, place.size);
-      block += W.topRows(n).adjoint() * X;
+      block += thin_product(W.topRows(n).adjoint(), X);
       if (place.size == 1) continue;
-      block += W.bottomRows(n).adjoint() *
-               (X * pairs_.block(Lambda[0], place) +
-                Z[0].middleCols(place.first, place.size) * pairs_.block(Lambda[j], place));
+      const auto Z0 = Z[0].middleCols(place.first, place.size);
+      const ComplexMatrix ZL =
+          thin_product(X, pairs_.block(Lambda[0], place)) + thin_product(Z0, pairs_.block(Lambda[j], place));
+      block += thin_product(W.bottomRows(n).adjoint(), ZL);
     }
   }
 
   /// Adds the terms of Z_j and Lambda_j to the products; to be called after known_terms(j).
   void update(std::size_t j) {
-    MZ_[j] += multiply_many(pencil_.M[0], Z[j]);
+    if (!massless_) MZ_[j] += multiply_many(pencil_.M[0], Z[j]);
     if (!undamped_) CZ_[j] += multiply_many(pencil_.C[0], Z[j]);
     for (std::size_t i = 0; i <= j; ++i) square_[j] += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
   }
 
  private:
+  static bool are_zero(const MatrixSeries& series) {
+    return std::all_of(series.begin(), series.end(), [](const Matrix& B) { return B.isZero(0.0); });
+  }
+
   /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
   ComplexMatrix product(const MatrixSeries& B, std::size_t j) const {
     ComplexMatrix sum = ComplexMatrix::Zero(Z[0].rows(), Z[0].cols());
@@ -300,7 +311,7 @@ class AllEquations {
 
   const ReducedPencil& pencil_;
   const PairSet& pairs_;
-  bool undamped_;
+  bool undamped_, massless_;
   std::vector<ComplexMatrix> MZ_, CZ_, square_;
 };
 

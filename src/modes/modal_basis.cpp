@@ -5,6 +5,7 @@
 
 #include "core/products.hpp"
 #include "core/reciprocal_condition.hpp"
+#include "core/thin_product.hpp"
 #include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
@@ -26,9 +27,35 @@ ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L) 
   return system.partialPivLu().inverse();
 }
 
+/// The inverse of a matrix; empty if it is ill-conditioned. Many leading matrices are diagonal.
+std::optional<Matrix> inverse_of(const Matrix& A) {
+  if (A.isDiagonal(0.0)) {
+    const Vector magnitudes = A.diagonal().cwiseAbs();
+    if (!(magnitudes.minCoeff() > least_rcond * magnitudes.maxCoeff())) return std::nullopt;
+    return Matrix(A.diagonal().cwiseInverse().asDiagonal());
+  }
+  const Eigen::PartialPivLU<Matrix> lu(A);
+  if (!(reciprocal_condition(lu) > least_rcond)) return std::nullopt;
+  return lu.inverse();
+}
+
+/// The inverse of the leading matrix of a pencil; empty if it is ill-conditioned with its columns of M scaled
+/// like velocities, by the frequency gamma.
+std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil, const std::vector<bool>& with_mass,
+                                         double gamma) {
+  const bool all_have_mass = std::find(with_mass.begin(), with_mass.end(), false) == with_mass.end();
+  const double per_mass = all_have_mass ? 1.0 : gamma;
+  std::optional<Matrix> inverse = inverse_of(leading_matrix(pencil.M, pencil.C, per_mass));
+  for (std::size_t i = 0; inverse && !all_have_mass && i < with_mass.size(); ++i) {
+    if (with_mass[i]) inverse->row(static_cast<Eigen::Index>(i)) *= per_mass;
+  }
+  return inverse;
+}
+
 }  // namespace
 
 ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
+  if (B.isDiagonal(0.0)) return B.diagonal().asDiagonal() * Z;
   const Eigen::Index m = Z.cols();
   Matrix parts(Z.rows(), 2 * m);
   parts.leftCols(m) = Z.real();
@@ -40,7 +67,8 @@ ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
   return result;
 }
 
-std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const PairSet& pairs) {
+std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const PairSet& pairs,
+                                           std::optional<Matrix>& leading_inverse) {
   const Eigen::Index n = pencil.size();
   const Eigen::Index columns = pairs.Z.cols();
   ModalBasis basis;
@@ -68,7 +96,9 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
   basis.s_.assign(static_cast<std::size_t>(rows), std::numeric_limits<double>::quiet_NaN());
   for (const PairSet::Place& place : pairs.places) {
     const auto Z = pairs.Z.middleCols(place.first, place.size);
-    const ComplexMatrix ZL = (Z * pairs.block(pairs.Lambda, place) / gamma)(velocities, Eigen::all);
+    ComplexMatrix ZL(0, place.size);
+    if (!velocities.empty())
+      ZL = (thin_product(Z, pairs.block(pairs.Lambda, place)) / gamma)(velocities, Eigen::all);
     for (Eigen::Index i = 0; i < place.size; ++i) {
       const auto column = static_cast<std::size_t>(place.first + i);
       basis.real_row_[column] = row;
@@ -84,21 +114,18 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     if (!place.is_real)
       basis.s_[static_cast<std::size_t>(basis.conjugate_[column])] = std::conj(basis.s_[column]);
   }
-  // Where columns of M and C stand side by side, those of M are scaled like velocities.
-  const double per_mass = rows == 2 * n ? 1.0 : gamma;
-  const Eigen::PartialPivLU<Matrix> leading(leading_matrix(pencil.M, pencil.C, per_mass));
+  if (!leading_inverse) leading_inverse = inverse_of_leading(pencil, with_mass, gamma);
   const Eigen::PartialPivLU<Matrix> lu(V);
   const double rcond = reciprocal_condition(lu);
-  if (!(rcond > least_rcond) || !(reciprocal_condition(leading) > least_rcond)) return std::nullopt;
+  if (!(rcond > least_rcond) || !leading_inverse) return std::nullopt;
   basis.rounding_ = 10.0 * std::numeric_limits<double>::epsilon() / rcond;
   // A force changes the velocities of coordinates with mass, and the values of the others.
   Matrix load = Matrix::Zero(rows, n);
-  const Matrix inverse = leading.inverse();
   for (Eigen::Index i = 0, velocity = n; i < n; ++i) {
     if (with_mass[static_cast<std::size_t>(i)]) {
-      load.row(velocity++) = inverse.row(i) / (gamma / per_mass);
+      load.row(velocity++) = leading_inverse->row(i) / gamma;
     } else {
-      load.row(i) = inverse.row(i);
+      load.row(i) = leading_inverse->row(i);
     }
   }
   basis.left_ = lu.solve(load);
@@ -198,10 +225,10 @@ void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const Compl
       continue;
     }
     const ComplexMatrix L = pairs.block(pairs.Lambda, place);
-    const ComplexMatrix XL = X * L + Z * dL;
-    const ComplexMatrix S =
-        pairs.block(N, place) - W.topRows(n).adjoint() * X - W.bottomRows(n).adjoint() * XL;
-    X += Z * S;
+    const ComplexMatrix XL = thin_product(X, L) + thin_product(Z, dL);
+    const ComplexMatrix S = pairs.block(N, place) - thin_product(W.topRows(n).adjoint(), X) -
+                            thin_product(W.bottomRows(n).adjoint(), XL);
+    X += thin_product(Z, S);
     dL += L * S - S * L;
   }
 }

@@ -7,5 +7,6 @@ namespace eigentrail {
 
 /// M Z Lambda^2 + C Z Lambda + K Z for all pairs of a pencil (matrices n x n).
 ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const PairSet& pairs);
+ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs);
 
 }  // namespace eigentrail

@@ -29,6 +29,7 @@ ComplexMatrix multiply_columns(const Real& B, const ComplexMatrix& Z) {
 }  // namespace
 
 ComplexMatrix multiply(const Matrix& B, const ComplexMatrix& Z) {
+  if (B.isDiagonal(0.0)) return B.diagonal().asDiagonal() * Z;
   return B.rows() < large ? multiply_columns(B, Z) : product(B, Z);
 }
 

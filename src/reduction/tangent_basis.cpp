@@ -29,11 +29,13 @@ std::optional<Matrix> turned_basis(const ConstraintFactorization& constraints, c
 ComplexMatrix TangentBasis::coordinates(const ComplexMatrix& V, int part) const {
   if (is_identity) return V;
   if (!parts) return transposed_product(T[0], V);
+  if (parts->is_diagonal) return parts->inverse.diagonal().asDiagonal() * V;
   return product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
 }
 
 ComplexMatrix TangentBasis::shapes(const ComplexMatrix& Z, int part) const {
   if (is_identity) return Z;
+  if (parts && parts->is_diagonal) return parts->right.diagonal().asDiagonal() * Z;
   return product(parts ? Matrix(parts->columns(static_cast<std::size_t>(part))) : T[0], Z);
 }
 

@@ -4,10 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <numeric>
 #include <utility>
 
-#include "core/parallel.hpp"
+#include "stability/boundary_archive.hpp"
 #include "stability/corners.hpp"
+#include "stability/curve_start.hpp"
 #include "stability/extremum_walk.hpp"
 
 namespace eigentrail {
@@ -16,27 +19,60 @@ namespace {
 /// Progress reported after the scan of the lines, and after the walks.
 constexpr double scanned = 0.4;
 constexpr double walked = 0.5;
-/// A seed is accurate to the trace's tolerance. One that Newton's method moves farther than this, in the
-/// scaled window, is rejected: Newton found another boundary.
-constexpr double longest_correction = 0.03;
-/// If |grad g| over the scaled window is less than this multiple of |s| (divergence: of the norm of K), g
-/// counts as constant: its zero set is no curve.
-constexpr double flat = 1e-8;
+/// What a piece of work on an extremum, or on a seed, results in.
+struct Walk {
+  std::optional<BoundarySeed> seed;
+  RunCounts counts;
+};
+struct Curve {
+  FollowedCurve curve;
+  int rejected_steps = 0;
+  RunCounts counts;
+};
 
+}  // namespace
+
+template <SameAs<Walk> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [seed, counts] = self;
+  visit(seed, counts);
+}
+
+template <SameAs<CurveStart> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [point, failure, counts] = self;
+  visit(point, failure, counts);
+}
+
+template <SameAs<Curve> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [curve, rejected_steps, counts] = self;
+  visit(curve, rejected_steps, counts);
+}
+
+namespace {
+
+/// The search, in rounds of pieces that are independent of each other: lines, extrema, starts of curves,
+/// curves. Every process that takes part goes through all rounds and finds the same.
 class BoundarySearch {
  public:
-  BoundarySearch(const Model& model, const BoundaryOptions& options, const BoundaryProgress& progress)
-      : options_(options), progress_(progress), window_(model, options) {}
+  BoundarySearch(const Model& model, const BoundaryOptions& options, Workers& workers,
+                 const BoundaryProgress& progress)
+      : options_(options), progress_(progress), workers_(workers), window_(model, options) {}
 
-  BoundaryResult run();
+  std::vector<std::string> scan(const std::vector<std::size_t>& numbers);
+  BoundaryResult follow(const std::vector<std::string>& scans);
 
  private:
-  bool scan();
+  bool take(const std::vector<std::string>& scans);
   void walk();
-  void follow(const std::vector<BoundarySeed>& seeds);
-  void follow(const BoundarySeed& seed);
-  std::optional<CurvePoint> start_on(const BoundarySeed& seed, const BoundaryFunction& function);
-  Situation correct_seed(const BoundarySeed& seed, const BoundaryFunction& function);
+  void start();
+  void follow_curves();
+  bool is_known(std::size_t seed, const FollowedCurve& curve) const;
+  bool is_known(std::size_t seed) const;
+  std::vector<std::size_t> next_seeds(std::size_t first, const std::map<std::size_t, Curve>& ready) const;
+  void follow_at_once(const std::vector<std::size_t>& seeds, std::map<std::size_t, Curve>& ready);
+  void accept(std::size_t seed, Curve followed);
   void finish();
   void note(const Finding& finding) {
     std::vector<std::string>& places = findings_[finding.what];
@@ -54,14 +90,15 @@ class BoundarySearch {
 
   const BoundaryOptions& options_;
   const BoundaryProgress& progress_;
+  Workers& workers_;
   Window window_;
   BoundaryResult result_;
   std::vector<BoundarySeed> seeds_;
   std::vector<LineExtremum> extrema_;
+  std::vector<std::optional<CurvePoint>> starts_;  ///< of the seeds
   std::vector<FollowedCurve> curves_;
   std::map<std::string, std::vector<std::string>> findings_;  ///< per finding: the places where it holds
   int points_ = 0;
-  double share_ = 0.0;  ///< share of the work that is done, 0 to 1
 };
 
 /// The four edges of the window first, then the inner lines.
@@ -76,20 +113,25 @@ std::vector<ScanLine> scan_lines(int inner) {
   return lines;
 }
 
-bool BoundarySearch::scan() {
+std::vector<std::string> BoundarySearch::scan(const std::vector<std::size_t>& numbers) {
   const std::vector<ScanLine> lines = scan_lines(options_.lines);
-  std::vector<LineScan> scans(lines.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  in_parallel(lines.size(), 0, [&](std::size_t i) {
-    scans[i] = scan_line(window_, options_, lines[i]);
-    const std::lock_guard lock(mutex);
-    report(scanned * static_cast<double>(++done) / static_cast<double>(lines.size()));
-  });
-  result_.lines = static_cast<int>(lines.size());
+  return workers_.compute(
+      numbers.size(), [&](std::size_t i) { return packed(scan_line(window_, options_, lines[numbers[i]])); },
+      [&](std::size_t done) {
+        report(scanned * static_cast<double>(done) / static_cast<double>(numbers.size()));
+      });
+}
+
+/// Takes over what the scans of all lines have found; false if no line could be begun.
+bool BoundarySearch::take(const std::vector<std::string>& scans) {
+  result_.lines = static_cast<int>(scans.size());
   std::vector<double> references;
-  for (LineScan& scan : scans) {
+  std::string first_reason;
+  for (const std::string& bytes : scans) {
+    LineScan scan;
+    unpack(bytes, scan);
     if (scan.started) references.push_back(scan.s_ref);
+    if (&bytes == &scans.front() && !scan.findings.empty()) first_reason = scan.findings.front().where;
     for (const Finding& finding : scan.findings) note(finding);
     result_.counts += scan.counts;
     std::move(scan.seeds.begin(), scan.seeds.end(), std::back_inserter(seeds_));
@@ -98,7 +140,7 @@ bool BoundarySearch::scan() {
   result_.seeds = static_cast<int>(seeds_.size());
   if (references.empty()) {
     result_.status = BoundaryStatus::no_equilibrium;
-    result_.message = scans.front().findings.front().where;
+    result_.message = first_reason;
     return false;
   }
   std::nth_element(references.begin(),
@@ -109,97 +151,102 @@ bool BoundarySearch::scan() {
 }
 
 void BoundarySearch::walk() {
-  std::vector<std::optional<BoundarySeed>> found(extrema_.size());
-  std::vector<RunCounts> counts(extrema_.size());
-  in_parallel(extrema_.size(), 0, [&](std::size_t i) {
-    found[i] = walk_to_boundary(window_, options_, extrema_[i], 0.5 * spacing(), counts[i]);
+  const std::vector<std::string> found = workers_.compute(extrema_.size(), [this](std::size_t i) {
+    Walk walk;
+    walk.seed = walk_to_boundary(window_, options_, extrema_[i], 0.5 * spacing(), walk.counts);
+    return packed(walk);
   });
   result_.walks = static_cast<int>(extrema_.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    result_.counts += counts[i];
-    if (found[i]) seeds_.push_back(*found[i]);
+  for (const std::string& bytes : found) {
+    Walk walk;
+    unpack(bytes, walk);
+    result_.counts += walk.counts;
+    if (walk.seed) seeds_.push_back(std::move(*walk.seed));
   }
   report(walked);
 }
 
-/// The point of the boundary near a seed, by Newton's method. The first attempt moves along the line on which
-/// the seed was found, so a seed on an edge stays there. Further attempts move along grad g, P and Q.
-Situation BoundarySearch::correct_seed(const BoundarySeed& seed, const BoundaryFunction& function) {
-  const PathProblem problem = window_.at(seed.place);
-  const PathPoint point =
-      reduce_at(problem, problem.parameters[problem.traced], seed.equilibrium, Matrix(), result_.counts);
-  Situation failed;
-  failed.status = point.status;
-  failed.message = point.message;
-  if (point.status != PointStatus::computed) return failed;
-  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  ++result_.counts.spectra;
-  failed.status = PointStatus::mode_lost;
-  if (spectrum.modes.empty()) return failed;
-  const auto nearest = std::min_element(
-      spectrum.modes.begin(), spectrum.modes.end(),
-      [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
-  if (seed.kind != BoundaryKind::divergence && nearest->s.imag() == 0.0) return failed;
-  PlaceGuess guess;
-  guess.place = seed.place;
-  guess.equilibrium = {point.equilibrium.x, point.equilibrium.lambda, true};
-  guess.block = starting_block(seed.kind, point, *nearest);
-  guess.basis = point.basis.T[0];
-  const Place gradient_itself = Place::Zero();  // correct_along takes zero as the direction of grad g
-  for (const Place& direction :
-       {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
-    const Situation there = correct_along(window_, function, guess, direction, result_.counts);
-    const bool near = there.status == PointStatus::computed && Window::contains(there.place) &&
-                      (there.place - seed.place).norm() < longest_correction;
-    if (near) return there;
-    failed.message = there.status == PointStatus::computed
-                         ? "Newton's method left for " + window_.text(there.place)
-                         : there.message;
+/// The first point of a curve from each seed. Notes the seeds from which Newton's method fails.
+void BoundarySearch::start() {
+  const std::vector<std::string> found = workers_.compute(
+      seeds_.size(), [this](std::size_t i) { return packed(start_curve(window_, options_, seeds_[i])); });
+  for (const std::string& bytes : found) {
+    CurveStart start;
+    unpack(bytes, start);
+    result_.counts += start.counts;
+    if (!start.failure.empty()) {
+      note({"changes of stability that could not be followed", start.failure});
+      fail("a change of stability could not be followed");
+    }
+    starts_.push_back(std::move(start.point));
   }
-  return failed;
 }
 
-/// The first point of a curve from a seed; empty if there is none. Notes the seed if Newton's method fails.
-std::optional<CurvePoint> BoundarySearch::start_on(const BoundarySeed& seed,
-                                                   const BoundaryFunction& function) {
-  const Situation there = correct_seed(seed, function);
-  if (there.status != PointStatus::computed) {
-    note({"changes of stability that could not be followed",
-          boundary_name(seed.kind) + " near " + window_.text(seed.place) + ": " + there.message});
-    fail("a change of stability could not be followed");
-    return std::nullopt;
-  }
-  const double tau = there.functions(0, 0).real();
-  const double delta = there.functions.rows() > 1 ? there.functions(1, 0).real() : 0.0;
-  // tau = 0 with two real eigenvalues of opposite sign (flutter), or tau of the wrong sign (damping ratio).
-  if (function.passed_end(tau, delta)) return std::nullopt;
-  const auto gradients = function_gradients(window_, there, result_.counts);
-  const double size = seed.kind == BoundaryKind::divergence
-                          ? there.pencil.K[0].norm()
-                          : std::max(there.pair.Lambda.norm(), window_.reference());
-  if (!gradients || !(gradients->row(0).norm() > flat * size)) return std::nullopt;
-  return expand_curve(window_, function, there, Place::Zero(), result_.counts);
+bool BoundarySearch::is_known(std::size_t seed, const FollowedCurve& curve) const {
+  return curve.function.kind == seeds_[seed].kind &&
+         curve.passes(starts_[seed]->place, starts_[seed]->s, options_.trace.tolerance, window_.reference());
 }
 
-void BoundarySearch::follow(const BoundarySeed& seed) {
-  const double tolerance = options_.trace.tolerance;
-  const BoundaryFunction function{seed.kind, options_.damping_ratio.value_or(0.0)};
-  const std::optional<CurvePoint> start = start_on(seed, function);
-  if (!start) return;
-  const bool known = std::any_of(curves_.begin(), curves_.end(), [&](const FollowedCurve& curve) {
-    return curve.function.kind == seed.kind &&
-           curve.passes(start->place, start->s, tolerance, window_.reference());
-  });
-  if (known) return;
-  result_.islands += seed.walked ? 1 : 0;
-  ++points_;
-  const OnPoint on_point = [this] {
+bool BoundarySearch::is_known(std::size_t seed) const {
+  return std::any_of(curves_.begin(), curves_.end(),
+                     [&](const FollowedCurve& curve) { return is_known(seed, curve); });
+}
+
+/// Seeds to follow at the same time: the first one, and others that are likely to lie on other curves, one
+/// of each mode.
+std::vector<std::size_t> BoundarySearch::next_seeds(std::size_t first,
+                                                    const std::map<std::size_t, Curve>& ready) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = first; i < seeds_.size() && chosen.size() < workers_.size(); ++i) {
+    if (!starts_[i] || ready.contains(i)) continue;
+    const bool same_mode = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+      return seeds_[other].kind == seeds_[i].kind && starts_[other]->number == starts_[i]->number;
+    });
+    const bool likely_known = std::any_of(ready.begin(), ready.end(),
+                                          [&](const auto& one) { return is_known(i, one.second.curve); });
+    if (i == first || (!same_mode && !likely_known && !is_known(i))) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
+                                    std::map<std::size_t, Curve>& ready) {
+  std::mutex mutex;
+  const double share =
+      walked + (1.0 - walked) * static_cast<double>(seeds.front()) / static_cast<double>(seeds_.size());
+  const OnPoint on_point = [&] {
+    const std::scoped_lock lock(mutex);
     ++points_;
-    report(share_);
+    report(share);
   };
-  curves_.push_back(follow_curve(window_, function, {tolerance, options_.trace.max_nodes}, *start, on_point,
-                                 result_.rejected_steps, result_.counts));
-  if (curves_.back().steps.empty()) curves_.pop_back();  // it touches the window in a single point
+  const FollowOptions options{options_.trace.tolerance, options_.trace.max_nodes};
+  const std::vector<std::string> followed = workers_.compute(seeds.size(), [&](std::size_t i) {
+    Curve result;
+    result.curve = follow_curve(window_, function_of(seeds_[seeds[i]], options_), options, *starts_[seeds[i]],
+                                on_point, result.rejected_steps, result.counts);
+    return packed(result);
+  });
+  for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);
+}
+
+void BoundarySearch::accept(std::size_t seed, Curve followed) {
+  result_.islands += seeds_[seed].walked ? 1 : 0;
+  result_.rejected_steps += followed.rejected_steps;
+  result_.counts += followed.counts;
+  // Without a step it touches the window in a single point.
+  if (!followed.curve.steps.empty()) curves_.push_back(std::move(followed.curve));
+}
+
+/// Follows the curve of each seed, in order, that lies on no curve found before. Which curves are found does
+/// not depend on those that other workers have followed in the meantime.
+void BoundarySearch::follow_curves() {
+  std::map<std::size_t, Curve> ready;
+  for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
+    if (!starts_[seed] || is_known(seed)) continue;
+    if (!ready.contains(seed)) follow_at_once(next_seeds(seed, ready), ready);
+    accept(seed, std::move(ready.at(seed)));
+    ready.erase(seed);
+  }
 }
 
 /// One note per finding, with the number of its places and the first of them.
@@ -238,25 +285,54 @@ void BoundarySearch::finish() {
   }
 }
 
-BoundaryResult BoundarySearch::run() {
-  const auto begin = std::chrono::steady_clock::now();
-  if (scan()) {
+BoundaryResult BoundarySearch::follow(const std::vector<std::string>& scans) {
+  if (take(scans)) {
     walk();
-    for (std::size_t i = 0; i < seeds_.size(); ++i) {
-      share_ = walked + (1.0 - walked) * static_cast<double>(i) / static_cast<double>(seeds_.size());
-      follow(seeds_[i]);
-    }
+    start();
+    follow_curves();
     finish();
   }
-  result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return std::move(result_);
 }
 
 }  // namespace
 
+std::size_t boundary_lines(const BoundaryOptions& options) {
+  return scan_lines(options.lines).size();
+}
+
+std::vector<std::string> scan_boundaries(const Model& model, const BoundaryOptions& options,
+                                         const std::vector<std::size_t>& lines, Workers& workers,
+                                         const BoundaryProgress& progress) {
+  return BoundarySearch(model, options, workers, progress).scan(lines);
+}
+
+BoundaryResult follow_boundaries(const Model& model, const BoundaryOptions& options,
+                                 const std::vector<std::string>& scans, Workers& workers,
+                                 const BoundaryProgress& progress) try {
+  const auto begin = std::chrono::steady_clock::now();
+  BoundaryResult result = BoundarySearch(model, options, workers, progress).follow(scans);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+} catch (const ArchiveError& error) {
+  throw InputError(std::string("a line of the search is damaged: ") + error.what());
+}
+
 BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options,
                                const BoundaryProgress& progress) {
-  return BoundarySearch(model, options, progress).run();
+  Threads threads(0);
+  return find_boundaries(model, options, threads, progress);
+}
+
+BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options, Workers& workers,
+                               const BoundaryProgress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<std::size_t> lines(boundary_lines(options));
+  std::iota(lines.begin(), lines.end(), std::size_t{0});
+  const std::vector<std::string> scans = scan_boundaries(model, options, lines, workers, progress);
+  BoundaryResult result = follow_boundaries(model, options, scans, workers, progress);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
 }
 
 std::string boundary_name(BoundaryKind kind) {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <numeric>
+#include <sstream>
 
-#include "core/parallel.hpp"
+#include "continuation/archived_parts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "stability/second_parameter.hpp"
 
@@ -60,7 +61,27 @@ std::vector<Vector> checked_points(const Parameters& parameters, int first, cons
   return points;
 }
 
+std::vector<double> first_values(const MapSetup& setup) {
+  return evenly(setup.trace.options.from, setup.trace.options.to, setup.options.n_first);
+}
+
 }  // namespace
+
+// How a line is written to an archive and read from it (core/archive.hpp).
+
+template <SameAs<AxisPoint> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [p, kind, frequency] = self;
+  visit(p, kind, frequency);
+}
+
+template <SameAs<MapLine> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, axis_points, status,
+         message, reached, turned_back, n_modes, n_available, n_independent, counts] = self;
+  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, axis_points, status, message,
+        reached, turned_back, n_modes, n_available, n_independent, counts);
+}
 
 std::uint64_t MapLine::factorizations() const {
   return counts.modes.factorizations + counts.certificate_factorizations + counts.event_factorizations;
@@ -86,6 +107,45 @@ MapTotals total(const StabilityMap& map) {
   return totals;
 }
 
+std::vector<std::string> notes_on(const StabilityMap& map, const std::string& second) {
+  std::vector<std::string> notes;
+  const auto note = [&](const std::string& what, auto&& applies, bool with_reason) {
+    const auto first = std::find_if(map.lines.begin(), map.lines.end(), applies);
+    const auto count = std::count_if(map.lines.begin(), map.lines.end(), applies);
+    if (count == 0) return;
+    std::ostringstream place;
+    place << first->second;
+    notes.push_back(std::to_string(count) + " of " + std::to_string(map.lines.size()) + " lines " + what +
+                    ", first at " + second + " = " + place.str() +
+                    (with_reason ? ": " + first->message : ""));
+  };
+  note(
+      "could not be begun; their cells are unknown",
+      [](const MapLine& line) { return !has_started(line.status); }, true);
+  note(
+      "ended early; cells beyond are unknown",
+      [](const MapLine& line) { return has_started(line.status) && line.status != TraceStatus::completed; },
+      true);
+  note(
+      "miss a mode somewhere; their cells there are unknown",
+      [](const MapLine& line) { return line.doubtful_cells > 0; }, false);
+  note(
+      "turn back at a fold; their cells show the first passage",
+      [](const MapLine& line) { return line.turned_back; }, false);
+  note(
+      "followed some of their modes only and speak of these",
+      [](const MapLine& line) { return line.n_modes < line.n_available; }, false);
+  return notes;
+}
+
+MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
+  MapSetup setup{{std::move(scene), {}, nullptr}, options};
+  std::set<int> used;
+  setup.trace.options = read_trace_options(setup.trace.scene, overrides, used);
+  check_options(options, setup.trace.options, setup.trace.scene.parameters);
+  return setup;
+}
+
 MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
   check_top_level(scene);
   MapSetup setup{{std::move(scene), {}, nullptr}, options};
@@ -105,21 +165,37 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   return setup;
 }
 
-StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>& done) {
+std::vector<std::string> map_lines(const MapSetup& setup, const std::vector<std::size_t>& numbers,
+                                   Workers& workers, const std::function<void(std::size_t)>& finished) {
   const MapOptions& options = setup.options;
-  StabilityMap map;
-  map.first = evenly(setup.trace.options.from, setup.trace.options.to, options.n_first);
-  map.lines.resize(static_cast<std::size_t>(options.n_second));
+  const std::vector<double> first = first_values(setup);
   const std::vector<double> seconds = evenly(options.from, options.to, options.n_second);
+  return workers.compute(
+      numbers.size(), [&](std::size_t i) { return packed(map_line(setup, seconds[numbers[i]], first)); },
+      finished);
+}
 
-  std::mutex mutex;
-  int finished = 0;
-  in_parallel(seconds.size(), options.jobs, [&](std::size_t i) {
-    map.lines[i] = map_line(setup, seconds[i], map.first);
-    const std::scoped_lock lock(mutex);
-    done(++finished);
-  });
+StabilityMap map_of(const MapSetup& setup, const std::vector<std::string>& lines) try {
+  StabilityMap map;
+  map.first = first_values(setup);
+  for (const std::string& bytes : lines) {
+    MapLine& line = map.lines.emplace_back();
+    unpack(bytes, line);
+    if (line.unstable.size() != map.first.size() || line.margin.size() != map.first.size() ||
+        line.damping_ratio.size() != map.first.size())
+      throw ArchiveError("another number of cells");
+  }
   return map;
+} catch (const ArchiveError& error) {
+  throw InputError(std::string("a line of the map is damaged: ") + error.what());
+}
+
+StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>& done) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(setup.options.n_second));
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  Threads threads(setup.options.jobs);
+  return map_of(setup, map_lines(setup, numbers, threads,
+                                 [&done](std::size_t lines) { done(static_cast<int>(lines)); }));
 }
 
 }  // namespace eigentrail

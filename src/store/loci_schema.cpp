@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <array>
 
+#include "eigentrail/modes/whirl.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/mode_motions.hpp"
 
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 43> loci_names = {"node",
+const std::array<std::string, 46> loci_names = {"node",
                                                 "step",
                                                 "mode",
                                                 "function",
                                                 "end",
                                                 "coordinate",
                                                 "coordinate_unit",
+                                                "coordinate_place",
                                                 "motion",
                                                 "kinetic_energy_share",
                                                 "mode_name",
@@ -28,6 +30,8 @@ const std::array<std::string, 43> loci_names = {"node",
                                                 "damped_frequency",
                                                 "damping_ratio",
                                                 "mode_shape",
+                                                "whirl",
+                                                "whirl_reverse",
                                                 "residual",
                                                 "condition",
                                                 "equilibrium",
@@ -187,6 +191,21 @@ void add_events(std::vector<GrowingDataset>& list, const std::string& parameter,
                   "d" + parameter + "/dq: how the event moves"});
 }
 
+/// Datasets on the orbits of what spins.
+void add_whirl(std::vector<GrowingDataset>& list) {
+  list.push_back(
+      {"whirl",
+       ElementType::real,
+       {"node", "mode"},
+       "1",
+       "areas of the orbits over the circles about them: 1 circles forward, -1 backward, 0 lines"});
+  list.push_back({"whirl_reverse",
+                  ElementType::real,
+                  {"node", "mode"},
+                  "1",
+                  "the smaller one of the shares of both senses: 0 if all nodes go round in one sense"});
+}
+
 /// Datasets on the motions in each mode.
 void add_motions(std::vector<GrowingDataset>& list) {
   list.push_back({"kinetic_energy_share",
@@ -203,11 +222,12 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
   const std::string unit = label_unit(model.description().parameters.at(parameter).unit);
   std::vector<GrowingDataset> list;
   add_points(list, model, parameter, unit);
+  const ModelDescription& description = model.description();
+  if (has_whirl(description)) add_whirl(list);
   add_dense_output(list, parameter, unit);
   add_events(list, parameter, unit);
-  const ModelDescription& description = model.description();
   if (!description.masses.empty()) add_motions(list);
-  if (!description.masses.empty() || named_by_coordinates(description))
+  if (!description.masses.empty() || !description.shafts.empty() || named_by_coordinates(description))
     list.push_back(
         {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
   return list;

@@ -1,5 +1,7 @@
 #include "store/loci_tables.hpp"
 
+#include <limits>
+
 #include <numeric>
 
 #include "store/labelled_datasets.hpp"
@@ -76,6 +78,23 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
       steps_(file_.shape("step").at(0)),
       extensible_(by_dimension(growing_datasets(model, options))) {}
 
+namespace {
+
+/// Per coordinate the place of its node along the axis, for displacements across it; NaN for others.
+std::vector<double> places_on_shafts(const ModelDescription& description) {
+  std::vector<double> places(description.coordinate_names.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const SpinningShaft& shaft : description.shafts) {
+    for (std::size_t node = 0; node < shaft.nodes.size(); ++node) {
+      for (const Eigen::Index coordinate : shaft.nodes[node]) {
+        if (coordinate >= 0) places[static_cast<std::size_t>(coordinate)] = shaft.places[node];
+      }
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
 void LociTables::create_dimensions(const ModelDescription& description, int order, std::size_t modes) {
   create_dimension(file_, "node", ElementType::integer, count_from(0, 0), "path point", true);
   create_dimension(file_, "step", ElementType::integer, count_from(0, 0),
@@ -88,6 +107,9 @@ void LociTables::create_dimensions(const ModelDescription& description, int orde
   create_dimension(file_, "coordinate", ElementType::text, description.coordinate_names, "coordinate");
   write_dataset(file_, {"coordinate_unit", "1", "unit of the coordinate"}, {"coordinate"},
                 description.coordinate_units);
+  if (!description.shafts.empty())
+    write_dataset(file_, {"coordinate_place", "m", "place along the axis of the shaft"}, {"coordinate"},
+                  places_on_shafts(description));
   create_dimension(file_, "order", ElementType::integer, count_from(0, static_cast<std::size_t>(order) + 1),
                    "power of the distance from the end of the step");
   if (has_constraints_)
@@ -133,6 +155,10 @@ void LociTables::append(const LociRows& rows) {
   file_.write_rows("mode_shape", points_, rows.mode_shape);
   file_.write_rows("residual", points_, rows.residual);
   file_.write_rows("condition", points_, rows.condition);
+  if (!rows.whirl.empty()) {
+    file_.write_rows("whirl", points_, rows.whirl);
+    file_.write_rows("whirl_reverse", points_, rows.whirl_reverse);
+  }
   file_.write_rows("equilibrium", points_, rows.equilibrium);
   if (has_constraints_) file_.write_rows("multiplier", points_, rows.multiplier);
   if (rows.steps() > 0) {

@@ -12,6 +12,7 @@ namespace eigentrail {
 struct LociRows {
   std::vector<double> parameter, frequency, damped_frequency, damping_ratio, residual, condition, equilibrium,
       multiplier;
+  std::vector<double> whirl, whirl_reverse;  ///< only of models in which something spins
   std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
   std::vector<double> step_length, step_parameter;
   std::vector<Complex> dense_output;

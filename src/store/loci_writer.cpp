@@ -8,6 +8,7 @@
 #include "core/archive.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/whirl.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/data_error_datasets.hpp"
 #include "store/loci_schema.hpp"
@@ -52,6 +53,7 @@ struct LociWriter::Implementation {
   std::string path;                  ///< empty: the file stays in memory
   std::unique_ptr<OutputLock> lock;  ///< null: the file stays in memory
   LociTables tables;
+  const Model& model;
   std::string parameter;
   std::size_t coordinates;
   double save_every;
@@ -91,20 +93,21 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
                        double save_every) {
   auto lock = std::make_unique<OutputLock>(path);
   check_can_create(path);
-  ModeMotions motions(model.description(), first);
+  ModeMotions motions(model, first);
   LociTables tables = new_tables(path, scene, model, options, start, motions.labels());
-  implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), options.parameter,
+  implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), model, options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()), save_every,
                                            std::move(motions)});
 }
 
 LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
                        const TraceStart& start, const TracePoint& first) {
-  ModeMotions motions(model.description(), first);
+  ModeMotions motions(model, first);
   LociTables tables = new_tables("loci file", scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{{},
                                            nullptr,
                                            std::move(tables),
+                                           model,
                                            options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()),
                                            usual_interval,
@@ -118,6 +121,7 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
   implementation_.reset(new Implementation{path,
                                            std::move(lock),
                                            std::move(tables),
+                                           model,
                                            options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()),
                                            save_every,
@@ -129,6 +133,7 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
   } catch (const ArchiveError& error) {
     throw InputError(path + ": the state of the trace is damaged: " + error.what());
   }
+  implementation_->motions.belongs_to(model);
   for (const ComplexVector& shape : implementation_->last_shapes) {
     if (shape.size() != 0 && shape.size() != model.n_coordinates())
       throw InputError(path + ": the state of the trace does not fit the scene: other mode shapes");
@@ -149,9 +154,20 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
        {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition})
     column->resize(begin + tables.modes(), nan);
   rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
+  const bool spins = has_whirl(model.description());
+  if (spins) {
+    rows.whirl.resize(begin + tables.modes(), nan);
+    rows.whirl_reverse.resize(begin + tables.modes(), nan);
+  }
+  const Vector parameters = point.node.path.parameters.col(0);
   for (const ModeState& state : point.modes) {
     const auto mode = static_cast<std::size_t>(state.mode);
     const std::size_t at = begin + mode;
+    if (spins && state.s.imag() != 0.0) {
+      const Whirl whirl = whirl_of(model, parameters, state.shape);
+      rows.whirl[at] = whirl.measure;
+      rows.whirl_reverse[at] = whirl.reverse;
+    }
     const double size = std::abs(state.s);
     rows.eigenvalue[at] = state.s;
     rows.eigenvalue_derivative[at] = state.slope;

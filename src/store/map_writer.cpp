@@ -27,8 +27,8 @@ class MapFile {
         second_(setup.trace.scene.parameters.at(setup.options.second)) {}
 
   /// The bytes of the whole file.
-  std::string write(const std::vector<std::string>& notes) {
-    write_attributes(notes);
+  std::string write() {
+    write_attributes();
     write_cells();
     write_lines();
     write_axis_points();
@@ -36,7 +36,7 @@ class MapFile {
   }
 
  private:
-  void write_attributes(const std::vector<std::string>& notes);
+  void write_attributes();
   void write_counts();
   void write_cells();
   void write_lines();
@@ -49,10 +49,10 @@ class MapFile {
   const Parameter& second_;
 };
 
-void MapFile::write_attributes(const std::vector<std::string>& notes) {
+void MapFile::write_attributes() {
   write_provenance(file_, map_format, map_schema_version, setup_.trace.scene, setup_.trace.options);
   file_.set_attribute("second_parameter", second_.name);
-  write_notes(file_, notes);
+  write_notes(file_, notes_on(map_, setup_.options.second));
   write_counts();
 }
 
@@ -145,13 +145,12 @@ void check_map_names(const MapSetup& setup) {
   }
 }
 
-std::string map_file(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes) {
-  return MapFile(setup, map).write(notes);
+std::string map_file(const MapSetup& setup, const StabilityMap& map) {
+  return MapFile(setup, map).write();
 }
 
-void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map,
-               const std::vector<std::string>& notes) {
-  write_durably(path, {map_file(setup, map, notes)});
+void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map) {
+  write_durably(path, {map_file(setup, map)});
 }
 
 }  // namespace eigentrail

@@ -20,13 +20,14 @@ constexpr double zero_share = 1e-9;
 }  // namespace
 
 bool named_by_coordinates(const ModelDescription& description) {
-  return description.masses.empty() && description.constraint_names.empty() &&
+  return description.masses.empty() && description.constraint_names.empty() && description.shafts.empty() &&
          description.coordinate_names.size() <= most_coordinates &&
          has_own_names(description.coordinate_names);
 }
 
-ModeMotions::ModeMotions(const ModelDescription& description, const TracePoint& first)
-    : shares_(description, first.node.linearization.M[0], first.node.path.x.col(0)) {
+ModeMotions::ModeMotions(const Model& model, const TracePoint& first)
+    : shares_(model.description(), first.node.linearization.M[0], first.node.path.x.col(0)), model_(&model) {
+  const ModelDescription& description = model.description();
   if (named_by_coordinates(description)) coordinates_ = description.coordinate_names;
 }
 
@@ -64,7 +65,24 @@ void ModeMotions::name_by_coordinates(const TracePoint& point) {
   }
 }
 
+void ModeMotions::describe_rotor_modes(const TracePoint& point) {
+  const Vector parameters = point.node.path.parameters.col(0);
+  for (const ModeState& mode : point.modes) {
+    const auto number = static_cast<std::size_t>(mode.mode);
+    const auto known = rotor_modes_.find(number);
+    if (known != rotor_modes_.end() && known->second.sense != 0) continue;
+    if (!std::isfinite(std::abs(mode.s)) || !mode.shape.allFinite()) continue;
+    const RotorMode now = rotor_mode(*model_, parameters, mode.s, mode.shape);
+    if (known == rotor_modes_.end()) {
+      rotor_modes_[number] = now;
+    } else if (now.oscillates && known->second.oscillates) {
+      known->second.sense = now.sense;
+    }
+  }
+}
+
 void ModeMotions::append(const TracePoint& point) {
+  if (!model_->description().shafts.empty()) describe_rotor_modes(point);
   if (!coordinates_.empty()) name_by_coordinates(point);
   if (shares_.motions().empty() || point.modes.empty()) return;
   const SystemMatrix& M = point.node.linearization.M[0];
@@ -86,6 +104,14 @@ std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
   for (const auto& [mode, name] : by_participation_) {
     if (mode < n_modes) result[mode] = name;
   }
+  std::vector<RotorMode> of_rotor;
+  for (const auto& [mode, description] : rotor_modes_) of_rotor.push_back(description);
+  std::size_t next = 0;
+  const auto rotor_names = rotor_mode_names(of_rotor, model_->description().shafts);
+  for (const auto& [mode, description] : rotor_modes_) {
+    if (mode < n_modes) result[mode] = rotor_names[next];
+    ++next;
+  }
   if (shares_.motions().empty()) return result;
   std::vector<std::size_t> ascending;
   for (const auto& [mode, ends] : modes_) ascending.push_back(mode);
@@ -105,7 +131,7 @@ std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
 
 void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
   const std::size_t motions = shares_.motions().size();
-  if (motions == 0 && coordinates_.empty()) return;
+  if (motions == 0 && coordinates_.empty() && rotor_modes_.empty()) return;
   std::vector<double> values;
   for (const bool first : {true, false}) {
     for (std::size_t mode = 0; mode < n_modes; ++mode) {

@@ -9,11 +9,12 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
+#include "eigentrail/modes/rotor_names.hpp"
 
 namespace eigentrail {
 
 /// Whether the modes of a model without masses are named by the participation of its coordinates: a family of
-/// matrices without constraints, with names of its own, and not too large.
+/// matrices without constraints and shafts, with names of its own, and not too large.
 bool named_by_coordinates(const ModelDescription& description);
 
 /// Collects the shares of kinetic energy of every mode at the first and the last point where it exists.
@@ -22,7 +23,10 @@ class ModeMotions {
   ModeMotions() = default;
 
   /// The directions of motion ("flap", "lag") are defined at the point `first`.
-  ModeMotions(const ModelDescription& description, const TracePoint& first);
+  ModeMotions(const Model& model, const TracePoint& first);
+
+  /// Says of which model the points are, after the members were read; it must outlive this.
+  void belongs_to(const Model& model) { model_ = &model; }
 
   void append(const TracePoint& point);
 
@@ -31,7 +35,7 @@ class ModeMotions {
   std::vector<std::string> labels() const;
 
   /// A name for each of `n_modes` modes, from its shares at the first point where it exists; empty where
-  /// unknown.
+  /// unknown. Rotors: from the shapes of their shafts there, and from the first point with a clear whirl.
   std::vector<std::string> names(std::size_t n_modes) const;
 
   /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses, or only names for one
@@ -42,7 +46,7 @@ class ModeMotions {
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_);
+    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_, self.rotor_modes_);
   }
 
   /// Whether a state that was read fits this model.
@@ -50,6 +54,7 @@ class ModeMotions {
 
  private:
   void name_by_coordinates(const TracePoint& point);
+  void describe_rotor_modes(const TracePoint& point);
 
   struct Ends {
     Vector first, last;      ///< by motion
@@ -65,6 +70,8 @@ class ModeMotions {
   std::map<std::size_t, Ends> modes_;
   std::vector<std::string> coordinates_;  ///< names; empty unless modes are named by participation
   std::map<std::size_t, std::string> by_participation_;
+  std::map<std::size_t, RotorMode> rotor_modes_;
+  const Model* model_ = nullptr;
   std::vector<std::string> written_names_;
 };
 

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include "core/archive.hpp"
+#include "core/fingerprint.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/store/loci_file.hpp"
+#include "store/differences.hpp"
 #include "store/saved_state.hpp"
 
 namespace eigentrail {
@@ -24,37 +23,6 @@ struct Mark {
   std::uint64_t size = 0;      ///< size of the state, which precedes the mark, in bytes
   std::uint64_t checksum = 0;  ///< checksum of the state
 };
-
-/// FNV-1a hash (Fowler, Noll, Vo): detects damage, not deliberate changes.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file && !file.eof()) throw InputError(path + ": cannot be read");
-  return bytes;
-}
-
-std::string in_quotes(const std::string& text) {
-  return "'" + printable(text) + "'";
-}
-
-/// A message on the first line in which two texts differ. Where one text has ended, its line counts as empty.
-std::string first_difference(const std::string& before, const std::string& now) {
-  std::istringstream a(before), b(now);
-  for (int line = 1;; ++line) {
-    std::string line_a, line_b;
-    const bool has_a = static_cast<bool>(std::getline(a, line_a));
-    const bool has_b = static_cast<bool>(std::getline(b, line_b));
-    if (!has_a && !has_b) return "line ends";
-    if (line_a != line_b)
-      return "line " + std::to_string(line) + " was " + in_quotes(line_a) + " and is " + in_quotes(line_b);
-  }
-}
 
 void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& options) {
   const std::string advice = "; restore it, or trace anew with --force";
@@ -84,7 +52,7 @@ std::string saved_state(const std::string& trace, const std::string& writer) {
   ArchiveWriter archive;
   archive(trace, writer);
   std::string bytes = archive.bytes();
-  Mark mark{{}, bytes.size(), checksum(bytes)};
+  Mark mark{{}, bytes.size(), fingerprint(bytes)};
   std::copy(Mark::text.begin(), Mark::text.end(), mark.name.begin());
   bytes.append(reinterpret_cast<const char*>(&mark), sizeof mark);
   return bytes;
@@ -102,7 +70,7 @@ SavedTrace split(const std::string& path, std::string_view bytes) {
   const std::string_view before = bytes.substr(0, bytes.size() - sizeof mark);
   const bool fits = mark.size <= before.size();
   const std::string_view state = before.substr(fits ? before.size() - mark.size : 0);
-  if (!fits || checksum(state) != mark.checksum)
+  if (!fits || fingerprint(state) != mark.checksum)
     throw InputError(path +
                      ": cannot be resumed: the state of the trace is damaged; trace anew with --force");
   SavedTrace saved;
@@ -122,7 +90,7 @@ std::optional<SavedTrace> read_saved_trace(const std::string& path, const Scene&
   const std::string& status = loci.attribute("status");
   if (status != "running" && status != "interrupted") return std::nullopt;
   try {
-    SavedTrace saved = split(path, read_file(path));
+    SavedTrace saved = split(path, bytes_of_file(path));
     saved.path = static_cast<const RecordedPath&>(loci);
     return saved;
   } catch (const ArchiveError& error) {

@@ -5,6 +5,7 @@ namespace eigentrail::test {
 const std::vector<Benchmark>& benchmarks() {
   static const std::vector<Benchmark> all{{"accuracy", accuracy_and_factorizations},
                                           {"step_time", step_time},
+                                          {"first_order", first_order},
                                           {"rotating_mass", rotating_mass},
                                           {"veerings", veerings},
                                           {"few_modes", few_modes},

@@ -28,6 +28,8 @@ Figures step_time(const BenchOptions& options);
 Figures growth(const BenchOptions& options);
 Figures symmetric(const BenchOptions& options);
 Figures threads(const BenchOptions& options);
+// first_order_bench.cpp
+Figures first_order(const BenchOptions& options);
 // rival_bench.cpp
 Figures rotating_mass(const BenchOptions& options);
 Figures veerings(const BenchOptions& options);

@@ -21,6 +21,99 @@ mass = 1
 position = [1, 0, 0]
 """
 
+ROTOR = """
+[parameters]
+speed = { value = 3000, unit = "rpm" }
+stiff = { value = 1e7, unit = "N/m" }
+
+[trace]
+parameter = "speed"
+from = 100
+to = 9000
+
+[[shaft]]
+stations = { length = [0.3, 0.4], outer = [0.05, 0.06] }
+elements = [1, 2]
+E = 2.1e11
+nu = 0.3
+density = 7850
+speed = "speed"
+
+[[disc]]
+node = 2
+mass = 20
+Id = 0.2
+Ip = 0.3
+
+[[bearing]]
+node = [1, 4]
+kxx = "stiff"
+"""
+
+ROTORS = [
+    ("node that does not exist", ("node = 2", "§node = 5"), "[[disc]] 1 node: there is no node 5; the nodes are numbered from 1 to 4"),
+    ("node zero", ("node = 2", "§node = 0"), "there is no node 0"),
+    ("node that is no number", ("node = 2", '§node = "middle"'), "expected the number of a node, such as 3"),
+    ("node of another shaft", ("node = 2", '§node = "inner node 2"'), "no shaft is called 'inner'"),
+    ("negative diameter", ("outer = [0.05, 0.06]", "outer = [0.05, -0.06]", "stations", "§stations"),
+     "segment 2: its outer diameter must be positive; found -0.06 m"),
+    ("hole wider than the shaft", ("outer = [0.05, 0.06]", "outer = 0.05, inner = 0.06", "stations", "§stations"),
+     "segment 1: its inner diameter must be less than the outer one, 0.05 m; found 0.06 m"),
+    ("negative length", ("length = [0.3, 0.4]", "length = [0.3, -0.4]", "stations", "§stations"), "segment 2: its length must be positive"),
+    ("positions that do not ascend", ("length = [0.3, 0.4]", "position = [0, 0.4, 0.3]", "stations", "§stations"),
+     "segment 2: its length must be positive"),
+    ("lists of different lengths", ("outer = [0.05, 0.06]", "§outer = [0.05, 0.06, 0.07]"), "outer: has 3 values, and there are 2 segments"),
+    ("elements for other segments", ("elements = [1, 2]", "§elements = [1, 2, 3]"), "has 3 values, and there are 2 segments"),
+    ("half an element", ("elements = [1, 2]", "§elements = 1.5"), "expected whole numbers from 1"),
+    ("shear modulus twice", ("nu = 0.3", "§nu = 0.3\nG = 8e10"), "give one of G and nu"),
+    ("steel without Poisson's ratio", ("nu = 0.3\n", ""), "give one of G and nu"),
+    ("Poisson's ratio of more than a half", ("nu = 0.3", "§nu = 0.6"), "must lie between -1 and 0.5; found 0.6"),
+    ("density that is missing", ("density = 7850\n", ""), "[[shaft]] 1 density: is missing"),
+    ("misprint of a key of a shaft", ("density = 7850", "§densty = 7850"), "did you mean 'density'?"),
+    ("stiffness in rad/s", ('kxx = "stiff"', '§kxx = "speed"'), '"speed" is in rpm, but N/m is expected'),
+    ("speed in N/m", ('speed = "speed"', '§speed = "stiff"'), '"stiff" is in N/m, but rad/s is expected'),
+    ("disc with too much polar inertia", ("Ip = 0.3", "§Ip = 0.5"), "no disc has more than 2 Id, here 0.4 kg m^2"),
+    ("disc by numbers and shape", ("Ip = 0.3", "Ip = 0.3\n§outer = 0.2"), "the mass is given already"),
+    ("bearing without coefficients", ('kxx = "stiff"\n', ""), "expected coefficients such as kxx = 1e6"),
+    ("misprint of a coefficient", ('kxx = "stiff"', 'kxx = "stiff"\n§kxz = 1'), "unknown key"),
+    ("table that does not exist", ('kxx = "stiff"', '§table = "absent.csv"'), "absent.csv: cannot be opened"),
+    ("table outside of the folder", ('kxx = "stiff"', '§table = "../bearing.csv"'), "expected a file in the scene's folder"),
+    ("bearing between one node", ("node = [1, 4]", "§between = [1, 1]"), "names node 1 twice"),
+    ("support of a freedom that is none", ("[[bearing]]", '[[support]]\nnode = 1\n§holds = "xx"\n[[bearing]]'),
+     "'xx' is no freedom of a node; did you mean 'x'?"),
+    ("points beside a shaft", ("[[disc]]", '[[§point]]\nname = "a"\nmass = 1\nposition = [0, 0, 0]\n[[disc]]'),
+     "point: unknown key in a scene with [[shaft]]"),
+    ("two shafts without names", ("[[shaft]]", "§[[shaft]]", "[[disc]]", "[[shaft]]\nstations = { length = 1, outer = 0.1 }\nE = 2e11\nnu = 0.3\n"
+                                  "density = 7800\n[[disc]]"), "each needs a name"),
+    ("effect switched off", ("to = 9000", 'to = 9000\n§without = "bearing"'), "cannot be left out of a rotor"),
+]
+
+# What is wrong in a CSV file of bearing coefficients or of stations.
+ROTOR_FILES = [
+    ("speeds that do not ascend", "table", "speed [rpm],kxx\n0,1e7\n9000,1e7\n5000,1e7\n",
+     "table.csv:4: speed must ascend; found 5000 behind 9000"),
+    ("speeds that end too early", "table", "speed [rpm],kxx\n0,1e7\n5000,1e7\n", "go from speed = 0 to 5000 rpm, and nothing is "
+     "extrapolated; speed is 9000"),
+    ("speed in a unit that is none", "table", "speed [rpn],kxx\n0,1e7\n9000,1e7\n", "unit 'rpn' is not known"),
+    ("speed in newtons", "table", "speed [N],kxx\n0,1e7\n9000,1e7\n", "column speed is in N, but rad/s is expected"),
+    ("coefficient in another unit", "table", "speed [rpm],kxx [N s/m]\n0,1e7\n9000,1e7\n", "column kxx is in N s/m, but N/m is expected"),
+    ("column that is unknown", "table", "speed [rpm],kxxx\n0,1e7\n9000,1e7\n", "unknown column 'kxxx'; did you mean 'kxx'?"),
+    ("column that stands twice", "table", "speed [rpm],kxx,kxx\n0,1,2\n", "table.csv:1: two columns are called 'kxx'"),
+    ("row with too few cells", "table", "speed [rpm],kxx,kyy\n0,1e7,1e7\n9000,1e7\n", "table.csv:3: has 2 cells under 3 headings"),
+    ("cell that is no number", "table", "speed [rpm],kxx\n0,1e7\n9000,stiff\n", "table.csv:3: kxx: expected a finite number, "
+     "found 'stiff'"),
+    ("no headings", "table", "0,1e7\n9000,1e7\n", "unknown column '1e7'"),
+    ("no rows", "table", "speed [rpm],kxx\n", "has no rows"),
+    ("one row", "table", "speed [rpm],kxx\n100,1e7\n", "has one row; expected two at least"),
+    ("no coefficients", "table", "speed [rpm]\n0\n9000\n", "has no column of a coefficient"),
+    ("stations without lengths", "stations", "outer\n0.05\n", "expected a column 'length' or a column 'position'"),
+    ("stations without diameters", "stations", "length\n0.05\n", "expected a column 'outer'"),
+    ("stations that do not ascend", "stations", "position,outer\n0,0.1\n0.5,0.1\n0.4,0.1\n", "table.csv:4: the positions must ascend"),
+    ("stations in another unit", "stations", "length [kg],outer\n1,0.1\n", "column length is in kg, but m is expected"),
+    ("stations with an unknown column", "stations", "length,outre\n1,0.1\n", "unknown column 'outre'; did you mean 'outer'?"),
+    ("stations of negative diameter", "stations", "length,outer\n1,-0.1\n", "segment 1: its outer diameter must be positive"),
+]
+
 SCENES = [
     # Expressions and texts.
     ("expression without quotes", ('mass = "mass"', "mass = 2§*mass"), 'put expressions and names in quotes: mass = "2*mass"'),
@@ -97,6 +190,23 @@ class MistakeInAScene(CommandTest):
         run = self.run_program("trace", "scene.toml")
         self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where}")
         self.assertFalse((self.folder / "scene.h5").exists())
+
+
+@each_case([(name, edits, fragments) for name, edits, *fragments in ROTORS])
+class MistakeInARotor(CommandTest):
+    def check(self, edits, fragments):
+        where = self.write_marked(ROTOR, list(zip(edits[::2], edits[1::2])))
+        run = self.run_program("trace", "scene.toml")
+        self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where}")
+
+
+@each_case([(name, key, text, fragments) for name, key, text, *fragments in ROTOR_FILES])
+class MistakeInAFileOfARotor(CommandTest):
+    def check(self, key, text, fragments):
+        self.write("table.csv", text)
+        old = 'kxx = "stiff"' if key == "table" else "stations = { length = [0.3, 0.4], outer = [0.05, 0.06] }"
+        self.write("scene.toml", edited(ROTOR.replace("elements = [1, 2]", "elements = 2"), old, f'{key} = "table.csv"'))
+        self.assert_refused(self.run_program("trace", "scene.toml"), ["eigentrail: scene.toml:", *fragments])
 
 
 @each_case([(name, command, fragments) for name, command, *fragments in COMMANDS])

@@ -6,7 +6,7 @@ import unittest
 
 from program import EXIT_BAD_INPUT, SCENES, ProgramTest
 
-STARTERS = ["blade", "pendulum", "matrices"]
+STARTERS = ["blade", "pendulum", "rotor", "matrices"]
 
 
 class New(ProgramTest):
@@ -29,6 +29,13 @@ class New(ProgramTest):
                     command, *words = line.split()
                     arguments = itertools.takewhile(lambda word: re.fullmatch(r"-\w|\w+\.\w+", word), words)
                     self.run_well(command, *arguments)
+
+    def test_a_rotor_takes_no_more_than_25_lines(self):
+        self.run_well("new", "rotor.toml", "--starter", "rotor")
+        self.assertLessEqual(len((self.folder / "rotor.toml").read_text().splitlines()), 25)
+        summary = self.run_well("trace", "rotor.toml", "-o", "rotor.h5")
+        self.assertRegex(summary, r"1x, forward +speed = ")
+        self.assertRegex(summary, r"flutter +speed = ")
 
     def test_blade_is_the_one_that_is_meant_without_a_word(self):
         self.run_well("new", "scene.toml")

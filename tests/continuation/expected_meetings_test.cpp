@@ -336,5 +336,25 @@ TEST(ExpectedBeside, ToldBySeriesAndNotByDistances) {
   EXPECT_TRUE(parallel.beside(0.1).empty());
 }
 
+/// Frequencies 2 +- sqrt(p) and 9, from close behind the exceptional point at p = 0, where the series of each
+/// of the two are those of a root: they seem to meet the third at once.
+TEST(ExpectedBeside, NothingIsExpectedOfEigenvaluesThatHaveJustMet) {
+  const std::vector<Matrix> W{Matrix{{2.0, 1.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 9.0}},
+                              Matrix{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
+  Planted family = Planted::frequencies(W);
+  const double from = 1e-12, to = 0.3;
+  const auto point = [&](double p) {
+    const double half = std::sqrt(p);
+    return family.point(p, {{{(2.0 + half) * j, (2.0 - half) * j}}, {{9.0 * j}}});
+  };
+  PathNode left = point(from), right = point(to);
+  const auto expected = [&] { return expected_beside(left, right, to - from, 0.5); };
+  const auto found = expected();
+  ASSERT_FALSE(found.empty()) << "the series alone do not tell";
+  for (const ExpectedMeeting& meeting : found) EXPECT_TRUE(meeting.is_rough);
+  left.tracks[0].met = {0, 1};
+  EXPECT_TRUE(expected().empty());
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "eigentrail/modes/regroup.hpp"
 #include "modes/pairs_together.hpp"
@@ -68,19 +69,23 @@ TEST_P(AllPairsOfFamily, AreRefusedWhereSomethingIsMissing) {
 
 /// M, C and K of size n of which the last `n_first` coordinates are of first order: no column in M. Their
 /// equations may contain the accelerations of the others.
-ReducedPencil partly_first_order(Eigen::Index n, Eigen::Index n_first, unsigned seed) {
+/// With `diagonal`, their leading columns are.
+ReducedPencil partly_first_order(Eigen::Index n, Eigen::Index n_first, bool diagonal, unsigned seed) {
   ReducedPencil family = random_family(n, seed);
   for (Matrix& M : family.M) M.rightCols(n_first).setZero();
+  if (diagonal) {
+    for (Matrix& C : family.C) C.rightCols(n_first).setZero();
+  }
   family.C[0].bottomRightCorner(n_first, n_first) += 3.0 * Matrix::Identity(n_first, n_first);
   return family;
 }
 
-class AllPairsOfFirstOrder : public testing::TestWithParam<Eigen::Index> {};
+class AllPairsOfFirstOrder : public testing::TestWithParam<std::tuple<Eigen::Index, bool>> {};
 
 TEST_P(AllPairsOfFirstOrder, AgreeWithPairsOneByOne) {
   constexpr Eigen::Index n = 8;
-  const Eigen::Index n_first = GetParam();
-  const ReducedPencil family = partly_first_order(n, n_first, 5);
+  const auto [n_first, diagonal] = GetParam();
+  const ReducedPencil family = partly_first_order(n, n_first, diagonal, 5);
   const Spectrum spectrum = compute_spectrum(family.M[0], family.C[0], family.K[0]);
   ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
   EXPECT_EQ(spectrum.n_infinite, n_first);
@@ -114,7 +119,8 @@ TEST_P(AllPairsOfFirstOrder, AgreeWithPairsOneByOne) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Coordinates, AllPairsOfFirstOrder, testing::Values(1, 3, 8));
+INSTANTIATE_TEST_SUITE_P(Coordinates, AllPairsOfFirstOrder,
+                         testing::Combine(testing::Values(1, 3, 8), testing::Bool()));
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AllPairsOfFamily, testing::Range(1U, 9U));
 

@@ -29,7 +29,7 @@ class DebianPackage(unittest.TestCase):
     def field(self, name):
         return run("dpkg-deb", "-f", self.package, name).strip()
 
-    def test_holds_program_library_reader_and_manual(self):
+    def test_holds_program_library_python_package_and_manual(self):
         for name in (
             "bin/eigentrail",
             "lib/libeigentrail.a",
@@ -41,7 +41,8 @@ class DebianPackage(unittest.TestCase):
             "share/doc/eigentrail/changelog.gz",
         ):
             self.assertTrue((self.root / "usr" / name).is_file(), name)
-        self.assertFalse((self.root / "usr/share/eigentrail").exists(), "the reader is there twice")
+        self.assertTrue(list((self.root / "usr/lib/python3/dist-packages/eigentrail").glob("_engine.*.so")))
+        self.assertFalse((self.root / "usr/share/eigentrail").exists(), "the Python package is there twice")
         self.assertEqual([path.name for path in self.root.iterdir()], ["usr"])
 
     def test_depends_on_the_libraries_of_the_program(self):
@@ -51,15 +52,17 @@ class DebianPackage(unittest.TestCase):
         for package in ("python3-xarray", "python3-matplotlib", "python3-plotly"):
             self.assertIn(package, self.field("Recommends"))
 
-    def test_program_and_reader_work_together(self):
+    def test_program_and_python_package_work_together(self):
         program = self.root / "usr/bin/eigentrail"
         self.assertEqual(run(program, "--version").split(), ["eigentrail", self.field("Version")])
         loci = Path(self.folder.name) / "out.h5"
         run(program, "trace", SCENE, "-o", loci, "--to", "90", "--quiet")
         reader = self.root / "usr/lib/python3/dist-packages"
-        script = "import sys, eigentrail; print(eigentrail.open(sys.argv[1]).sizes['node'])"
-        nodes = run("/usr/bin/python3", "-c", script, loci, env={**os.environ, "PYTHONPATH": str(reader)})
-        self.assertGreater(int(nodes), 1)
+        script = ("import sys, eigentrail as et; print(et.open(sys.argv[1]).sizes['node'], "
+                  "et.trace(sys.argv[2], options={'to': 90}).sizes['node'])")
+        nodes = run("/usr/bin/python3", "-c", script, loci, SCENE, env={**os.environ, "PYTHONPATH": str(reader)}).split()
+        self.assertGreater(int(nodes[0]), 1)
+        self.assertEqual(nodes[0], nodes[1])
         picture = Path(self.folder.name) / "out.svg"
         run(program, "plot", loci, "-o", picture)
         self.assertTrue(picture.read_bytes().startswith(b"<?xml"))

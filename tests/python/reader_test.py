@@ -43,6 +43,7 @@ class Loci(FileTest):
         plain = xarray.load_dataset(self.path, engine="h5netcdf")
         xarray.testing.assert_identical(self.file.drop_vars(["event_kind", "event_modes", "natural_frequency"]).reset_coords(),
                                         plain.reset_coords())
+        self.assertLessEqual(set(plain.coords), set(self.file.coords))
         self.assertEqual(self.file.mode_name.dims, ("mode",))
         self.assertIn("mode_name", self.file.frequency.coords)
 

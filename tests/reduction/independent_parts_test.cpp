@@ -188,6 +188,10 @@ TEST(IndependentParts, BalanceUnits) {
   EXPECT_LT(balanced.cwiseAbs().maxCoeff() / balanced.cwiseAbs().minCoeff(), 10.0);
   const double exponent = std::log2(parts->right(1, 1));
   EXPECT_EQ(exponent, std::round(exponent)) << "powers of two change no digit";
+  const ComplexMatrix Z = ComplexMatrix::Random(2, 3);
+  const TangentBasis basis = basis_of(parts);
+  EXPECT_EQ(basis.shapes(Z, 0), ComplexMatrix(parts->right * Z));
+  EXPECT_EQ(basis.coordinates(basis.shapes(Z, 0), 0), Z);
 }
 
 TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {

@@ -13,8 +13,13 @@ from .accessor import Eigentrail
 from .engine import SceneError, TraceError
 from .families import Family, Samples, StateSpace
 from .files import open
-from .runs import accuracy, boundary, events, map, spectrum, trace
+from .gradients import gradient, least_damping
+from .imports import Imported, from_files, from_openfast
+from .ross import from_ross
+from .runs import accuracy, boundary, events, explain, map, spectrum, trace
+from .sweep import sweep
 from .version import __version__
 
-__all__ = ["Eigentrail", "Family", "Samples", "SceneError", "StateSpace", "TraceError", "accuracy", "boundary", "events",
-           "map", "open", "spectrum", "trace", "__version__"]
+__all__ = ["Eigentrail", "Family", "Imported", "Samples", "SceneError", "StateSpace", "TraceError", "accuracy", "boundary",
+           "events", "explain", "from_files", "from_openfast", "from_ross", "gradient", "least_damping", "map", "open",
+           "spectrum", "sweep", "trace", "__version__"]

@@ -1,11 +1,15 @@
 """The accessor `.eigentrail` of Datasets."""
 
+import os
+from collections.abc import Mapping
 from functools import cached_property
+from typing import Any, Union
 
 import numpy as np
+import pandas
 import xarray
 
-from . import boundary, files, tables
+from . import boundary, files, ross, tables
 from .figures import Figures
 from .selection import Selection
 
@@ -16,15 +20,15 @@ class Eigentrail(Figures):
 
     Figures: `campbell`, `root_locus`, `damping`, `mode_shape`, `plane`, `work_precision`; see `figures.Figures`."""
 
-    def __init__(self, data):
+    def __init__(self, data: xarray.Dataset):
         self._data = data
 
     @property
-    def parameter(self):
+    def parameter(self) -> str:
         """Name of the traced parameter."""
         return self._of("loci").attrs["parameter"]
 
-    def sel(self, mode=None, **at):
+    def sel(self, mode: Any = None, **at: Any) -> xarray.Dataset:
         """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
 
         Returns a Dataset of eigenvalue, natural_frequency abs(s) (also as `frequency`), damped_frequency abs(Im s),
@@ -35,7 +39,7 @@ class Eigentrail(Figures):
         """
         return self._modes(self._selection.at(self._wanted(at)), mode)
 
-    def nearest(self, mode=None, **at):
+    def nearest(self, mode: Any = None, **at: Any) -> xarray.Dataset:
         """The data of the stored point nearest to a value of the parameter: mode shapes, equilibrium, and others.
 
         Example: nearest(omega=12.5, mode="blade lag").mode_shape. For a large model that was projected, the mode shapes are
@@ -51,44 +55,53 @@ class Eigentrail(Figures):
         return at_point
 
     @property
-    def events(self):
+    def events(self) -> pandas.DataFrame:
         """Special points of a trace as a pandas DataFrame."""
         return tables.events(self._of("loci"))
 
     @property
-    def stable_ranges(self):
+    def stable_ranges(self) -> pandas.DataFrame:
         """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
 
-    def save(self, path, force=False):
+    def save(self, path: Union[str, "os.PathLike[str]"], force: bool = False) -> None:
         """Writes the file that the program would write for this result. An existing file of the same kind is replaced, others
         only with `force`."""
         files.save(self._data, path, force)
 
-    def curve(self, number, points=200):
+    @property
+    def runs(self) -> Mapping[tuple[Any, ...], Any]:
+        """Of a sweep: the Datasets of its traces by their values, `runs[2000,]`; an error where one could not begin."""
+        return self._data.encoding.get("eigentrail_runs", {})
+
+    def whirl(self) -> xarray.DataArray:
+        """Direction and shape of the orbits of the nodes of a rotor, per stored point, mode and node; see `eigentrail.ross`."""
+        return ross.whirl(self._of("loci"))
+
+    def curve(self, number: int, points: int = 200) -> xarray.Dataset:
         """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.
 
         Returns a Dataset along `point`."""
         return boundary.curve(self._of("boundary"), number, points)
 
     @cached_property
-    def _selection(self):
+    def _selection(self) -> Selection:
         return Selection(self._of("loci"))
 
-    def _of(self, kind):
+    def _of(self, kind: str) -> xarray.Dataset:
         found = self._data.attrs.get("format")
         if found != f"eigentrail-{kind}":
             raise ValueError(f"only {kind} files have this; the Dataset is of the format {found!r}")
         return self._data
 
-    def _wanted(self, at):
+    def _wanted(self, at: Mapping[str, Any]) -> Any:
         """The value of the only keyword, which must be the name of the parameter."""
         if list(at) != [self.parameter]:
             found = ", ".join(f"{name}=..." for name in at) or "nothing"
             raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
         return at[self.parameter]
 
-    def _modes(self, data, wanted):
+    def _modes(self, data: xarray.Dataset, wanted: Any) -> xarray.Dataset:
         """`data` of the modes with these labels or names; of all modes for None."""
         if wanted is None:
             return data

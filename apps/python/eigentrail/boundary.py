@@ -6,7 +6,7 @@ import xarray
 from .interpolation import TwoPointTaylor
 
 
-def curve(boundary, number, points):
+def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:
     """Dataset of both parameters and the eigenvalue at `points` places along curve `number`.
 
     The places are equidistant if every step counts as long as any other."""

@@ -1,13 +1,16 @@
 """The compiled engine, which computes. Reading files works without it."""
 
+from typing import TYPE_CHECKING, Any, Optional
+
+_found: Any = None
+_why: Optional[ImportError] = None
 try:
-    from . import _engine as _found
-    _why = None
+    from . import _engine as _found  # type: ignore[attr-defined, no-redef]
 except ImportError as error:  # an installation that only reads files, or another version of Python
-    _found, _why = None, error
+    _why = error
 
 
-def engine():
+def engine() -> Any:
     """The compiled module; an ImportError that says how to get it where it is missing."""
     if _found is None:
         raise ImportError(
@@ -16,14 +19,13 @@ def engine():
     return _found
 
 
-class SceneError(ValueError):
-    """Bad input: a scene, a family or an option that cannot be used. The message says where, what was expected, and what
-    to do."""
-
-
 class TraceError(RuntimeError):
     """A computation that could not begin; the message says why."""
 
 
-if _found is not None:
-    SceneError = _found.SceneError  # noqa: F811  the engine raises its own
+if TYPE_CHECKING or _found is None:
+    class SceneError(ValueError):
+        """Bad input: a scene, a family or an option that cannot be used. The message says where, what was expected, and
+        what to do."""
+else:
+    SceneError = _found.SceneError

@@ -31,6 +31,14 @@ class Family:
 
     `parameter` is the name of the parameter, by default the one that is traced; `unit` its unit, for labels; `names` the
     names of the coordinates, n of them.
+
+    >>> import eigentrail as et, numpy as np
+    >>> family = et.Family(M=np.eye(1), K=[[[1.0]], [[3.0]]], parameter="p")     # K = 1 + 3 p
+    >>> et.trace(family, p=(0, 1)).natural_frequency.values[[0, -1], 0].round(6)
+    array([1., 2.])
+    >>> family = et.Family(lambda p: dict(M=np.eye(1), K=[[1.0 + 3.0 * p]]))
+    >>> et.trace(family, p=(0, 1)).natural_frequency.values[[0, -1], 0].round(6)
+    array([1., 2.])
     """
 
     def __init__(self, function: Optional[Callable[[float], Mapping[str, Any]]] = None, *, M: Matrices = None,
@@ -93,6 +101,12 @@ class Samples:
 
     An interpolant is chosen by the samples; its estimated error goes to every eigenvalue. `digits` is the number of
     significant digits of the entries. A matrix that does not change may be given once, n x n.
+
+    >>> import eigentrail as et, numpy as np
+    >>> p = np.array([0.0, 0.3, 0.7, 1.0])
+    >>> loci = et.trace(et.Samples(p, M=np.eye(1), K=[[[1.0 + 3.0 * one]] for one in p]), p=(0, 1))
+    >>> loci.natural_frequency.values[[0, -1], 0].round(6), bool(loci.interpolation_error.max() < 1e-12)
+    (array([1., 2.]), True)
     """
 
     function = None
@@ -147,6 +161,12 @@ class StateSpace(Samples):
     """E x' = A x at values `p` of the parameter: `A` (and `E`) of shape (len(p), n, n), as linearizations come.
 
         StateSpace(A, p, names=["q1", "q2"], digits=4)
+
+    >>> import eigentrail as et, numpy as np
+    >>> p = [0.0, 0.3, 0.7, 1.0]
+    >>> loci = et.trace(et.StateSpace([[[0, 1], [-1 - 3 * one, 0]] for one in p], p), p=(0, 1))
+    >>> loci.natural_frequency.values[[0, -1], 0].round(6)
+    array([1., 2.])
     """
 
     def __init__(self, A: Any, p: Any, E: Any = None, **more: Any):

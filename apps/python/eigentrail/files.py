@@ -4,13 +4,19 @@ import builtins
 import io
 import os
 import tempfile
+from collections.abc import Iterable, Mapping
+from typing import Any, Optional, Union
 
 import h5py
 import numpy as np
 import xarray
 
 SCHEMA = 1
-IMAGE = "eigentrail_file"  # key of a Dataset's encoding: the bytes of its file
+# Attributes by which HDF5 and xarray know dimensions and coordinates.
+NOT_ATTRIBUTES = ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "coordinates")
+# Keys of a Dataset's encoding.
+IMAGE = "eigentrail_file"  # the bytes of its file
+SCENE_FILES = "eigentrail_scene_files"  # files of matrices in memory that its scene names: their bytes by name
 
 # Variables that describe the rows of a file. They become coordinates and label plots and tables.
 COORDINATES = {
@@ -22,28 +28,49 @@ COORDINATES = {
 }
 
 
-def open(path):
+def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
     """Reads a file written by eigentrail into memory: an xarray Dataset with labels as coordinates.
 
     The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`.
     """
+    path = os.fspath(path)
     with builtins.open(path, "rb") as file:
-        bytes_of_file = file.read()
-    with _opened(os.fspath(path)) as file:
-        return _labelled(file, os.fspath(path), bytes_of_file)
+        image = file.read()
+    try:
+        with h5py.File(path, "r") as file:
+            return _labelled(file, path, image)
+    except BlockingIOError as error:
+        raise BlockingIOError(f"{path}: is still being written; wait until its trace has ended") from error
 
 
-def from_bytes(image):
+def from_bytes(image: bytes) -> xarray.Dataset:
     """The same for the bytes of a file."""
-    with xarray.open_dataset(io.BytesIO(image), engine="h5netcdf", decode_times=False) as file:
+    with h5py.File(io.BytesIO(image), "r") as file:
         return _labelled(file, "result", image)
 
 
-def save(data, path, force=False):
+# What the dense output needs, and what a sweep says of a trace.
+FOR_SELECTION = ("step", "mode", "mode_name", "eigenvalue", "frequency", "damped_frequency", "damping_ratio", "certified",
+                 "mode_block", "dense_block", "dense_chart", "step_length", "dense_output", "step_parameter",
+                 "interpolation_error", "digits_error", "mode_shape", "events", "event_parameter", "scene_parameter",
+                 "scene_parameter_unit")
+
+
+def part_from_bytes(image: bytes, like: Optional[xarray.Dataset] = None) -> xarray.Dataset:
+    """Of a loci file only what `sel` and a sweep need; `like` is that part of a file of the same scene, which has the same
+    dimensions and attributes."""
+    with h5py.File(io.BytesIO(image), "r") as file:
+        data = _dataset(file, (*FOR_SELECTION, file.attrs["parameter"]), like)
+    data["natural_frequency"] = data.frequency
+    _add_event_kinds(data)
+    return data
+
+
+def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool = False) -> None:
     """Writes the file that the Dataset was made from; the same bytes. Replaces files of eigentrail of the same kind, others
     only with `force`. The file is replaced as a whole."""
     image = data.encoding.get(IMAGE)
-    if image is None:
+    if image is None or not from_bytes(image).identical(data):
         raise ValueError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
                          "has returned, or write this one with to_netcdf")
     path = os.fspath(path)
@@ -68,17 +95,54 @@ def replace(path, image):
         raise
 
 
-def _labelled(file, path, image):
+def _labelled(file: Any, path: str, image: bytes) -> xarray.Dataset:
     kind = _checked_format(path, file.attrs)
-    data = file.load()
+    data = _dataset(file)
     if kind == "eigentrail-loci":
-        data = _with_frequencies(_with_event_kinds(data))
+        _add_event_kinds(data)
+        _add_frequencies(data)
     data = data.set_coords([name for name in COORDINATES[kind] if name in data])
     data.encoding[IMAGE] = image
     return data
 
 
-def _kind_of(path):
+def _dataset(file: Any, names: Optional[Iterable[str]] = None, like: Optional[xarray.Dataset] = None) -> xarray.Dataset:
+    """What xarray.open_dataset gives for the file, in a fraction of its time: all datasets, or those of `names`, with the
+    names of their dimensions."""
+    variables: dict[str, Any] = {}
+    labels: set[str] = set()
+    for name in file if names is None else [name for name in names if name in file]:
+        dataset = file[name]
+        if not isinstance(dataset, h5py.Dataset):
+            continue  # the type of complex numbers
+        if like is not None and name in like.variables:
+            variables[name] = (like[name].dims, _values(dataset), like[name].attrs)
+            labels.update({name} & set(like.coords))
+            continue
+        attributes = {key: _plain(value) for key, value in dataset.attrs.items() if key not in NOT_ATTRIBUTES}
+        variables[name] = (_dimensions(file, name, dataset), _values(dataset), attributes)
+        labels.update(dataset.attrs.get("coordinates", "").split())
+    coordinates = {name: value for name, value in variables.items() if value[0] == (name,) or name in labels}
+    return xarray.Dataset({name: value for name, value in variables.items() if name not in coordinates}, coordinates,
+                          {key: _plain(value) for key, value in file.attrs.items()})
+
+
+def _values(dataset: Any) -> Any:
+    return dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) is not None else dataset[()]
+
+
+def _dimensions(file: Any, name: str, dataset: Any) -> tuple[str, ...]:
+    references = dataset.attrs.get("DIMENSION_LIST")
+    if references is None:
+        return (name,) * dataset.ndim
+    return tuple(h5py.h5r.get_name(one[0], file.id).decode()[1:] for one in references)
+
+
+def _plain(value: Any) -> Any:
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def _kind_of(path: str) -> Any:
     try:
         with h5py.File(path, "r") as file:
             return file.attrs.get("format")
@@ -86,22 +150,15 @@ def _kind_of(path):
         return None
 
 
-def _umask():
+def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
 
 
-def _opened(path):
-    try:
-        return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
-    except BlockingIOError as error:
-        raise BlockingIOError(f"{path}: is still being written; wait until its trace has ended") from error
-
-
-def _checked_format(path, attributes):
+def _checked_format(path: str, attributes: Mapping[str, Any]) -> str:
     expected = "expected a file of eigentrail trace, boundary, map or accuracy"
-    kind = attributes.get("format")
+    kind: Optional[str] = attributes.get("format")
     if kind is None:
         raise ValueError(f"{path}: has no attribute 'format'; {expected}")
     if kind not in COORDINATES:
@@ -112,21 +169,18 @@ def _checked_format(path, attributes):
     return kind
 
 
-def _with_frequencies(data):
+def _add_frequencies(data: xarray.Dataset) -> None:
     """Both frequencies by their names: `natural_frequency` abs(s), which the file calls `frequency`, and `damped_frequency`
     abs(Im s), which files of earlier versions do not hold."""
-    data = data.assign(natural_frequency=data.frequency)
+    data["natural_frequency"] = data.frequency
     if "damped_frequency" not in data:
         names = {"long_name": "damped frequency abs(Im(s))", "units": "rad/s"}
-        data = data.assign(damped_frequency=np.abs(data.eigenvalue.imag).assign_attrs(names))
-    return data
+        data["damped_frequency"] = np.abs(data.eigenvalue.imag).assign_attrs(names)
 
 
-def _with_event_kinds(data):
+def _add_event_kinds(data: xarray.Dataset) -> None:
     """Adds `event_kind` and `event_modes`, the first and the last field of the lines in `events`."""
     words = [line.split(",") for line in data.events.values]
-
-    def texts(place, long_name):
-        return "event", np.array([line[place] for line in words], object), {"long_name": long_name, "units": "1"}
-
-    return data.assign(event_kind=texts(0, "what happens"), event_modes=texts(-1, "numbers of the modes"))
+    for name, place, long_name in (("event_kind", 0, "what happens"), ("event_modes", -1, "numbers of the modes")):
+        texts = np.array([line[place] for line in words], object)
+        data[name] = ("event", texts, {"long_name": long_name, "units": "1"})

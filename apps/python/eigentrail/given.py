@@ -1,6 +1,7 @@
 """What users give as a scene, and keywords of the commands, as the engine wants them."""
 
 import os
+import tomllib
 from collections.abc import Mapping
 from typing import Any, NamedTuple, Optional, Union
 
@@ -9,8 +10,9 @@ import numpy as np
 from . import toml
 from .engine import SceneError, engine
 from .families import Family, Samples
+from .imports import Imported
 
-Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Family, Samples]
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Family, Samples, Imported]
 
 
 class Given(NamedTuple):
@@ -20,24 +22,36 @@ class Given(NamedTuple):
     function: Any
     ranges: dict[str, tuple[Any, Any]]
     warnings: list[str]
+    files: dict[str, bytes]  # of matrices in memory, by the names by which the scene calls them
 
 
-def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None) -> Given:
-    """`values`: per parameter a number, a text such as "300 rpm" or an expression, or a pair: a range."""
+def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None, functions: bool = False,
+         events: Optional[Mapping[str, Any]] = None) -> Given:
+    """`values`: per parameter a number, a text such as "300 rpm" or an expression, or a pair: a range. `functions`: whether
+    a family may be given by a function."""
+    if not functions and getattr(source, "function", None) is not None:
+        raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
+                         "for one range; give its matrices as a Family of powers and names, or as Samples")
     ranges = {name: _range(name, value) for name, value in values.items() if _is_range(value)}
     settings = [f"{name}={_setting(value)}" for name, value in values.items() if name not in ranges]
-    function = None
-    if isinstance(source, (Family, Samples)):
+    function, files = None, {}
+    if isinstance(source, Imported):
+        files = {"model.h5": source.image}
+        scene = source.scene()
+    elif isinstance(source, (Family, Samples)):
         traced = source.parameter or _only(ranges)
-        scene = _in_memory(source, traced, ranges.get(traced))
+        files = {} if source.function is not None else {"family.h5": source.image()}
+        scene = engine().parse_scene(source.scene(traced, ranges.get(traced)), "family.toml", files)
         if source.function is not None:
             function = engine().FunctionSource(
                 source.function, _function_tolerance(source, tolerance), source.max_calls, source.breaks,
                 source.names or [])
     else:
         scene = _read(source)
+    if events:
+        scene = _with_events(scene, events, files)
     scene, warnings = scene.with_settings(settings)
-    return Given(scene, function, ranges, warnings)
+    return Given(scene, function, ranges, warnings, files)
 
 
 def option_text(key: str, value: Any) -> str:
@@ -62,7 +76,7 @@ def _read(source: Any) -> Any:
     if isinstance(source, Mapping):
         return engine().parse_scene(toml.dumps(source), "scene.toml")
     if not isinstance(source, (str, os.PathLike)):
-        raise TypeError("expected a scene: a path, a text, a dict, a Family, Samples or a StateSpace; found "
+        raise TypeError("expected a scene: a path, a text, a dict, a Family, Samples, a StateSpace, or what an importer returns; found "
                         + type(source).__name__)
     text = os.fspath(source)
     if isinstance(source, str) and ("\n" in text or "=" in text):
@@ -70,9 +84,11 @@ def _read(source: Any) -> Any:
     return engine().read_scene(text)
 
 
-def _in_memory(family: Any, traced: str, span: Optional[tuple[Any, Any]]) -> Any:
-    files = {} if family.function is not None else {"family.h5": family.image()}
-    return engine().parse_scene(family.scene(traced, span), "family.toml", files)
+def _with_events(scene: Any, events: Mapping[str, Any], files: Mapping[str, bytes]) -> Any:
+    """The scene with other entries in [events]."""
+    tables = tomllib.loads(scene.text)
+    tables["events"] = {**tables.get("events", {}), **events}
+    return engine().parse_scene(toml.dumps(tables), scene.path, dict(files))
 
 
 def _only(ranges: Mapping[str, Any]) -> str:

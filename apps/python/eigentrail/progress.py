@@ -1,5 +1,6 @@
 """Progress of long computations."""
 
+import os
 import sys
 import warnings
 from typing import Any, Callable, Optional, Union
@@ -33,7 +34,9 @@ class Bar:
 
 
 def _watched() -> bool:
-    """Whether somebody sees the bar: a notebook or a terminal."""
+    """Whether somebody sees the bar: a notebook or a terminal, unless the environment says EIGENTRAIL_PROGRESS=off."""
+    if os.environ.get("EIGENTRAIL_PROGRESS") == "off":
+        return False
     return "ipykernel" in sys.modules or sys.stderr.isatty()
 
 

@@ -3,7 +3,7 @@
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import pandas
@@ -15,11 +15,13 @@ from .given import Given, Source, give, number, option_text
 from .progress import Bar, Progress
 
 Options = list[tuple[str, str]]
+FEW_ROUNDINGS = 1e-15  # relative rounding of a well-conditioned eigenvalue
 
 
 def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
           settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
-          threads: int = 0, progress: Progress = None, **parameters: Any) -> xarray.Dataset:
+          events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
+          **parameters: Any) -> xarray.Dataset:
     """Follows the eigenvalues of a scene while a parameter changes: the Dataset that `open` gives for its loci file.
 
     `scene` is a path, the text of a scene, a dict of its tables, a `Family`, `Samples` or a `StateSpace`. Keywords are
@@ -32,24 +34,59 @@ def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None
     Without a range, [trace] of the scene gives it. `settings` is a dict of parameters whose names are keywords here.
     `tolerance` bounds the relative error of every eigenvalue, everywhere on the range (1e-6). `modes`: "all", a number, or a
     dict: dict(count=12, band=["0.05 Hz", "3 Hz"], damping_below=0.9). `options` are others of [trace]: order, reference,
-    first_step, max_step, max_nodes, constant_modes, branch, without.
+    first_step, max_step, max_nodes, constant_modes, branch, without. `events` are entries of [events]: dict(harmonics=[1, 2]).
 
     Ctrl-C stops at the next point and keeps what there is: the attribute `status` is then "interrupted". A trace that ends
     before its range does has the status "ended early" and warns with the reason. Raises SceneError for bad input, and
     TraceError where nothing can be traced.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> loci = et.trace(scene, p=(0, 1), drag=0.2, tolerance=1e-9)
+    >>> loci.attrs["status"], dict(loci.sizes)["mode"]
+    ('completed', 2)
+    >>> loci.eigentrail.sel(p=0).natural_frequency.values.round(6)              # rad/s
+    array([1.      , 1.414214])
     """
-    given = give(scene, {**(settings or {}), **parameters}, tolerance)
+    run = trace_file(scene, tolerance=tolerance, modes=modes, certify=certify, settings=settings, options=options,
+                     events=events, threads=threads, progress=progress, **parameters)
+    _tell(run.remarks)
+    return run.loci()
+
+
+class Run(NamedTuple):
+    """A trace as the engine leaves it."""
+
+    image: bytes  # of the loci file
+    message: str  # why it ended early; empty if it did not
+    remarks: list[str]
+    scene_files: dict[str, bytes]
+
+    def loci(self) -> xarray.Dataset:
+        loci = files.from_bytes(self.image)
+        loci.encoding[files.SCENE_FILES] = self.scene_files
+        return loci
+
+
+def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
+               settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
+               events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
+               **parameters: Any) -> Run:
+    """The same without reading the file."""
+    given = give(scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
     chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().trace(given.scene, chosen, given.function, threads, show)
-    _tell(given.warnings + outcome.remarks)
     if not outcome.file:
         raise TraceError(f"{given.scene.path}: {outcome.message}")
+    remarks = given.warnings + outcome.remarks
     if outcome.interrupted:
-        _tell(["interrupted: the Dataset has the points up to here"])
+        remarks.append("interrupted: the Dataset has the points up to here")
     elif outcome.message:
-        _tell([f"ended early: {outcome.message}"])
-    return files.from_bytes(outcome.file)
+        remarks.append(f"ended early: {outcome.message}")
+    return Run(outcome.file, outcome.message, remarks, given.files)
 
 
 def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,
@@ -62,8 +99,16 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     The first range is that of the traced parameter (the one that [trace] names, if it is among them). With one range only,
     it is that of the second parameter. `damping_ratio`: the curves on which a pair has this damping ratio. `lines`: lines of
     the window that are searched in each direction (5). Raises KeyboardInterrupt for Ctrl-C.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> curves = et.boundary(scene, p=(0, 1), drag=(0.05, 0.5))
+    >>> curves.sizes["curve"], curves.curve_kind.values[0]
+    (1, 'flutter')
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    given = give(scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
@@ -81,8 +126,16 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
 
     Ranges as for `boundary`. `grid`: values of the second parameter and of the first one, or one number for both. `jobs`:
     threads, 0 for one per core. Raises KeyboardInterrupt for Ctrl-C.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> stability = et.map(scene, p=(0, 1), drag=(0.05, 0.5), grid=(4, 5))
+    >>> stability.unstable.dims, int(stability.unstable.sel(p=0, drag=0.5))
+    (('drag', 'p'), 0)
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}, tolerance))
+    given = give(scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     rows, columns = (grid, grid) if isinstance(grid, int) else grid
@@ -99,8 +152,16 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
 
     The Dataset of an accuracy file. `orders` of the power series, `grids`: points of the grids of the other methods,
     `samples`: values at which errors are measured, `repeat`: runs whose median time counts.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> study = et.accuracy(scene, tolerances=[1e-6], orders=[4], grids=[25], samples=20, repeat=1)
+    >>> bool(study.error.sel(run=0) < 1e-6)
+    True
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    given = give(scene, {**(settings or {}), **parameters})
     wanted = [10.0 ** -k for k in range(2, 13)] if tolerances is None else [float(t) for t in tolerances]
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().accuracy(given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat,
@@ -116,8 +177,17 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
 
     Columns: the parameter, mode, eigenvalue (1/s), natural_frequency and damped_frequency (rad/s), damping_ratio, what_moves,
     condition; for samples also interpolation_error and digits_error (1/s). `at` is by default where [trace] begins.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> et.spectrum(scene, at=0.25)[["p", "mode", "damped_frequency"]].round(4)
+          p  mode  damped_frequency
+    0  0.25     1            1.0317
+    1  0.25     2            1.3894
     """
-    given = _second_order_family(give(scene, {**(settings or {}), **parameters}))
+    given = give(scene, {**(settings or {}), **parameters})
     chosen = _trace_options(given, modes=modes, **(options or {}))
     values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
     found = engine().spectrum(given.scene, chosen, values)
@@ -125,7 +195,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])
     if table.empty:
         return table
-    s = table["eigenvalue"].to_numpy(complex)
+    s = _without_rounding(table["eigenvalue"].to_numpy(complex), table["condition"].to_numpy(float))
     with np.errstate(invalid="ignore"):
         ratio = -s.real / np.abs(s)
     table.insert(3, "natural_frequency", np.abs(s))
@@ -134,8 +204,42 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
 
 
+def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapping[str, Any]] = None,
+            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> "Explanation":
+    """What a scene simulates and how it will be solved: effects, structure, sizes, solvers; a text.
+
+    `sensitivity` ranks the effects by their influence on each mode where the trace begins.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> print(et.explain(scene).splitlines()[0].strip())
+    2 freedoms: 2 coordinates, no constraints.
+    """
+    given = give(scene, {**(settings or {}), **parameters})
+    text = engine().explain(given.scene, _trace_options(given, **(options or {})), sensitivity)
+    _tell(given.warnings)
+    return Explanation(text)
+
+
+class Explanation(str):
+    """A text of several lines that notebooks and interpreters show as it is."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
 def events(loci: xarray.Dataset) -> pandas.DataFrame:
-    """Special points of a trace: a table, one row per event; the same as `loci.eigentrail.events`."""
+    """Special points of a trace: a table, one row per event; the same as `loci.eigentrail.events`.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> list(et.events(et.trace(scene)).kind)
+    ['collision', 'flutter']
+    """
     return loci.eigentrail.events
 
 
@@ -166,13 +270,6 @@ def _two_ranges(given: Given) -> tuple[Optional[str], str]:
     return names[0], names[1]
 
 
-def _second_order_family(given: Given) -> Given:
-    if given.function is not None:
-        raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
-                         "for one range; give its matrices as a Family of powers and names, or as Samples")
-    return given
-
-
 def _begin(given: Given) -> float:
     if given.ranges:
         return float(next(iter(given.ranges.values()))[0])
@@ -180,6 +277,13 @@ def _begin(given: Given) -> float:
         if name == given.scene.traced:
             return float(value)
     raise SceneError("expected at=, the value of the parameter")
+
+
+def _without_rounding(s: Any, condition: Any) -> Any:
+    """Eigenvalues in which a real part within rounding is zero, as the program shows them."""
+    finite = np.isfinite(condition)
+    rounding = np.where(finite, FEW_ROUNDINGS * np.maximum(np.where(finite, condition, 1.0), 1.0) * np.abs(s), 0.0)
+    return np.where(np.abs(s.real) <= rounding, 1j * s.imag, s)
 
 
 def _result(given: Given, outcome: Any) -> xarray.Dataset:

@@ -1,9 +1,11 @@
 """Events and stable ranges of a loci file as pandas tables."""
 
+from typing import Any
+
 import pandas
 
 
-def events(loci):
+def events(loci: Any) -> pandas.DataFrame:
     """One row per special point, in the order of the trace.
 
     For a sampled family, `interval_from` and `interval_to` are the parameter values between which it lies as far as the
@@ -24,7 +26,7 @@ def events(loci):
     return table
 
 
-def stable_ranges(loci):
+def stable_ranges(loci: Any) -> pandas.DataFrame:
     """One row per range without growing modes, in the order of the trace."""
     table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
     for end, name in (("left", "from"), ("right", "to")):
@@ -35,7 +37,7 @@ def stable_ranges(loci):
     return pandas.DataFrame(table, index=pandas.Index(loci.range.values, name="range"))
 
 
-def _mode_names(loci, text):
+def _mode_names(loci: Any, text: str) -> str:
     """Names of modes from their numbers: 'flap; lag' from '1;3'. Modes without a name have their label, 'mode 1'."""
     labels = loci.mode.values
     names = loci.mode_name.values if "mode_name" in loci.coords else labels

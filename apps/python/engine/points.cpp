@@ -1,9 +1,14 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/continuation/sensitivities.hpp"
+#include "eigentrail/explain.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "engine.hpp"
 #include "watch.hpp"
@@ -57,13 +62,13 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
 
 /// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the
 /// traced parameter.
-py::dict sensitivities(const Scene& scene, const Options& options, double value) {
+py::dict sensitivities(const Scene& scene, const Options& options, double value, const Vector& guess) {
   Sensitivities found;
   std::vector<std::string> names;
   unlocked([&] {
     const TraceSetup setup = prepare_at(scene, options, {value});
     const Parameters& parameters = setup.model->description().parameters;
-    found = sensitivities_at(setup, value, free_parameters(parameters));
+    found = sensitivities_at(setup, value, free_parameters(parameters), guess);
     for (const int parameter : found.parameters)
       names.push_back(parameters[static_cast<std::size_t>(parameter)].name);
   });
@@ -71,11 +76,33 @@ py::dict sensitivities(const Scene& scene, const Options& options, double value)
   return py::dict("eigenvalue"_a = found.s, "parameter"_a = names, "derivative"_a = found.derivatives);
 }
 
+/// What `eigentrail explain` prints.
+std::string explanation(const Scene& scene, const Options& options, bool sensitivity) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* to = open_memstream(&text, &size);
+  if (to == nullptr) throw std::bad_alloc();
+  const auto taken = [&] {
+    std::fclose(to);
+    const std::unique_ptr<char, decltype(&std::free)> owner(text, &std::free);
+    return std::string(text, size);
+  };
+  try {
+    unlocked([&] { app::explain(to, prepare_trace(scene, options), options, sensitivity); });
+  } catch (...) {
+    (void)taken();
+    throw;
+  }
+  return taken();
+}
+
 }  // namespace
 
 void add_points(py::module_& module) {
   module.def("spectrum", &spectrum, py::arg("scene"), py::arg("options"), py::arg("values"));
-  module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"));
+  module.def("explain", &explanation, py::arg("scene"), py::arg("options"), py::arg("sensitivity"));
+  module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"),
+             py::arg("guess"));
 }
 
 }  // namespace eigentrail::python

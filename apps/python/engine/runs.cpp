@@ -44,8 +44,8 @@ MatricesAt matrices_of(const py::object& returned, double p) {
     const auto matrix = known.find(py::str(key));
     if (matrix == known.end()) throw expected("the key " + std::string(py::repr(key)));
     using Entries = py::array_t<double, py::array::forcecast>;
-    const py::object dense = py::hasattr(value, "toarray") ? value.attr("toarray")()
-                                                           : py::reinterpret_borrow<py::object>(value);
+    const py::object dense =
+        py::hasattr(value, "toarray") ? value.attr("toarray")() : py::reinterpret_borrow<py::object>(value);
     const Entries entries = Entries::ensure(dense);
     if (!entries || entries.ndim() != 2) {
       PyErr_Clear();
@@ -84,8 +84,8 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
           const py::gil_scoped_acquire acquired;
           return matrices_of(source->call(p), p);
         };
-        return std::make_unique<FunctionFamily>(
-            call, options_of(*source, parameters.at(trace.parameter), trace));
+        return std::make_unique<FunctionFamily>(call,
+                                                options_of(*source, parameters.at(trace.parameter), trace));
       });
 }
 
@@ -173,7 +173,7 @@ Outcome run_map(const Scene& scene, const Options& options, const MapOptions& wi
     check_map_names(setup);
     const StabilityMap map = stability_map(
         setup, [&](int lines) { watch.require(static_cast<double>(lines) / window.n_second, lines); });
-    return map_file(setup, map, {});
+    return map_file(setup, map);
   });
   outcome.file = py::bytes(file);
   return outcome;
@@ -227,10 +227,10 @@ void add_runs(py::module_& module) {
          std::optional<std::string> parameter, std::optional<double> first_from,
          std::optional<double> first_to, std::optional<double> tolerance, std::optional<double> damping_ratio,
          std::optional<int> lines, const py::object& progress) {
-        return run_boundary(scene,
-                            {second, from, to, std::move(parameter), first_from, first_to, tolerance,
-                             damping_ratio, lines},
-                            progress);
+        return run_boundary(
+            scene,
+            {second, from, to, std::move(parameter), first_from, first_to, tolerance, damping_ratio, lines},
+            progress);
       },
       py::arg("scene"), py::arg("second"), py::arg("second_from"), py::arg("second_to"), py::arg("parameter"),
       py::arg("first_from"), py::arg("first_to"), py::arg("tolerance"), py::arg("damping_ratio"),
@@ -247,9 +247,9 @@ void add_runs(py::module_& module) {
       "accuracy",
       [](const Scene& scene, const Options& options, std::vector<double> tolerances, std::vector<int> orders,
          std::vector<int> grids, int samples, int repeat, const py::object& progress) {
-        return run_accuracy(
-            scene, options,
-            {std::move(tolerances), std::move(orders), std::move(grids), samples, repeat}, progress);
+        return run_accuracy(scene, options,
+                            {std::move(tolerances), std::move(orders), std::move(grids), samples, repeat},
+                            progress);
       },
       py::arg("scene"), py::arg("options"), py::arg("tolerances"), py::arg("orders"), py::arg("grids"),
       py::arg("samples"), py::arg("repeat"), py::arg("progress"));

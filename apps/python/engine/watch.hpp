@@ -79,8 +79,8 @@ auto unlocked(Work&& work) {
   return work();
 }
 
-/// Runs `work`, which `watch` watches, without the interpreter lock. Where it was stopped, throws what stopped
-/// it: an exception of `progress`, or KeyboardInterrupt.
+/// Runs `work`, which `watch` watches, without the interpreter lock. Where it was stopped, throws what
+/// stopped it: an exception of `progress`, or KeyboardInterrupt.
 template <class Work>
 auto watched(const Watch& watch, Work&& work) {
   try {

@@ -13,8 +13,9 @@ namespace eigentrail {
 
 struct Findings {
   RecordedPath path;
-  std::vector<StableRange> ranges;   ///< stable, marginal and undecided ones
-  std::optional<DataErrors> errors;  ///< that come from the data of the model; empty if it has none of its own
+  std::vector<StableRange> ranges;  ///< stable, marginal and undecided ones
+  std::optional<DataErrors>
+      errors;  ///< that come from the data of the model; empty if it has none of its own
 };
 
 /// Completes a trace that has ended. Where the data of the model have errors, extrema of damping ratios that

@@ -1,5 +1,6 @@
-// Derivatives of eigenvalues with respect to parameters, at one value of the traced parameter; the equilibrium
-// follows the parameters. Influence of each effect of a scene: derivatives with respect to its strength.
+// Derivatives of eigenvalues with respect to parameters, at one value of the traced parameter; the
+// equilibrium follows the parameters. Influence of each effect of a scene: derivatives with respect to its
+// strength.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@ struct Sensitivities {
   std::string fault = {};            ///< why they could not be computed; empty on success
   ComplexVector s = {};              ///< the chosen eigenvalues of least |s|, 1/s
   std::vector<int> parameters = {};  ///< indices
-  /// Mode x parameter: ds/dq, in 1/s per declared unit; NaN at a multiple eigenvalue, which has no derivative.
+  /// Mode x parameter: ds/dq, in 1/s per declared unit; NaN at a multiple eigenvalue, which has no
+  /// derivative.
   ComplexMatrix derivatives = {};
 };
 
@@ -22,8 +24,8 @@ std::vector<int> free_parameters(const Parameters& parameters);
 
 /// Derivatives with respect to `parameters` at the value `p` of the traced parameter, in its unit, of the
 /// modes that the option `modes` chooses. `guess`: an equilibrium near the one that is meant; empty: the
-/// model's own guess. Cost: an equilibrium, a QZ, a singular value decomposition per mode, and the first-order
-/// terms along each parameter.
+/// model's own guess. Cost: an equilibrium, a QZ, a singular value decomposition per mode, and the
+/// first-order terms along each parameter.
 Sensitivities sensitivities_at(const TraceSetup& setup, double p, const std::vector<int>& parameters,
                                const Vector& guess = {});
 

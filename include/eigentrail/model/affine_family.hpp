@@ -5,6 +5,7 @@
 // with sparse constant matrices (a large model as another program made it) or dense ones (its projection).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,17 @@
 
 namespace eigentrail {
 
+/// A function of one number that is known at single places and interpolated between them.
+class TabulatedFactor;
+
 /// One summand: a constant matrix, n x n, and its factor, a function of the parameters' SI values.
 template <class Storage>
 struct AffineTerm {
   Expression factor = 1.0;
   Storage matrix;
   std::string name = {};  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
+  /// If there is one, the factor is the tabulated function at `factor`.
+  std::shared_ptr<const TabulatedFactor> table = nullptr;
 };
 
 /// The summands of M, C and K; an empty list is a zero matrix.

@@ -23,9 +23,9 @@ struct ModelRequest {
   bool strengths = false;
 };
 
-/// Builds the model that a scene describes: a multibody system, or a family of matrices if the scene has
-/// [matrix_family] or [sampled_family]. Throws InputError for every fault of the scene, including unknown
-/// keys and misspelt parameters.
+/// Builds the model that a scene describes: a multibody system, a rotor if the scene has [[shaft]], or a
+/// family of matrices if it has [matrix_family] or [sampled_family]. Throws InputError for every fault of the
+/// scene, including unknown keys and misspelt parameters.
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request);
 
 /// Name of the parameter that multiplies the forces of an effect; no parameter of a scene can have this name.
@@ -41,6 +41,10 @@ InputError without_error(const Scene& scene, const std::string& effect, const st
 
 /// Whether the scene has [matrix_family] or [sampled_family], that is, matrices instead of elements.
 bool is_matrix_family(const Scene& scene);
+
+/// Whether the scene has [[shaft]]: then it is a rotor, a family of matrices made of shafts, discs and
+/// bearings.
+bool is_rotor(const Scene& scene);
 
 /// Describes one key of the tables of an effect, for help and documentation.
 struct FieldHelp {
@@ -58,5 +62,8 @@ struct EffectHelp {
 
 /// All effects of multibody scenes, in the order of evaluation.
 std::vector<EffectHelp> effect_reference();
+
+/// The tables of a rotor. Its [[bearing]] has the name of an effect, and other keys.
+std::vector<EffectHelp> rotor_reference();
 
 }  // namespace eigentrail

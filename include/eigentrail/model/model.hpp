@@ -6,6 +6,7 @@
 // along it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,6 +66,22 @@ struct MassCarrier {
   Eigen::Index n_triples = 1;
 };
 
+/// Something that rotates about the z axis and carries nodes: a shaft. The orbits of its nodes show whether a
+/// mode whirls with its rotation or against it.
+struct SpinningShaft {
+  std::string name;
+  Expression speed;            ///< about +z, rad/s
+  std::vector<double> places;  ///< of the nodes along the axis, m, at the declared values of the parameters
+  std::vector<std::array<Eigen::Index, 2>> nodes;  ///< coordinates x and y of each node; -1: held
+};
+
+/// A direction of a body about which a disc spins: first coordinates of the body's origin and of the
+/// director.
+struct SpinningAxis {
+  Eigen::Index origin = 0, director = 0;
+  Expression speed;  ///< rad/s
+};
+
 /// Constant properties of a model.
 struct ModelDescription {
   std::vector<std::string> coordinate_names;     ///< size n
@@ -74,6 +91,8 @@ struct ModelDescription {
   std::vector<MassCarrier> masses;               ///< only of a multibody model
   std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector; empty if the frame does not rotate
   Parameters parameters;
+  std::vector<SpinningShaft> shafts = {};  ///< of a rotor
+  std::vector<SpinningAxis> spins = {};    ///< of discs on the bodies of a multibody model
   /// What is known of the model's data, for users: a label and a text each ("digits", "4 significant").
   std::vector<std::pair<std::string, std::string>> data = {};
   /// Indices of the parameters on which nothing in the scene depends.

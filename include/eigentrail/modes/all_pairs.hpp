@@ -45,8 +45,10 @@ struct PairSet {
 class ModalBasis {
  public:
   /// Returns an empty value if the pairs and their conjugates are not as many as the states, or if the
-  /// basis or the leading matrix is ill-conditioned (reciprocal condition below 1e-9).
-  static std::optional<ModalBasis> from(const PencilAtPoint& pencil, const PairSet& pairs);
+  /// basis or the leading matrix is ill-conditioned (reciprocal condition below 1e-9). `leading_inverse`: the
+  /// inverse of the leading matrix, for other bases of the same pencil; computed if it is empty.
+  static std::optional<ModalBasis> from(const PencilAtPoint& pencil, const PairSet& pairs,
+                                        std::optional<Matrix>& leading_inverse);
 
   /// G = V^-1 [0; M^-1 R] (for coordinates of first order, a row of M^-1 R is one of the upper half), the
   /// modal coordinates of the columns of R (n x m). Rows 0 ... N - 1 belong to the columns of the pairs, the
@@ -120,7 +122,8 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
 std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const AllPairs& all, int order,
                                           double accuracy, ModeCounts& counts);
 
-/// B Z for a real matrix B and many complex columns.
+/// B Z for a real matrix B and many complex columns. A diagonal B, such as the E of x' = A x, only scales
+/// rows.
 ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z);
 
 }  // namespace eigentrail

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/core/workers.hpp"
 #include "eigentrail/stability/boundary_options.hpp"
 
 namespace eigentrail {
@@ -126,5 +127,25 @@ using BoundaryProgress = std::function<void(double, int)>;
 /// std::invalid_argument if `model` lacks a parameter.
 BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options,
                                const BoundaryProgress& progress = {});
+/// The same with other workers than the threads of this process; the result does not depend on them.
+BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options, Workers& workers,
+                               const BoundaryProgress& progress = {});
+
+// The two halves of find_boundaries, for searches whose lines are shared among machines. The second half
+// needs what the first found on all lines.
+
+/// Number of lines of the window that are searched, the edges included.
+std::size_t boundary_lines(const BoundaryOptions& options);
+
+/// What is found on the lines with these numbers, counted from 0, as bytes.
+std::vector<std::string> scan_boundaries(const Model& model, const BoundaryOptions& options,
+                                         const std::vector<std::size_t>& lines, Workers& workers,
+                                         const BoundaryProgress& progress = {});
+
+/// Follows the boundaries from what scan_boundaries has found on all lines, in order. Throws InputError if
+/// that is damaged.
+BoundaryResult follow_boundaries(const Model& model, const BoundaryOptions& options,
+                                 const std::vector<std::string>& scans, Workers& workers,
+                                 const BoundaryProgress& progress = {});
 
 }  // namespace eigentrail

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/core/workers.hpp"
 #include "eigentrail/stability/axis_stretches.hpp"
 
 namespace eigentrail {
@@ -70,6 +71,10 @@ struct MapTotals {
 };
 MapTotals total(const StabilityMap& map);
 
+/// Sentences for the user on lines that are incomplete: for each kind the number of lines and the first one.
+/// `second`: name of the second parameter.
+std::vector<std::string> notes_on(const StabilityMap& map, const std::string& second);
+
 /// A scene with its model and checked options: the trace along the first parameter, and the window.
 struct MapSetup {
   TraceSetup trace;
@@ -80,9 +85,21 @@ struct MapSetup {
 /// lengths are checked at points all over the window. Throws InputError if anything is not valid.
 MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options);
 
+/// The same without the model: enough to write a map whose lines have been computed.
+MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOptions& options);
+
 /// One line: traces the first parameter at a value of the second one, and evaluates the cells at the values
 /// `first` of the first parameter.
 MapLine map_line(const MapSetup& setup, double second, const std::vector<double>& first);
+
+/// The lines with these numbers, counted from 0 in the order of `from` to `to`, each as bytes that do not
+/// depend on who computes it. `finished` as in Workers::compute.
+std::vector<std::string> map_lines(
+    const MapSetup& setup, const std::vector<std::size_t>& numbers, Workers& workers,
+    const std::function<void(std::size_t)>& finished = [](std::size_t) {});
+
+/// The map of all lines, in order. Throws InputError if a line is not what map_lines makes.
+StabilityMap map_of(const MapSetup& setup, const std::vector<std::string>& lines);
 
 /// All lines, several in parallel. After each line `done` is called with the number of finished lines; calls
 /// do not overlap. The result does not depend on the number of threads. An exception of the model, the trace

@@ -14,13 +14,11 @@ inline constexpr const char* map_format = "eigentrail-map";
 /// Throws InputError if one of the two parameters has the name of a dataset of the file.
 void check_map_names(const MapSetup& setup);
 
-/// The bytes of the file; `notes` as for write_map. Throws std::runtime_error if HDF5 cannot make it.
-std::string map_file(const MapSetup& setup, const StabilityMap& map, const std::vector<std::string>& notes);
+/// The bytes of the file. Throws std::runtime_error if HDF5 cannot make it.
+std::string map_file(const MapSetup& setup, const StabilityMap& map);
 
 /// Writes the whole map. The file is replaced atomically: `path` names either the complete new file or what
-/// was there before. `notes`: sentences for the user, stored as an attribute. Throws std::runtime_error if
-/// the file cannot be written.
-void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map,
-               const std::vector<std::string>& notes);
+/// was there before. Throws std::runtime_error if the file cannot be written.
+void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map);
 
 }  // namespace eigentrail

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "continuation/step/shared_basis.hpp"
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -352,6 +353,19 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   return roots;
 }
 
+/// Whether the gap of two strands is no power series at an end of a step, because one of them meets another
+/// eigenvalue of its block there: it varies like a root.
+bool is_singular_at(const PathNode& node, const Strand& a, const Strand& b) {
+  for (const Strand* strand : {&a, &b}) {
+    const std::vector<int>& met = node.tracks[strand->track].met;
+    const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : strand->members;
+    const auto is_own = [&](int i) { return std::find(own.begin(), own.end(), i) != own.end(); };
+    if (std::any_of(met.begin(), met.end(), is_own) && !std::all_of(met.begin(), met.end(), is_own))
+      return true;
+  }
+  return false;
+}
+
 struct RoughRoot {
   Complex position;
   Complex gap_below;  ///< of the parabola at the real part of its root
@@ -472,7 +486,10 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       for (const Complex root : gap_roots(at_left, at_right, length, width))
         expect(b, a, root, at_left, at_right);
       if (meetings.size() > before) continue;
-      for (const RoughRoot& root : rough_roots(at_left, at_right, length)) {
+      const auto hint = [&, &a = a, &b = b](const PathNode& node, const ComplexVector& gap) {
+        return is_singular_at(node, a, b) ? ComplexVector() : gap;
+      };
+      for (const RoughRoot& root : rough_roots(hint(left, at_left), hint(right, at_right), length)) {
         if (!hints.agree(a, b, root)) continue;
         expect(b, a, root.position);
         if (meetings.size() > before) meetings.back().is_rough = true;

@@ -27,10 +27,34 @@ constexpr double most_parallel = 2e-11;
 /// Only the budget of the certificate depends on it.
 constexpr double work_of_piece = 6.0;
 
-/// Writes a matrix of one track into the columns of that track.
-void append(const ComplexMatrix& block, const PairSet::Place& place, ComplexMatrix& blocks) {
-  blocks.block(0, place.first, block.rows(), block.cols()) = block;
-}
+/// The coefficients of the series of a complex matrix at the left end of a step, then at the right end.
+class StepSeries {
+ public:
+  StepSeries() = default;
+  StepSeries(Eigen::Index rows, Eigen::Index columns, Eigen::Index count)
+      : rows_(rows), columns_(columns), values_(ComplexMatrix::Zero(rows * columns, 2 * count)) {}
+
+  /// Writes columns of a coefficient, those of a track, from the top row on.
+  void set(Eigen::Index coefficient, Eigen::Index column, const ComplexMatrix& block) {
+    auto matrix = values_.col(coefficient).reshaped(rows_, columns_);
+    matrix.block(0, column, block.rows(), block.cols()) = block;
+  }
+
+  /// The sum of all coefficients with real weights, by one real product.
+  ComplexMatrix sum(const Vector& weights) const {
+    ComplexMatrix result(rows_, columns_);
+    // std::complex<double> can be read as an array of two doubles ([complex.numbers]).
+    const auto* const parts = reinterpret_cast<const double*>(values_.data());
+    const Eigen::Map<const Matrix> coefficients(parts, 2 * values_.rows(), values_.cols());
+    Eigen::Map<Vector>(reinterpret_cast<double*>(result.data()), 2 * result.size()).noalias() =
+        coefficients * weights.head(values_.cols());
+    return result;
+  }
+
+ private:
+  Eigen::Index rows_ = 0, columns_ = 0;
+  ComplexMatrix values_;  ///< one coefficient per column, column by column
+};
 
 /// Whether tracks are a basis of the state space of a pencil with the leading matrix M.
 bool are_basis(const std::vector<const Track*>& tracks, const Matrix& M) {
@@ -60,17 +84,17 @@ class ModalTube {
       columns += track->size();
       largest = std::max(largest, track->size());
     }
-    const std::size_t count = left.front()->series.Z.size();
-    const Eigen::Index n = left.front()->pair.Z.rows();
-    for (auto* ends : {&Z_, &Lambda_})
-      ends->assign(2 * count, ComplexMatrix::Zero(ends == &Z_ ? n : largest, columns));
+    const auto count = static_cast<Eigen::Index>(left.front()->series.Z.size());
+    Z_ = StepSeries(left.front()->pair.Z.rows(), columns, count);
+    Lambda_ = StepSeries(largest, columns, count);
     for (std::size_t i = 0; i < left.size(); ++i) {
       const ComplexMatrix& W = left[i]->pair.W;
       for (const bool at_end : {false, true}) {
         const PairSeries series = in_finite_chart(*(at_end ? right : left)[i], pencil.left(), W);
-        for (std::size_t j = 0; j < count; ++j) {
-          append(series.Z[j], places_[i], Z_[at_end ? count + j : j]);
-          append(series.Lambda[j], places_[i], Lambda_[at_end ? count + j : j]);
+        for (Eigen::Index j = 0; j < count; ++j) {
+          const Eigen::Index coefficient = at_end ? count + j : j;
+          Z_.set(coefficient, places_[i].first, series.Z[static_cast<std::size_t>(j)]);
+          Lambda_.set(coefficient, places_[i].first, series.Lambda[static_cast<std::size_t>(j)]);
         }
       }
     }
@@ -87,16 +111,7 @@ class ModalTube {
  private:
   /// The interpolated pairs at a sample.
   PairSet at(const StepPencil::Sample& sample) const {
-    PairSet set{places_,
-                ComplexMatrix::Zero(Z_[0].rows(), Z_[0].cols()),
-                ComplexMatrix::Zero(Lambda_[0].rows(), Lambda_[0].cols()),
-                {}};
-    for (std::size_t i = 0; i < Z_.size(); ++i) {
-      const double weight = sample.weights[static_cast<Eigen::Index>(i)];
-      set.Z += weight * Z_[i];
-      set.Lambda += weight * Lambda_[i];
-    }
-    return set;
+    return {places_, Z_.sum(sample.weights), Lambda_.sum(sample.weights), {}};
   }
 
   /// Tests the tracks in `wanted` between `begin` and `end`, with halvings, and sets `closed` to false for
@@ -126,15 +141,14 @@ class ModalTube {
                           std::vector<double>& Z1) {
     std::vector<bool> result(places_.size(), false);
     const Sampled centre = sampled_at(middle, nullptr);
-    const auto basis = ModalBasis::from(centre.sample->at, centre.set);
+    if (!pencil_.has_constant_leading_matrix()) leading_inverse_.reset();
+    const auto basis = ModalBasis::from(centre.sample->at, centre.set, leading_inverse_);
     count(static_cast<double>(state_size(centre.sample->at.M)));
     if (!basis || basis->rounding() > most_parallel) return result;
+    const ComplexMatrix at_middle = residual(centre.sample->at, centre.set);
     std::vector<ModalSample> samples;
-    for (const double t : {begin, end, 0.5 * (begin + middle), middle, 0.5 * (middle + end)}) {
-      const Sampled there = sampled_at(t, centre.sample.get());
-      samples.push_back({-modal_residual(*basis, there, centre.set), modal_residual(*basis, there, there.set),
-                         there.set.Lambda - centre.set.Lambda});
-    }
+    for (const double t : {begin, end, 0.5 * (begin + middle), middle, 0.5 * (middle + end)})
+      samples.push_back(modal_sample(*basis, centre, at_middle, sampled_at(t, centre.sample.get())));
     Vector sizes(static_cast<Eigen::Index>(places_.size()));
     for (std::size_t i = 0; i < places_.size(); ++i)
       sizes[static_cast<Eigen::Index>(i)] = centre.set.block(centre.set.Lambda, places_[i]).norm();
@@ -196,17 +210,29 @@ class ModalTube {
     return {sample, at(*sample), leading(middle->at) * leading(sample->at).partialPivLu().inverse()};
   }
 
-  /// Residuals of pairs with the pencil at a sample point, in modal coordinates of the companion form.
-  static ComplexMatrix modal_residual(const ModalBasis& basis, const Sampled& place, const PairSet& set) {
-    const PencilAtPoint& pencil = place.sample->at;
-    const ComplexMatrix R = residual(pencil.M, pencil.C, pencil.K, set);
-    return basis.coordinates(place.from_leading.size() == 0 ? R : multiply_many(place.from_leading, R));
+  /// Residuals with the pencil at a sample point, of the pairs at the middle and of those there, in modal
+  /// coordinates of the companion form. `at_middle`: residuals of the pairs at the middle with the pencil
+  /// there; only what is not constant in the pencil changes them.
+  static ModalSample modal_sample(const ModalBasis& basis, const Sampled& centre,
+                                  const ComplexMatrix& at_middle, const Sampled& there) {
+    const auto modal = [&](const ComplexMatrix& R) {
+      return basis.coordinates(there.from_leading.size() == 0 ? R : multiply_many(there.from_leading, R));
+    };
+    ComplexMatrix change = there.set.Lambda - centre.set.Lambda;
+    if (there.sample == centre.sample) {
+      const ComplexMatrix defect = modal(at_middle);
+      return {-defect, defect, std::move(change)};
+    }
+    const PencilAtPoint &from = centre.sample->at, &to = there.sample->at;
+    const ComplexMatrix moved = at_middle + residual(to.M - from.M, to.C - from.C, to.K - from.K, centre.set);
+    return {-modal(moved), modal(residual(to, there.set)), std::move(change)};
   }
 
   const StepPencil& pencil_;
   RunCounts& counts_;
   std::vector<PairSet::Place> places_;
-  std::vector<ComplexMatrix> Z_, Lambda_;  ///< series of all tracks: at the left end, then at the right end
+  StepSeries Z_, Lambda_;                  ///< of all tracks, as in PairSet
+  std::optional<Matrix> leading_inverse_;  ///< of the last basis
 };
 
 }  // namespace

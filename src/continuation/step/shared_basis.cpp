@@ -36,7 +36,7 @@ void fix_basis(const ComplexMatrix& W, std::vector<ComplexMatrix>& Z, std::vecto
   const std::vector<ComplexMatrix> ZL = multiply_series(Z, Lambda, count);
   std::vector<ComplexMatrix> N(count);
   for (std::size_t i = 0; i < count; ++i) {
-    N[i] = W.topRows(n).adjoint() * Z[i] + W.bottomRows(n).adjoint() * ZL[i];
+    N[i] = thin_product(W.topRows(n).adjoint(), Z[i]) + thin_product(W.bottomRows(n).adjoint(), ZL[i]);
   }
   const std::vector<ComplexMatrix> S = inverse_series(N);
   Z = multiply_series(Z, S, count);

@@ -4,6 +4,7 @@
 // The functions `fields` below list the members that are saved. They decompose each struct by a structured
 // binding: if a member is added to a struct and not listed here, the code does not compile.
 #include "continuation/trace/trace_state.hpp"
+#include "continuation/archived_parts.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
@@ -12,18 +13,6 @@
 namespace eigentrail {
 
 // These functions are in this namespace so that the archive finds them by argument-dependent lookup.
-
-template <SameAs<Path> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [parameters, x, lambda] = self;
-  visit(parameters, x, lambda);
-}
-
-template <SameAs<PairSeries> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [Z, Lambda] = self;
-  visit(Z, Lambda);
-}
 
 /// The factors are not saved: they are not used after the point.
 template <SameAs<InvariantPair> Self, class Visit>
@@ -82,28 +71,6 @@ static void fields(Self& self, Visit& visit) {
          node] = self;
   visit(kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
         node);
-}
-
-template <SameAs<EvaluationCounts> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [residual, linearization] = self;
-  visit(residual, linearization);
-}
-
-template <SameAs<ModeCounts> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [factorizations, iterations, solves, passed, modal_bases, modal_solves] = self;
-  visit(factorizations, iterations, solves, passed, modal_bases, modal_solves);
-}
-
-template <SameAs<RunCounts> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-         certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
-         differentiation, matching, certificate, events, output] = self;
-  visit(evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-        certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
-        differentiation, matching, certificate, events, output);
 }
 
 template <SameAs<Rejections> Self, class Visit>

@@ -1,5 +1,7 @@
 """Pictures of mode shapes: a stick figure, the bent axis of a rotor, or bars."""
 
+from itertools import cycle
+
 import numpy as np
 
 from .curves import damping_percent, without_rounding
@@ -33,6 +35,8 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     if not np.isfinite(shape).all() or not np.abs(shape).any():
         raise ValueError(f"{title}: the mode does not exist there")
     shape = shape / shape[np.abs(shape).argmax()]
+    if "coordinate_place" in loci:
+        return _bent_shafts(loci, shape, title, size)
     figure = _Carriers.of(loci, node)
     if figure is None:
         return _bars(loci, shape, title, size)
@@ -216,30 +220,49 @@ def _add_triad(panel, flat):
 
 
 def _bent_axis(figure, shape, title, size):
-    """Displacements across the axis of a rotor, over the place along it."""
+    """Displacements across the axis on which the carriers lie, over the place along it."""
     origins = figure.at(np.zeros(len(shape)))[0]
     axis = figure.axis * (1 if figure.axis[np.abs(figure.axis).argmax()] > 0 else -1)
     along = origins @ axis
     order = np.argsort(along)
     moved = np.array([shape[i:i + 3] for i in figure.first])[order]
-    directions = [(name, vector) for name, vector in zip("xyz", np.eye(3)) if abs(vector @ axis) < 0.9]
-    parts = [(name, moved @ vector) for name, vector in directions]
-    lengthwise = [("along the axis", moved @ axis)] if np.abs(moved @ axis).max() > 0.1 * np.abs(moved).max() else []
-    largest = max(np.abs(values).max() for _, values in parts + lengthwise) or 1.0
+    parts = [(name, along[order], moved @ vector) for name, vector in zip("xyz", np.eye(3)) if abs(vector @ axis) < 0.9]
+    if np.abs(moved @ axis).max() > 0.1 * np.abs(moved).max():
+        parts.append(("along the axis", along[order], moved @ axis))
+    return _over_the_axis(parts, title, size)
+
+
+def _bent_shafts(loci, shape, title, size):
+    """The same for the shafts of a rotor, whose coordinates "node 3: x" have places along the axis."""
+    places = loci.coordinate_place.values
+    parts: dict[str, list[tuple[float, complex]]] = {}
+    for name, place, value in zip(loci.coordinate.values, places, shape):
+        if np.isfinite(place):
+            before, direction = str(name).rsplit(": ", 1)
+            shaft = before.rsplit("node", 1)[0].strip()
+            parts.setdefault(f"{shaft} {direction}".strip(), []).append((place, value))
+    return _over_the_axis([(name, *np.transpose(sorted(points, key=lambda one: one[0]))) for name, points in parts.items()],
+                          title, size)
+
+
+def _over_the_axis(parts, title, size):
+    """Displacements (name, places, values) over the place along an axis: where the largest component is real, and later."""
+    parts = [(name, np.real(places), values) for name, places, values in parts]
+    largest = max(np.abs(values).max() for _, _, values in parts) or 1.0
     picture = Picture(*(size or (8.0, 4.2)), title=title)
-    low, high = along.min(), along.max()
+    low, high = min(places.min() for _, places, _ in parts), max(places.max() for _, places, _ in parts)
     pad = 0.02 * (high - low)
     panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, Axis("place along the axis, m", low - pad, high + pad),
                         Axis("displacement / largest", -1.12, 1.12))
     panel.items.append(Line([low - pad, high + pad], [0, 0], GREY, 0.8, name="axis"))
-    for (name, values), colour in zip(parts + lengthwise, (BLUE, ORANGE, GREEN)):
+    for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
         for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
             height = (turned * values).real / largest
             if np.abs(height).max() < NOTHING:
                 continue
-            panel.items.append(Line(along[order], height, colour, 1.6, dash, name + later))
-            panel.items.append(Marks(along[order], height, "circle", colour, 3.5, f"{name}{later}, nodes"))
-            picture.legend.append(Line([], [], colour, 1.6, dash, legend=name + later))
+            panel.items.append(Line(places, height, colour, 1.6, dash, words + later))
+            panel.items.append(Marks(places, height, "circle", colour, 3.5, f"{words}{later}, nodes"))
+            picture.legend.append(Line([], [], colour, 1.6, dash, legend=words + later))
     return picture
 
 

@@ -27,7 +27,7 @@ def draw(picture):
         raise ImportError("pictures with matplotlib need the package matplotlib: apt install python3-matplotlib, or "
                           "pip install matplotlib") from error
     with matplotlib.rc_context(_style()):
-        figure = Figure(figsize=(picture.width, picture.height), dpi=110)
+        figure = _in_notebooks(Figure)(figsize=(picture.width, picture.height), dpi=110)
         FigureCanvasAgg(figure)
         for panel in picture.panels:
             _draw_panel(figure, panel)
@@ -38,6 +38,17 @@ def draw(picture):
         if picture.legend:
             _draw_legend(figure, picture, left, top)
     return figure
+
+
+def _in_notebooks(figure_class):
+    """The class of figures that notebooks show, whether pyplot is in use or not."""
+    class Shown(figure_class):
+        def _repr_png_(self):
+            bytes_of_file = io.BytesIO()
+            self.savefig(bytes_of_file, format="png")
+            return bytes_of_file.getvalue()
+
+    return Shown
 
 
 def image(picture, kind, version=""):

@@ -1,0 +1,279 @@
+#include "explain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "eigentrail/continuation/order_choice.hpp"
+#include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/continuation/route_choice.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
+#include "eigentrail/continuation/sensitivities.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/model/build.hpp"
+#include "eigentrail/scene/units.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+#include "output.hpp"
+#include "projection_info.hpp"
+#include "scene_in_words.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+/// The unit in which expressions see a parameter with a unit.
+std::string unit_in_expressions(const Parameter& parameter) {
+  const Dimension dimension = parameter.dimension.value_or(Dimension{});
+  if (!parameter.is_angle) return si_unit(dimension);
+  return dimension.is_number()                       ? "rad"
+         : dimension == parse_unit("rpm")->dimension ? "rad/s"
+                                                     : si_unit(dimension);
+}
+
+void print_parameters(std::FILE* to, const Model& model, int traced) {
+  const Parameters& parameters = model.description().parameters;
+  const Vector declared = parameters.declared_values();
+  Vector si = declared;
+  parameters.to_si(std::span<double>(si.data(), parameters.size()));
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const std::string note = static_cast<int>(i) == traced ? "traced"
+                             : parameters[i].definition    ? "derived"
+                                                           : "";
+    const std::string in_si = parameters[i].factor == 1.0
+                                  ? ""
+                                  : "= " + rounded(si[at], 9) + " " + unit_in_expressions(parameters[i]);
+    rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
+  }
+  std::fprintf(to, "parameters\n");
+  print_table(rows, to);
+}
+
+/// What is known of the data of the model: samples and their interpolant.
+void print_data(std::FILE* to, const Model& model) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [label, text] : model.description().data) rows.push_back({"  " + label, printable(text)});
+  if (!rows.empty()) std::fprintf(to, "data\n");
+  print_table(rows, to);
+}
+
+void print_effects(std::FILE* to, const Model& model) {
+  std::vector<std::vector<std::string>> active;
+  if (model.description().effects.size() > 1) {
+    active.push_back({"  effect", "number", "formulas per linearization", ""});
+  }
+  std::string absent;
+  for (const Effect& effect : model.description().effects) {
+    if (effect.count > 0) {
+      active.push_back({"  " + effect.name, std::to_string(effect.count), std::to_string(effect.evaluations),
+                        effect.description});
+    } else {
+      absent += (absent.empty() ? "" : ", ") + effect.name;
+    }
+  }
+  std::fprintf(to, "effects\n");
+  print_table(active, to);
+  if (!absent.empty()) std::fprintf(to, "    absent, never evaluated: %s\n", absent.c_str());
+}
+
+/// Lists the states that elements have of their own.
+void print_states(std::FILE* to, const Model& model) {
+  int count = 0;
+  for (const Effect& effect : model.description().effects) count += effect.states;
+  if (count == 0) return;
+  const ModelDescription& description = model.description();
+  std::fprintf(to, "states of elements, of first order\n");
+  std::vector<std::vector<std::string>> rows;
+  std::size_t next = description.coordinate_names.size() - static_cast<std::size_t>(count);
+  for (const EffectHelp& help : effect_reference()) {
+    const auto effect = std::find_if(description.effects.begin(), description.effects.end(),
+                                     [&](const Effect& e) { return e.name == help.name; });
+    for (int i = 0; effect != description.effects.end() && i < effect->states; ++i, ++next)
+      rows.push_back({"  " + printable(description.coordinate_names[next]),
+                      description.coordinate_units[next],
+                      help.states[static_cast<std::size_t>(i) % help.states.size()].help});
+  }
+  print_table(rows, to);
+}
+
+/// Prints the effects for each mode, ordered by their influence on its eigenvalue.
+void print_influences(std::FILE* to, const Influences& influences, const std::string& at) {
+  std::fprintf(
+      to,
+      "influence of each effect on each mode at %s\n"
+      "    change of s, relative to abs(s), per relative growth of the effect; the equilibrium follows\n",
+      at.c_str());
+  for (Eigen::Index i = 0; i < influences.s.size(); ++i) {
+    const Complex s = influences.s[i];
+    std::vector<const EffectInfluence*> ranked;
+    for (const EffectInfluence& influence : influences.effects) ranked.push_back(&influence);
+    std::stable_sort(ranked.begin(), ranked.end(), [i](const auto* a, const auto* b) {
+      return std::abs(a->derivatives[i]) > std::abs(b->derivatives[i]);
+    });
+    std::fprintf(to, "  mode %s  %s\n", std::to_string(i + 1).c_str(),
+                 complex_text(s.real(), s.imag(), 8).c_str());
+    std::vector<std::vector<std::string>> rows;
+    for (const EffectInfluence* influence : ranked) {
+      const Complex change = influence->derivatives[i] / (std::abs(s) > 0.0 ? std::abs(s) : 1.0);
+      if (std::isnan(change.real())) {
+        rows.push_back({"    " + influence->effect, "none: a multiple eigenvalue has no derivative"});
+      } else {
+        rows.push_back({"    " + influence->effect, rounded(std::abs(change), 3),
+                        "real " + rounded(change.real(), 3), "imag " + rounded(change.imag(), 3)});
+      }
+    }
+    print_table(rows, to);
+  }
+}
+
+void explain_sensitivity(std::FILE* to, const Scene& scene, const OptionTexts& options) {
+  const TraceSetup setup = prepare_trace(scene, options, Purpose::strengths);
+  const Influences influences = effect_influences(setup);
+  if (!influences.fault.empty()) throw InputError(scene.path + ": " + influences.fault);
+  print_influences(to, influences, setup.options.parameter + " = " + exact_text(setup.options.from));
+}
+
+/// "3 independent parts: 3 of 2 freedoms"; empty where the equations do not fall apart.
+std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
+  if (!parts) return "";
+  if (parts->count() == 1) return "one; rows and columns scaled by powers of two";
+  std::map<Eigen::Index, int, std::greater<>> number;  // of parts by size
+  for (const IndependentParts::Range& range : parts->ranges) ++number[range.size];
+  std::string text = std::to_string(parts->count()) + " independent parts: ";
+  bool first = true;
+  for (const auto& [size, count] : number) {
+    text += (first ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size) +
+            (size == 1 ? " freedom" : " freedoms");
+    first = false;
+  }
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < parts->count(); ++i) copies += parts->ranges[i].copy_of == i ? 0 : 1;
+  if (copies > 0) text += "; " + std::to_string(copies) + " of them equal to another one";
+  return text + "; followed one by one";
+}
+
+void print_structure(std::FILE* to, const Structure& structure, bool has_constraints,
+                     const std::string& in_parts, const std::string& parameter) {
+  const auto along = [&](bool constant) {
+    return constant ? "constant along " + parameter : "changes with " + parameter;
+  };
+  const char* stiffness = structure.circulatory ? "unsymmetric K (circulatory effects)" : "symmetric K";
+  const char* damping = structure.gyroscopic ? (structure.damped ? "C with a gyroscopic and a symmetric part"
+                                                                 : "skew C (gyroscopic)")
+                        : structure.damped   ? "symmetric C"
+                                             : "no C";
+  std::fprintf(to, "structure of the pencil\n");
+  std::vector<std::vector<std::string>> rows(
+      {{"  mass", structure.symmetric_mass ? "symmetric M" : "unsymmetric M", along(structure.constant_mass)},
+       {"  damping", damping,
+        structure.damped || structure.gyroscopic ? along(structure.constant_damping) : ""},
+       {"  stiffness", stiffness, along(structure.constant_stiffness)},
+       {"  constraints", has_constraints ? "A" : "none",
+        has_constraints ? along(structure.constant_constraints) : ""}});
+  if (!in_parts.empty()) rows.push_back({"  parts", in_parts, ""});
+  print_table(rows, to);
+}
+
+/// The method that computes the modes, and its cost relative to one LU per mode.
+std::string describe_route(const Structure& structure, const ModeWork& work) {
+  const ModeRoute route = cheapest_route(structure, work);
+  if (route == ModeRoute::one_by_one)
+    return "chord-Newton, one LU of size " + std::to_string(work.freedoms + 1) + " per mode and point";
+  const double share =
+      route_work(route, structure, work) / route_work(ModeRoute::one_by_one, structure, work);
+  const std::string how = route == ModeRoute::symmetric
+                              ? "all at once by real products of size n (undamped, symmetric)"
+                              : "all at once by products in state space, size 2 n";
+  return how + ": about " + rounded(100.0 * share, 2) + " % of the work of one LU per mode";
+}
+
+void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work,
+                   bool chosen, bool sparse) {
+  const int order = work.order;
+  std::fprintf(to, "solvers\n");
+  std::string equilibrium =
+      "KINSOL with line search at every point, predicted by its series of " + order_text(order, chosen);
+  if (structure.known_equilibrium) {
+    equilibrium = "known: x = 0; KINSOL is never called";
+  } else if (structure.fixed_equilibrium) {
+    equilibrium = "does not move: KINSOL at the first point only";
+  }
+  const std::string first = sparse ? "rank-revealing QR at the first point, then projected by sparse factors"
+                                   : "rank-revealing QR at every point";
+  std::string basis = first + ", series T_1 ... T_" + std::to_string(order);
+  if (model.n_constraints() == 0) {
+    basis = "identity: no constraints";
+  } else if (structure.constant_constraints) {
+    basis = first + ", T' = 0";
+  }
+  print_table({{"  matrices", sparse ? "sparse: many coordinates, few freedoms" : "dense"},
+               {"  equilibrium", equilibrium},
+               {"  tangent basis", basis},
+               {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
+               {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
+               {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}},
+              to);
+}
+
+Sizes sizes_at(const Model& model, const PathPoint& point) {
+  Sizes sizes{model.n_coordinates(), model.n_constraints(), 0, model.n_coordinates()};
+  if (point.status != PointStatus::computed) return sizes;
+  sizes.redundant = model.n_constraints() - point.equilibrium.kkt.constraints().rank();
+  sizes.freedoms = point.pencil.size();
+  return sizes;
+}
+
+}  // namespace
+
+void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity) {
+  const auto& [scene, options, model] = setup;
+  check_parameter_name(scene, options.parameter);
+  if (sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
+    throw InputError(scene.path + ": --sensitivity ranks effects; a family of matrices has none");
+  const int traced = setup.traced();
+  const Structure structure = model->structure(traced);
+
+  if (!scene.title.empty()) std::fprintf(to, "%s\n", printable(scene.title).c_str());
+  if (const SparseFamily* large = large_family(*model, options)) {
+    print_parameters(to, *model, traced);
+    print_effects(to, *model);
+    print_route(estimate_projection(*large, options), options, to);
+    return;
+  }
+  const PathProblem problem = problem_along(*model, options.parameter);
+  RunCounts counts;
+  const Vector guess = model->initial_guess(parameters_at(problem, options.from));
+  const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
+  const bool computed = point.status == PointStatus::computed;
+  const Sizes sizes = sizes_at(*model, point);
+  if (computed) {
+    for (const std::string& sentence : in_words(setup, structure, sizes))
+      std::fprintf(to, "  %s\n", sentence.c_str());
+  }
+  print_parameters(to, *model, traced);
+  print_data(to, *model);
+  print_effects(to, *model);
+  print_states(to, *model);
+  auto parts = find_independent_parts(model->coefficient_matrices());
+  if (!parts && computed)
+    parts = parts_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda);
+  print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);
+  const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
+  // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,
+  // which is not known here.
+  const auto modes = std::min<Eigen::Index>(options.modes.count.value_or(static_cast<int>(sizes.freedoms)),
+                                            2 * sizes.freedoms);
+  // Independent parts are followed one by one, each with matrices of its own size.
+  const bool apart = parts && parts->count() > 1;
+  Eigen::Index size = apart ? 0 : sizes.freedoms;
+  for (std::size_t i = 0; apart && i < parts->count(); ++i) size = std::max(size, parts->ranges[i].size);
+  print_solvers(to, *model, structure,
+                {size, modes, options.modes.is_all() && !apart, options.order.value_or(cheapest)},
+                !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
+  if (!computed) throw InputError(scene.path + ": " + point.message);
+  if (sensitivity) explain_sensitivity(to, scene, option_texts);
+}
+
+}  // namespace eigentrail::app

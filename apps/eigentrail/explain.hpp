@@ -1,0 +1,15 @@
+// What a scene simulates, and how it will be solved.
+#pragma once
+
+#include <cstdio>
+
+#include "eigentrail/continuation/trace_options.hpp"
+
+namespace eigentrail::app {
+
+/// Writes effects, structure, sizes and chosen solvers. `sensitivity`: ranks the effects by their influence
+/// on each mode where the trace begins; `options` are the overrides that the setup was prepared with. Throws
+/// InputError.
+void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& options, bool sensitivity);
+
+}  // namespace eigentrail::app

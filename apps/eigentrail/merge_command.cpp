@@ -1,0 +1,46 @@
+#include <memory>
+
+#include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "parts.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> files;
+  OutputChoice output;
+};
+
+int run_merge(const MergeArguments& arguments, Team& team) {
+  std::vector<PartFile> parts;
+  for (const std::string& file : arguments.files) parts.push_back(read_part_file(file));
+  const std::vector<std::string> pieces = joined(parts);
+  const SharedRun& run = parts.front().run;
+  if (run.command == "map") return merge_map(run, pieces, arguments.output, team);
+  if (run.command == "boundary") return merge_boundary(run, pieces, arguments.output, team);
+  if (run.command == "sweep") return merge_sweep(run, pieces, arguments.output, team);
+  throw InputError(parts.front().path + ": is a part of '" + run.command +
+                   "', which this version cannot join");
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command = program.add_subcommand(
+      "merge", "join the parts of a map, boundary or sweep that were computed with --part");
+  command->add_option("FILES", arguments->files, "the files of all parts, in any order")->required();
+  command->add_option("-o,--output", arguments->output.path, "file to write")->required();
+  command->add_flag("--force", arguments->output.force, "replace an existing output");
+  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
+  command->footer(
+      "Example:\n"
+      "  eigentrail merge part_1.h5 part_2.h5 -o drag.h5\n\n"
+      "The parts come from the same command with --part 1/2 -o part_1.h5 and --part 2/2 -o part_2.h5.");
+  command->callback([arguments, &exit_code] {
+    exit_code = together([&](Team& team) { return run_merge(*arguments, team); });
+  });
+}
+
+}  // namespace eigentrail::app

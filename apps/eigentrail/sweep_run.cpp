@@ -1,0 +1,177 @@
+#include "sweep_run.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+
+#include "commands.hpp"
+#include "eigentrail/accuracy/findings.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/projection/project.hpp"
+#include "eigentrail/scene/settings.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+/// Places of a step at which damping ratios are looked at, beside its ends.
+constexpr int places_per_step = 16;
+
+/// The HDF5 library must not be used by two threads at once. All threads of a sweep take turns.
+std::mutex& turn_at_files() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// A field of a line of CSV: in quotes where it has to be.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? exact_text(*value) : "";
+}
+
+std::optional<double> first_of(EventKind kind, const std::vector<Event>& events, double from) {
+  std::optional<double> first;
+  for (const Event& event : events) {
+    if (event.kind == kind && (!first || std::abs(event.p - from) < std::abs(*first - from))) first = event.p;
+  }
+  return first;
+}
+
+/// A trace whose points go to a loci file.
+class RunOfSweep {
+ public:
+  RunOfSweep(TraceSetup setup, const std::string& path) : setup_(std::move(setup)), path_(path) {}
+  ~RunOfSweep() {
+    const std::scoped_lock turn(turn_at_files());
+    writer_.reset();
+  }
+  RunOfSweep(const RunOfSweep&) = delete;
+  RunOfSweep& operator=(const RunOfSweep&) = delete;
+
+  void into(SweepRow& row) {
+    TraceResult result = trace(*setup_.model, setup_.options, observer());
+    if (!has_started(result.status)) throw InputError(setup_.scene.path + ": " + result.message);
+    const Findings found = find_ranges_and_errors(*setup_.model, setup_.options, recorder_.path(), result);
+    {
+      const std::scoped_lock turn(turn_at_files());
+      writer_->finish(result, found.ranges, found.errors ? &*found.errors : nullptr);
+    }
+    row.file = std::filesystem::path(path_).filename().string();
+    row.points = result.nodes;
+    row.reached = result.reached;
+    row.flutter = first_of(EventKind::flutter, result.events, setup_.options.from);
+    row.divergence = first_of(EventKind::divergence, result.events, setup_.options.from);
+    row.damping = least_damping(found.path);
+    row.exit_code = result.status == TraceStatus::completed ? done : numbers_failed;
+    row.reason = result.message;
+  }
+
+ private:
+  TraceObserver observer() {
+    TraceObserver observer;
+    observer.started = [this](const TraceStart& start) { started_ = start; };
+    observer.point = [this](const TracePoint& point) {
+      const std::scoped_lock turn(turn_at_files());
+      if (!writer_) writer_.emplace(path_, setup_.scene, *setup_.model, setup_.options, started_, point);
+      writer_->append(point);
+      recorder_.append(point);
+      return true;
+    };
+    observer.checkpoint = [this](const Checkpoint& checkpoint) {
+      const std::scoped_lock turn(turn_at_files());
+      writer_->checkpoint(checkpoint);
+      return true;
+    };
+    return observer;
+  }
+
+  TraceSetup setup_;
+  const std::string& path_;
+  TraceStart started_;
+  std::optional<LociWriter> writer_;
+  PathRecorder recorder_;
+};
+
+}  // namespace
+
+std::size_t Combinations::size() const {
+  std::size_t product = 1;
+  for (const Varied& one : varied_) product *= one.values.size();
+  return product;
+}
+
+std::vector<double> Combinations::values(std::size_t number) const {
+  std::vector<double> values(varied_.size());
+  for (std::size_t i = varied_.size(); i-- > 0;) {
+    const std::size_t count = varied_[i].values.size();
+    values[i] = varied_[i].values[number % count];
+    number /= count;
+  }
+  return values;
+}
+
+std::optional<LeastDamping> least_damping(const RecordedPath& path) {
+  std::optional<LeastDamping> least;
+  for (std::size_t step = 0; step < path.steps.size(); ++step) {
+    for (int k = 0; k <= places_per_step; ++k) {
+      const PathPosition at{step, static_cast<double>(k) / places_per_step};
+      for (const Complex s : path.eigenvalues_at(at)) {
+        if (!std::isfinite(std::abs(s)) || s.imag() == 0.0) continue;
+        const double ratio = -s.real() / std::abs(s);
+        if (!least || ratio < least->ratio) least = {ratio, path.parameter_at(at)};
+      }
+    }
+  }
+  return least;
+}
+
+std::string index_header(const std::vector<Varied>& varied) {
+  std::string line = "run,file";
+  for (const Varied& one : varied) line += "," + csv_field(one.name);
+  return line + ",exit,points,reached,flutter,divergence,least_damping,least_damping_at,reason\n";
+}
+
+std::string index_line(const SweepRow& row) {
+  std::string line = std::to_string(row.run) + "," + csv_field(row.file);
+  for (const double value : row.values) line += "," + exact_text(value);
+  const auto part_of_damping = [&row](double LeastDamping::*part) {
+    return csv_number(row.damping ? std::optional((*row.damping).*part) : std::nullopt);
+  };
+  return line + "," + std::to_string(row.exit_code) + "," + std::to_string(row.points) + "," +
+         csv_number(row.reached) + "," + csv_number(row.flutter) + "," + csv_number(row.divergence) + "," +
+         part_of_damping(&LeastDamping::ratio) + "," + part_of_damping(&LeastDamping::p) + "," +
+         csv_field(printable(row.reason)) + "\n";
+}
+
+SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
+                      const OptionTexts& options, const std::string& path) {
+  SweepRow row;
+  row.reached = std::nan("");
+  try {
+    TraceSetup setup;
+    {
+      const std::scoped_lock turn(turn_at_files());
+      setup = prepare_trace(with_settings(scene, settings).scene, options);
+    }
+    project_if_large(setup.model, setup.options);
+    check_parameter_name(setup.scene, setup.options.parameter);
+    RunOfSweep run(std::move(setup), path);
+    run.into(row);
+  } catch (const InputError& error) {
+    row.exit_code = bad_input;
+    row.reason = error.what();
+  } catch (const std::exception& error) {
+    row.exit_code = numbers_failed;
+    row.reason = error.what();
+  }
+  return row;
+}
+
+}  // namespace eigentrail::app

@@ -1,0 +1,13 @@
+// The options of a trace on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+namespace eigentrail::app {
+
+/// Adds the options of traces to a command, which override those of the scene; their texts go to `texts`.
+void add_trace_options(CLI::App& command, std::map<std::string, std::string>& texts);
+
+}  // namespace eigentrail::app

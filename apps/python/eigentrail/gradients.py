@@ -1,0 +1,152 @@
+"""Derivatives of results with respect to the parameters of a scene."""
+
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+import pandas
+import xarray
+
+from .engine import SceneError, engine
+from .given import option_text
+
+QUANTITIES = ("flutter", "damping_ratio", "frequency", "eigenvalue")
+SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by refinement
+
+
+class Least(NamedTuple):
+    """The least damping ratio of a trace: its value, where it is, and the mode (its number from 0)."""
+
+    value: float
+    at: float
+    mode: int
+
+
+def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = None, event: int = 0,
+             **at: Any) -> pandas.Series:
+    """Derivatives of a result of `trace` with respect to all parameters of its scene, in their units.
+
+    * quantity="flutter": of the parameter value of the flutter point number `event` along the trace (0, the first one); the
+      trace has computed them, so they cost nothing.
+    * "frequency" (damped, rad/s), "damping_ratio" or "eigenvalue": of a mode at a value of the traced parameter,
+
+          gradient(loci, "damping_ratio", mode="blade lag", speed=300)
+
+      at the cost of one equilibrium and one spectrum. Without a value, "damping_ratio" is the least one of all modes (or of
+      `mode`) on the whole range, and its derivative that of the mode that has it, there.
+
+    The equilibrium follows the parameters. Returns a Series by names of parameters; its attributes `value`, `at` and `mode`
+    say what was differentiated. Parameters that others define are left out: their derivatives are in those of the others.
+    NaN where the eigenvalue is multiple.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> loci = et.trace(scene)
+    >>> round(float(et.gradient(loci, "flutter")["drag"]), 4)                   # how far flutter moves per unit of drag
+    0.2914
+    >>> slope = et.gradient(loci, "damping_ratio", mode="mode 1", p=0)
+    >>> round(slope.attrs["value"], 6), round(float(slope["drag"]), 6)          # drag / 2
+    (0.05, 0.5)
+    """
+    if quantity not in QUANTITIES:
+        raise SceneError(f"quantity: expected one of {', '.join(QUANTITIES)}; found {quantity!r}")
+    if quantity == "flutter":
+        return _of_flutter(loci, event)
+    if not at:
+        if quantity != "damping_ratio":
+            raise SceneError(f"{quantity}: expected a value of the traced parameter, {loci.attrs['parameter']}=...")
+        least = least_damping(loci, mode)
+        return _of_mode(loci, quantity, least.at, least.mode).drop(loci.attrs["parameter"])
+    value = float(loci.eigentrail._wanted(at))
+    if mode is None:
+        raise SceneError(f"{quantity}: expected the mode, by its label or name: mode=\"mode 1\"")
+    labels = [str(label) for label in loci.mode.values]
+    chosen = loci.eigentrail.sel(mode=mode, **at)
+    return _of_mode(loci, quantity, value, labels.index(str(chosen.mode.values)))
+
+
+def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
+    """The least damping ratio of all modes, or of one, on the whole range of a trace, from its dense output.
+
+    >>> import eigentrail as et
+    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
+    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
+    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
+    >>> least = et.least_damping(et.trace(scene, p=(0, 0.4)))
+    >>> round(least.value, 4), round(least.at, 4)
+    (0.0354, 0.0)
+    """
+    parameter = loci.attrs["parameter"]
+    path = np.unique(loci[parameter].values)
+    share = np.linspace(0.0, 1.0, SAMPLES_PER_STEP, endpoint=False)
+    places = np.append((path[:-1, np.newaxis] + np.diff(path)[:, np.newaxis] * share).ravel(), path[-1])
+    low, high, best = path[0], path[-1], None
+    labels = [str(label) for label in loci.mode.values]
+    for _ in range(6):  # each time sixteen times closer: the minimum is flat, so its value is then exact to rounding
+        ratio = loci.eigentrail.sel(**{parameter: places}).damping_ratio
+        if mode is not None:
+            ratio = ratio[..., [labels.index(_label(loci, mode))]]
+        values = ratio.values.reshape(len(places), -1)
+        if not np.isfinite(values).any():
+            raise SceneError("no mode has a damping ratio on this range")
+        row, column = divmod(int(np.nanargmin(values)), values.shape[1])
+        label = str(ratio.mode.values[column % ratio.sizes["mode"]])
+        best = Least(float(values[row, column]), float(places[row]), labels.index(label))
+        low, high = places[max(row - 1, 0)], places[min(row + 1, len(places) - 1)]
+        places = np.linspace(low, high, 2 * SAMPLES_PER_STEP + 1)
+    assert best is not None
+    return best
+
+
+def _label(loci: xarray.Dataset, mode: Any) -> str:
+    chosen = loci.isel(node=0).eigentrail._modes(loci[["mode"]], mode)
+    return str(chosen.mode.values)
+
+
+def _of_flutter(loci: xarray.Dataset, event: int) -> pandas.Series:
+    points = np.flatnonzero(loci.event_kind.values == "flutter")
+    if len(points) <= event:
+        raise SceneError(f"flutter {event}: the trace has {len(points)} flutter points")
+    point = points[event]
+    shift = loci.event_shift.values[point]
+    known = [str(name) for name in loci.scene_parameter.values]
+    return _series(known, shift, loci.event_parameter.values[point], loci.event_parameter.values[point],
+                   str(loci.event_modes.values[point]), drop=loci.attrs["parameter"])
+
+
+def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pandas.Series:
+    parameter = loci.attrs["parameter"]
+    label = str(loci.mode.values[mode])
+    s = complex(np.ravel(loci.eigentrail.sel(**{parameter: value}, mode=label).eigenvalue.values)[0])
+    node = int(np.abs(loci[parameter].values - value).argmin())
+    scene, options = _scene_of(loci)
+    found = engine().sensitivities(scene, options, value, loci.equilibrium.values[node])
+    nearest = int(np.argmin(np.abs(found["eigenvalue"] - s)))
+    ds = found["derivative"][nearest]
+    size = abs(s)
+    # zeta = -Re s / |s|, so d zeta = -Im s Im(conj(s) ds) ... written with the parts of ds.
+    results: dict[str, tuple[Any, Any]] = {"eigenvalue": (ds, s), "frequency": (ds.imag * np.sign(s.imag or 1.0), abs(s.imag)),
+               "damping_ratio": (-ds.real / size + s.real * (s.real * ds.real + s.imag * ds.imag) / size ** 3,
+                                 -s.real / size)}
+    derivative, result = results[quantity]
+    return _series(found["parameter"], derivative, result, value, label)
+
+
+def _scene_of(loci: xarray.Dataset) -> tuple[Any, list[tuple[str, str]]]:
+    """The scene that was traced, with the files of its matrices, and the options that say which model it is."""
+    from .files import SCENE_FILES
+
+    files = loci.encoding.get(SCENE_FILES, {})
+    scene = engine().parse_scene(loci.attrs["scene"], loci.attrs["scene_path"], files)
+    options = [(key, option_text(key, loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
+               if loci.attrs.get(f"option_{key}", "none") not in ("none", "")]
+    return scene, options
+
+
+def _series(names: Any, values: Any, result: Any, at: float, mode: str, drop: Optional[str] = None) -> pandas.Series:
+    series = pandas.Series(np.asarray(values), index=pandas.Index(list(names), name="parameter"))
+    if drop is not None:
+        series = series.drop(drop)
+    series.attrs.update(value=result, at=float(at), mode=mode)
+    return series

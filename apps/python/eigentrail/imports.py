@@ -1,0 +1,85 @@
+"""Models that other programs made."""
+
+import glob
+import os
+import tempfile
+import warnings
+from collections.abc import Sequence
+from typing import Any, Union
+
+from .engine import SceneError, engine
+
+Files = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]]]
+
+
+class Imported:
+    """A scene and its matrices in memory, as an importer has read them: give it to `trace`, `spectrum` and the others.
+
+    `understood` are sentences on what was found and what was done with it. `save(folder, name)` writes both files, for the
+    program.
+    """
+
+    def __init__(self, found: Any, text: str, image: bytes):
+        self.title, self.parameter = found["title"], found["parameter"]
+        self.understood: list[str] = list(found["understood"])
+        self.text, self.image = text, image
+
+    def __repr__(self) -> str:
+        return "\n".join([f"Imported: {self.title}", *("  " + line for line in self.understood)])
+
+    def scene(self) -> Any:
+        return engine().parse_scene(self.text, "model.toml", {"model.h5": self.image})
+
+    def save(self, folder: Union[str, "os.PathLike[str]"], name: str = "model") -> str:
+        """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene."""
+        os.makedirs(folder, exist_ok=True)
+        scene = os.path.join(folder, f"{name}.toml")
+        with open(os.path.join(folder, f"{name}.h5"), "wb") as file:
+            file.write(self.image)
+        with open(scene, "w", encoding="utf-8") as text:
+            text.write(self.text.replace('"model.h5"', f'"{name}.h5"'))
+        return scene
+
+
+def from_openfast(files: Files, **options: Any) -> Imported:
+    """Linearizations of OpenFAST, `.lin` files of one or several operating points: paths, or a pattern.
+
+        turbine = from_openfast("lin/*.lin")
+        loci = trace(turbine, modes=dict(band=["0.1 Hz", "2 Hz"]))
+
+    Options are those of `eigentrail import openfast`. Raises SceneError for files that cannot be used.
+    """
+    return from_files("openfast", files, **options)
+
+
+def from_files(format: str, files: Files, **options: Any) -> Imported:
+    """Files of any format that `eigentrail import` reads: openfast, matrix-market, matlab, nastran, numpy."""
+    paths = _paths(files)
+    known = engine().import_formats()
+    if format not in known:
+        raise SceneError(f"format: expected one of {', '.join(known)}; found {format!r}")
+    unknown = [name for name in options if name.replace("_", "-") not in known[format] and name not in known[format]]
+    if unknown:
+        raise SceneError(f"{unknown[0]}: is no option of {format}; known: {', '.join(known[format]) or 'none'}")
+    texts = {(name if name in known[format] else name.replace("_", "-")):
+             ",".join(str(item) for item in value) if isinstance(value, (list, tuple)) else str(value)
+             for name, value in options.items()}
+    with tempfile.TemporaryDirectory(prefix="eigentrail-") as folder:
+        found = engine().import_files(format, paths, texts, folder)
+        with open(os.path.join(folder, "model.toml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(folder, "model.h5"), "rb") as file_of_matrices:
+            image = file_of_matrices.read()
+    for warning in found["warnings"]:
+        warnings.warn(warning, stacklevel=3)
+    return Imported(found, text, image)
+
+
+def _paths(files: Files) -> list[str]:
+    if isinstance(files, (str, os.PathLike)):
+        pattern = os.fspath(files)
+        paths = sorted(glob.glob(pattern)) if any(c in pattern for c in "*?[") else [pattern]
+        if not paths:
+            raise SceneError(f"{pattern}: no file has such a name")
+        return paths
+    return [os.fspath(path) for path in files]

@@ -1,0 +1,131 @@
+"""Rotors of ROSS (Rotordynamic Open Source Software): their matrices as a family."""
+
+from typing import Any, Optional, Union
+
+import numpy as np
+import xarray
+
+from .families import Family, Samples
+
+FREEDOMS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "theta")}
+AGREE = 1e-9  # largest difference, relative to the largest entry, of the state matrix here and that of ROSS
+
+
+def from_ross(rotor: Any, speeds: Any = None, *, title: str = "") -> Union[Family, Samples]:
+    """The family M x'' + (C + speed G) x' + K x = 0 of a rotor of ROSS, along its speed in rad/s.
+
+        rotor = from_ross(ross.rotor_example())
+        loci = trace(rotor, speed=(0, 800), modes=12)
+        loci.eigentrail.whirl()
+
+    The matrices are those of rotor.M(), K(), C(), G(). Where coefficients of bearings or seals are tables over speed, the
+    family is sampled at `speeds`, by default at those of the tables; the error of the interpolation is carried to every
+    eigenvalue, and a range must lie within the tables. ROSS takes the speed as the frequency of the tables, and so does
+    this. Coordinates have the names of nodes ("node 3 x"), those of discs and bearings their tags ("disk 0 x").
+    Raises ValueError where the state matrix differs from rotor.A(speed).
+    """
+    names = _names(rotor)
+    tables = [np.asarray(table, float) for table in _tables(rotor)]
+    if speeds is None and not tables:
+        C0, C1 = np.asarray(rotor.C(0.0)), np.asarray(rotor.G())
+        stiffness = [np.asarray(rotor.K(0.0))] + _with_speed(rotor)
+        family: Union[Family, Samples] = Family(M=np.asarray(rotor.M()), C=[C0, C1], K=stiffness, parameter="speed", unit="rad/s",
+                                                names=names, title=title or _title(rotor))
+        _compare(rotor, 100.0, C0 + 100.0 * C1, sum(100.0 ** power * matrix for power, matrix in enumerate(stiffness)))
+        return family
+    at = np.unique(np.concatenate(tables)) if speeds is None else np.asarray(speeds, float)
+    gyroscopic, stiffening = np.asarray(rotor.G()), _with_speed(rotor)
+    C = np.array([np.asarray(rotor.C(speed)) + speed * gyroscopic for speed in at])
+    K = np.array([np.asarray(rotor.K(speed)) + sum(speed * matrix for matrix in stiffening) for speed in at])
+    middle = len(at) // 2
+    _compare(rotor, at[middle], C[middle], K[middle])
+    return Samples(at, M=np.asarray(rotor.M()), C=C, K=K, parameter="speed", unit="rad/s", names=names,
+                   title=title or _title(rotor))
+
+
+def whirl(loci: xarray.Dataset) -> xarray.DataArray:
+    """Direction and shape of the orbits of a mode: per stored point, mode and node the ratio of the axes of the ellipse
+    that the node runs through in the plane of x and y; 1: a circle in the direction of rotation (from x to y), -1: a circle
+    against it, 0: a line; NaN where the mode does not exist or has no lateral motion.
+
+    The coordinate `direction` of a mode at a point is "forward" or "backward" if all nodes agree, else "mixed"; "" without
+    lateral motion. Needs coordinates whose names end with " x" and " y".
+    """
+    coordinates = [str(name) for name in loci.coordinate.values]
+    nodes = [name[:-2] for name in coordinates if name.endswith(" x") and name[:-2] + " y" in coordinates]
+    if not nodes:
+        raise ValueError("expected coordinates with the names 'NODE x' and 'NODE y'")
+    x = loci.mode_shape.values[..., [coordinates.index(f"{node} x") for node in nodes]]
+    y = loci.mode_shape.values[..., [coordinates.index(f"{node} y") for node in nodes]]
+    # x(t) + j y(t) = a e^{jwt} + conj(b) e^{-jwt} of x = X e^{jwt}, y = Y e^{jwt}: a = X + jY runs forward, b = X - jY back.
+    forward, backward = np.abs(x + 1j * y), np.abs(x - 1j * y)
+    size = np.maximum(forward, backward)
+    lateral = size > LATERAL * np.nanmax(np.abs(loci.mode_shape.values), axis=-1, keepdims=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(lateral, (forward - backward) / (forward + backward), np.nan)
+        ahead, against = ratio > STRAIGHT, ratio < -STRAIGHT
+    direction = np.where(ahead.any(-1) & against.any(-1), "mixed",
+                         np.where(ahead.any(-1), "forward", np.where(against.any(-1), "backward", "")))
+    return xarray.DataArray(
+        ratio, dims=("node", "mode", "shaft_node"),
+        coords={loci.attrs["parameter"]: loci[loci.attrs["parameter"]], "mode": loci.mode, "shaft_node": nodes,
+                "direction": (("node", "mode"), direction.astype(object))},
+        name="whirl", attrs={"long_name": "ratio of the axes of the orbit, positive forward", "units": "1"})
+
+
+LATERAL = 1e-6  # of the largest component of a shape: below it a node does not move laterally
+STRAIGHT = 1e-6  # ratio of the axes below which an orbit is a line: neither forward nor backward
+
+
+def _names(rotor: Any) -> list[str]:
+    letters = FREEDOMS.get(int(rotor.number_dof))
+    if letters is None:
+        raise ValueError(f"rotor.number_dof: expected 4 or 6 freedoms per node, found {rotor.number_dof}")
+    n_nodes = int(rotor.ndof) // len(letters)
+    labels = [f"node {node}" for node in range(n_nodes)]
+    taken: set[str] = set()
+    for element in [*getattr(rotor, "bearing_elements", ()), *getattr(rotor, "disk_elements", ())]:
+        tag, node = getattr(element, "tag", None), int(element.n)
+        if tag and node < n_nodes and tag not in taken:
+            labels[node] = str(tag)
+            taken.add(str(tag))
+    return [f"{label} {letter}" for label in labels for letter in letters]
+
+
+def _tables(rotor: Any) -> list[Any]:
+    """Frequencies of the bearings and seals whose coefficients change with it."""
+    tables = []
+    for bearing in getattr(rotor, "bearing_elements", ()):
+        table = getattr(bearing, "frequency", None)
+        if table is not None and np.size(table) > 1 and _changes(bearing, table):
+            tables.append(table)
+    return tables
+
+
+def _changes(bearing: Any, table: Any) -> bool:
+    first, others = table[0], table[1:]
+    return any(not np.array_equal(np.asarray(matrix(first)), np.asarray(matrix(other)))
+               for matrix in (bearing.K, bearing.C) for other in others)
+
+
+def _with_speed(rotor: Any) -> list[Any]:
+    """The matrix that ROSS multiplies with the speed and adds to K; none in most versions."""
+    matrix = getattr(rotor, "Kst", None)
+    return [] if matrix is None else [np.asarray(matrix())]
+
+
+def _compare(rotor: Any, speed: float, C: Any, K: Any) -> None:
+    M = np.asarray(rotor.M())
+    n = len(M)
+    theirs = np.asarray(rotor.A(speed))[n:]
+    ours = -np.linalg.solve(M, np.hstack([K, C]))
+    for part, name in ((slice(0, n), "stiffness"), (slice(n, 2 * n), "damping")):
+        difference = np.abs(theirs[:, part] - ours[:, part]).max() / max(np.abs(theirs[:, part]).max(), 1e-300)
+        if not difference <= AGREE:
+            raise ValueError(f"the {name} at {speed:g} rad/s differs from that of rotor.A by {difference:.1e}: this version of "
+                             "ROSS builds its state matrix in another way; give the matrices as a Family")
+
+
+def _title(rotor: Any) -> str:
+    tag: Optional[str] = getattr(rotor, "tag", None)
+    return str(tag) if tag else "rotor of ROSS"

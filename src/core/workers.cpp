@@ -1,0 +1,56 @@
+#include "eigentrail/core/workers.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <mutex>
+#include <thread>
+
+#include "core/parallel.hpp"
+#include "eigentrail/core/errors.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_parts = 100'000;
+
+}  // namespace
+
+Threads::Threads(int jobs)
+    : threads_(jobs > 0 ? static_cast<std::size_t>(jobs)
+                        : std::max<std::size_t>(1, std::thread::hardware_concurrency())) {}
+
+std::vector<std::string> Threads::compute(std::size_t count, const Piece& piece,
+                                          const std::function<void(std::size_t)>& finished) {
+  std::vector<std::string> results(count);
+  std::mutex mutex;
+  std::size_t done = 0;
+  in_parallel(count, static_cast<int>(threads_), [&](std::size_t i) {
+    results[i] = piece(i);
+    const std::scoped_lock lock(mutex);
+    finished(++done);
+  });
+  return results;
+}
+
+std::vector<std::size_t> Part::pieces(std::size_t n) const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = static_cast<std::size_t>(number - 1); i < n; i += static_cast<std::size_t>(count))
+    numbers.push_back(i);
+  return numbers;
+}
+
+Part read_part(const std::string& text) {
+  Part part{0, 0};
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, part.number);
+  const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
+  const auto count = slash ? std::from_chars(number.ptr + 1, end, part.count) : number;
+  if (!slash || count.ec != std::errc() || count.ptr != end)
+    throw InputError("--part: expected i/N, such as 2/5 for the second of five parts; found '" + text + "'");
+  if (part.count < 1 || part.count > most_parts || part.number < 1 || part.number > part.count)
+    throw InputError("--part: expected i/N with 1 <= i <= N <= " + std::to_string(most_parts) + "; found '" +
+                     text + "'");
+  return part;
+}
+
+}  // namespace eigentrail

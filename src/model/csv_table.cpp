@@ -1,0 +1,129 @@
+#include "model/csv_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+#include "eigentrail/scene/units.hpp"
+
+namespace eigentrail {
+namespace {
+
+[[noreturn]] void csv_fault(const std::string& path, int line, const std::string& message) {
+  throw InputError(path + ":" + std::to_string(line) + ": " + printable(message));
+}
+
+std::string without_blanks(const std::string& text) {
+  const char* blanks = " \t\r\"";
+  const auto begin = text.find_first_not_of(blanks);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// The character that separates the cells of the headings.
+char separator_of(const std::string& headings) {
+  for (const char one : {';', '\t', ','}) {
+    if (headings.find(one) != std::string::npos) return one;
+  }
+  return ',';
+}
+
+std::vector<std::string> cells_of(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t end = line.find(separator, begin);
+    cells.push_back(without_blanks(line.substr(begin, end == std::string::npos ? end : end - begin)));
+    if (end == std::string::npos) return cells;
+    begin = end + 1;
+  }
+}
+
+CsvColumn heading_of(const std::string& path, int line, const std::string& cell) {
+  const std::size_t open = cell.find_first_of("[(");
+  CsvColumn column{without_blanks(cell.substr(0, open)), "", {}};
+  if (open != std::string::npos) {
+    const std::size_t close = cell.find_last_of("])");
+    if (close == std::string::npos || close < open)
+      csv_fault(path, line, "the unit of '" + cell + "' is never closed; write \"outer [mm]\"");
+    column.unit = without_blanks(cell.substr(open + 1, close - open - 1));
+  }
+  if (column.name.empty())
+    csv_fault(path, line, "expected headings such as \"speed [rpm], kxx [N/m]\", found '" + cell + "'");
+  return column;
+}
+
+double number_in(const CsvTable& table, int line, const CsvColumn& column, const std::string& cell) {
+  double value = 0.0;
+  const char* end = cell.data() + cell.size();
+  const char* begin = cell.data() + (!cell.empty() && cell[0] == '+' ? 1 : 0);
+  const auto [at, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || at != end || !std::isfinite(value))
+    csv_fault(table.path, line, column.name + ": expected a finite number, found '" + cell + "'");
+  return value;
+}
+
+}  // namespace
+
+const CsvColumn* CsvTable::find(const std::string& name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const auto& one) { return one.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+CsvTable read_csv(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be opened");
+  CsvTable table{path, {}, {}};
+  char separator = ',';
+  std::size_t bytes = 0;
+  std::string text;
+  for (int line = 1; std::getline(file, text); ++line) {
+    bytes += text.size();
+    if (bytes > limits::scene_bytes || table.rows() > limits::tables_of_a_kind)
+      csv_fault(path, line, "the table is too long");
+    const std::string content = without_blanks(text);
+    if (content.empty() || content[0] == '#') continue;
+    if (table.columns.empty()) {
+      separator = separator_of(text);
+      for (const std::string& cell : cells_of(text, separator)) {
+        CsvColumn column = heading_of(path, line, cell);
+        if (table.find(column.name) != nullptr)
+          csv_fault(path, line, "two columns are called '" + column.name + "'");
+        table.columns.push_back(std::move(column));
+      }
+      continue;
+    }
+    const std::vector<std::string> cells = cells_of(text, separator);
+    if (cells.size() != table.columns.size())
+      csv_fault(path, line,
+                "has " + std::to_string(cells.size()) + " cells under " +
+                    std::to_string(table.columns.size()) + " headings");
+    table.lines.push_back(line);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      table.columns[i].values.push_back(number_in(table, line, table.columns[i], cells[i]));
+  }
+  if (table.rows() == 0) throw InputError(path + ": has no rows; expected headings and lines of numbers");
+  return table;
+}
+
+std::vector<double> si_values(const CsvTable& table, const CsvColumn& column, const std::string& wanted) {
+  std::vector<double> values = column.values;
+  if (column.unit.empty()) return values;
+  const auto unit = parse_unit(column.unit);
+  if (!unit)
+    throw InputError(table.path + ": column " + column.name + ": unit '" + column.unit + "' is not known; " +
+                     unit_suggestion(column.unit));
+  if (!(unit->dimension == parse_unit(wanted)->dimension))
+    throw InputError(table.path + ": column " + column.name + " is in " + column.unit + ", but " +
+                     (wanted.empty() ? "a number without unit" : wanted) + " is expected");
+  for (double& value : values) value *= unit->factor;
+  return values;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,34 @@
+// Tables of numbers in text files: a line of headings, then lines of numbers, separated by commas, semicolons
+// or tabs. Lines that begin with # and empty lines do not count.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace eigentrail {
+
+/// A column; "outer [mm]" is the heading of the column "outer" in the unit mm.
+struct CsvColumn {
+  std::string name;
+  std::string unit;            ///< empty: none given
+  std::vector<double> values;  ///< as in the file
+};
+
+struct CsvTable {
+  std::string path;
+  std::vector<CsvColumn> columns;
+  std::vector<int> lines;  ///< number of the line of each row, from 1
+
+  std::size_t rows() const { return lines.size(); }
+  const CsvColumn* find(const std::string& name) const;
+};
+
+/// Reads such a file. Throws InputError with path and line.
+CsvTable read_csv(const std::string& path);
+
+/// Values of a column in the SI unit of a quantity in `wanted`. Throws InputError if the column has another
+/// dimension or a unit that is not known.
+std::vector<double> si_values(const CsvTable& table, const CsvColumn& column, const std::string& wanted);
+
+}  // namespace eigentrail

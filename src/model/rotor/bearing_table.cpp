@@ -1,0 +1,174 @@
+#include "model/rotor/bearing_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
+#include "eigentrail/scene/units.hpp"
+#include "model/sample_interpolation.hpp"
+
+namespace eigentrail {
+namespace {
+
+const std::vector<std::string>& coefficient_names() {
+  static const std::vector<std::string> names = {"kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx",
+                                                 "cyy", "mxx", "mxy", "myx", "myy", "kzz", "czz"};
+  return names;
+}
+
+const char* coefficient_unit(const std::string& name) {
+  return name[0] == 'k' ? "N/m" : name[0] == 'c' ? "N s/m" : "kg";
+}
+
+std::string short_number(double x) {
+  std::ostringstream text;
+  text.precision(3);
+  text << x;
+  return text.str();
+}
+
+void check_ascending(const CsvTable& csv, const std::vector<double>& values) {
+  const CsvColumn& first = csv.columns.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!(values[i] > values[i - 1]))
+      throw TableFault(csv.path + ":" + std::to_string(csv.lines[i]) + ": " + first.name +
+                       " must ascend; found " + exact_text(first.values[i]) + " behind " +
+                       exact_text(first.values[i - 1]));
+  }
+}
+
+/// The columns as diagonal matrices of samples, for the choice of the interpolant.
+SampledData samples_of(const std::vector<double>& nodes, const std::vector<std::vector<double>>& columns) {
+  SampledData data;
+  data.values = nodes;
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    Matrix sample = Matrix::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) sample(i, i) = columns[static_cast<std::size_t>(i)][row];
+    data.K.push_back(std::move(sample));
+  }
+  return data;
+}
+
+/// What the interpolant of all other rows misses at a row, over all inner rows, relative to the column.
+double error_left_out(const RationalInterpolant& interpolant, const std::vector<double>& column) {
+  const std::vector<double>& nodes = interpolant.nodes();
+  if (nodes.size() < 4) return std::nan("");
+  double largest = 0.0, worst = 0.0;
+  for (const double value : column) largest = std::max(largest, std::abs(value));
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    const Vector missed = leave_one_out(nodes, interpolant.degree(), i, interpolant.denominator());
+    double error = 0.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) error += missed[static_cast<Eigen::Index>(j)] * column[j];
+    worst = std::max(worst, std::abs(error));
+  }
+  return largest > 0.0 ? worst / largest : 0.0;
+}
+
+/// Factor to the SI unit of the first column.
+double factor_of_argument(const CsvTable& csv, const std::string& wanted) {
+  const CsvColumn& first = csv.columns.front();
+  if (first.unit.empty()) return 1.0;
+  const auto unit = parse_unit(first.unit);
+  if (!unit)
+    throw TableFault(csv.path + ": column " + first.name + ": unit '" + first.unit + "' is not known; " +
+                     unit_suggestion(first.unit));
+  if (!wanted.empty() && !(unit->dimension == parse_unit(wanted)->dimension))
+    throw TableFault(csv.path + ": column " + first.name + " is in " + first.unit + ", but " + wanted +
+                     " is expected");
+  return unit->factor;
+}
+
+/// Checks the size of the table and the names of its columns.
+void check_columns(const CsvTable& csv) {
+  const std::vector<std::string>& known = coefficient_names();
+  const std::string& first = csv.columns.front().name;
+  if (std::find(known.begin(), known.end(), first) != known.end())
+    throw TableFault(csv.path + ": the first column is the speed, or what 'over' says; found '" + first +
+                     "'");
+  if (csv.columns.size() < 2) throw TableFault(csv.path + ": has no column of a coefficient, such as kxx");
+  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
+    const std::string& name = csv.columns[i].name;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw TableFault(csv.path + ": unknown column '" + name + "'; " + suggestion(name, known));
+  }
+  if (csv.rows() > limits::samples)
+    throw TableFault(csv.path + ": has " + std::to_string(csv.rows()) + " rows; at most " +
+                     std::to_string(limits::samples) + " are read");
+  if (csv.rows() < 2) throw TableFault(csv.path + ": has one row; expected two at least");
+}
+
+std::vector<std::vector<double>> coefficients_of(const CsvTable& csv) {
+  std::vector<std::vector<double>> columns;
+  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
+    const CsvColumn& column = csv.columns[i];
+    try {
+      columns.push_back(si_values(csv, column, coefficient_unit(column.name)));
+    } catch (const InputError& error) {
+      throw TableFault(error.what());
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::shared_ptr<const TabulatedFactor> BearingTable::find(const std::string& key) const {
+  for (const auto& [name, column] : columns) {
+    if (name == key) return column;
+  }
+  return nullptr;
+}
+
+std::string BearingTable::outside(double at) const {
+  const std::vector<double>& nodes = interpolant->nodes();
+  const double slack = 1e-12 * (nodes.back() - nodes.front());
+  if (at >= nodes.front() - slack && at <= nodes.back() + slack) return "";
+  const std::string unit = first_unit.empty() ? "" : " " + first_unit;
+  return "its rows go from " + first_name + " = " + exact_text(nodes.front() / factor) + " to " +
+         exact_text(nodes.back() / factor) + unit + ", and nothing is extrapolated; " + first_name + " is " +
+         exact_text(at / factor) + unit;
+}
+
+std::string BearingTable::in_words() const {
+  const std::vector<double>& nodes = interpolant->nodes();
+  std::string text = "table of " + std::to_string(nodes.size()) + " rows, " + first_name + " = " +
+                     short_number(nodes.front() / factor) + " to " + short_number(nodes.back() / factor) +
+                     (first_unit.empty() ? "" : " " + first_unit) + ", interpolant of degree " +
+                     std::to_string(interpolant->degree());
+  if (std::isnan(error)) return text + "; too few rows to tell its error";
+  return text + "; a row that is left out is missed by " + short_number(error) + " of the largest " + worst +
+         " at most";
+}
+
+BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std::string& unit) {
+  check_columns(csv);
+  const CsvColumn& first = csv.columns.front();
+  BearingTable table;
+  table.argument = argument;
+  table.first_name = first.name;
+  table.first_unit = first.unit;
+  table.factor = factor_of_argument(csv, unit);
+  std::vector<double> nodes = first.values;
+  for (double& node : nodes) node *= table.factor;
+  check_ascending(csv, nodes);
+  const std::vector<std::vector<double>> columns = coefficients_of(csv);
+  std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, std::nullopt);
+  table.interpolant = std::make_shared<const RationalInterpolant>(std::move(pieces.front().interpolant));
+  table.error = std::nan("");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double error = error_left_out(*table.interpolant, columns[i]);
+    if (!(error <= table.error)) {
+      table.error = error;
+      table.worst = csv.columns[i + 1].name;
+    }
+    table.columns.emplace_back(csv.columns[i + 1].name,
+                               std::make_shared<const TabulatedFactor>(table.interpolant, columns[i]));
+  }
+  return table;
+}
+
+}  // namespace eigentrail

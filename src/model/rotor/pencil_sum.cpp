@@ -1,0 +1,54 @@
+#include "model/rotor/pencil_sum.hpp"
+
+#include <algorithm>
+
+namespace eigentrail {
+
+MatrixSum::Part& MatrixSum::part(const Expression& factor,
+                                 const std::shared_ptr<const TabulatedFactor>& table) {
+  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const Part& one) {
+    return one.table == table && one.factor == factor;
+  });
+  if (found != parts_.end()) return *found;
+  return parts_.emplace_back(Part{factor, table});
+}
+
+void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value) {
+  if (factor.is_constant()) {
+    value *= factor.evaluate(std::span<const double>());
+    if (value != 0.0) add(row, column, 1.0, nullptr, value);
+  } else {
+    add(row, column, factor, nullptr, value);
+  }
+}
+
+void MatrixSum::add_product(Eigen::Index row, Eigen::Index column, const Expression& factor,
+                            const Expression& entry, double value) {
+  if (entry.is_constant()) {
+    add(row, column, factor, value * entry.evaluate(std::span<const double>()));
+  } else {
+    add(row, column, factor * entry, value);
+  }
+}
+
+void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& argument,
+                    const std::shared_ptr<const TabulatedFactor>& table, double value) {
+  if (row < 0 || column < 0 || value == 0.0) return;
+  part(argument, table).entries[{row, column}] += value;
+}
+
+std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
+  std::vector<AffineTerm<SparseMatrix>> result;
+  for (const Part& one : parts_) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& [at, value] : one.entries) {
+      if (value != 0.0) entries.emplace_back(at.first, at.second, value);
+    }
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    result.push_back({one.factor, std::move(matrix), {}, one.table});
+  }
+  return result;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,47 @@
+// Collects the entries of sparse matrices that are sums of constant matrices with factors.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "eigentrail/model/affine_family.hpp"
+
+namespace eigentrail {
+
+/// One of the matrices M, C and K as it is put together. What has the same factor is one matrix.
+class MatrixSum {
+ public:
+  /// Adds `factor` * `value` at a row and a column; nothing where one of them is negative (a freedom that is
+  /// held) or the value is zero. Constant factors are multiplied into the value.
+  void add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value = 1.0);
+
+  /// Adds `factor` * `entry` * `value`; constant entries are multiplied into the value.
+  void add_product(Eigen::Index row, Eigen::Index column, const Expression& factor, const Expression& entry,
+                   double value);
+
+  /// Adds a tabulated function of `argument`.
+  void add(Eigen::Index row, Eigen::Index column, const Expression& argument,
+           const std::shared_ptr<const TabulatedFactor>& table, double value);
+
+  /// The summands, n x n.
+  std::vector<AffineTerm<SparseMatrix>> terms(Eigen::Index n) const;
+
+ private:
+  struct Part {
+    Expression factor;
+    std::shared_ptr<const TabulatedFactor> table;
+    std::map<std::pair<Eigen::Index, Eigen::Index>, double> entries = {};
+  };
+
+  Part& part(const Expression& factor, const std::shared_ptr<const TabulatedFactor>& table);
+
+  std::vector<Part> parts_;
+};
+
+/// M, C and K.
+struct PencilSum {
+  MatrixSum M, C, K;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,153 @@
+// Reads the [[bearing]] tables of a rotor: bearings and seals on nodes, with constant coefficients,
+// expressions or a table over the speed.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "eigentrail/core/text.hpp"
+#include "model/rotor/bearing_table.hpp"
+#include "model/rotor/rotor_draft.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// The coefficient of one entry of one matrix.
+struct BearingCoefficient {
+  Expression value;  ///< or the argument of the table
+  std::shared_ptr<const TabulatedFactor> table = {};
+};
+
+/// The coefficients of a bearing by the name of their key; those that are zero are missing.
+using BearingCoefficients = std::vector<std::pair<std::string, BearingCoefficient>>;
+
+/// Forces between two nodes, or a node and the ground.
+struct BearingEnds {
+  const NodeCoordinates* node;
+  const NodeCoordinates* other;  ///< null: the ground
+};
+
+MatrixSum& matrix_of(PencilSum& sum, const std::string& key) {
+  return key[0] == 'k' ? sum.K : key[0] == 'c' ? sum.C : sum.M;
+}
+
+void add_entry(MatrixSum& to, Eigen::Index row, Eigen::Index column, const BearingCoefficient& one,
+               double sign) {
+  if (one.table) {
+    to.add(row, column, one.value, one.table, sign);
+  } else {
+    to.add(row, column, one.value, sign);
+  }
+}
+
+void add_bearing(PencilSum& sum, const BearingEnds& ends, const BearingCoefficients& coefficients) {
+  const auto freedom = [](char axis) { return axis == 'x' ? along_x : axis == 'y' ? along_y : along_z; };
+  for (const auto& [key, one] : coefficients) {
+    MatrixSum& to = matrix_of(sum, key);
+    const NodeFreedom row = freedom(key[1]), column = freedom(key[2]);
+    add_entry(to, (*ends.node)[row], (*ends.node)[column], one, 1.0);
+    if (ends.other == nullptr) continue;
+    add_entry(to, (*ends.other)[row], (*ends.other)[column], one, 1.0);
+    add_entry(to, (*ends.node)[row], (*ends.other)[column], one, -1.0);
+    add_entry(to, (*ends.other)[row], (*ends.node)[column], one, -1.0);
+  }
+}
+
+const char* unit_of(const std::string& key) {
+  return key[0] == 'k' ? "N/m" : key[0] == 'c' ? "N s/m" : "kg";
+}
+
+/// The coefficients that the scene gives as numbers or expressions. A missing one along y is that along x.
+BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table, const BearingTable* columns) {
+  BearingCoefficients result;
+  const auto tabulated = [&](const std::string& key) {
+    return columns == nullptr ? nullptr : columns->find(key);
+  };
+  const auto read = [&](const std::string& key) {
+    if (table.has(key) && tabulated(key) != nullptr)
+      table.fail(key, "the table has a column of this name already; leave one of both out");
+    if (const auto column = tabulated(key))
+      return result.emplace_back(key, BearingCoefficient{columns->argument, column}), true;
+    if (!table.has(key)) return false;
+    const Expression value = rotor.draft.read_number(table, key, unit_of(key), Range::any);
+    result.emplace_back(key, BearingCoefficient{value});
+    return true;
+  };
+  for (const std::string& kind : {std::string("k"), std::string("c"), std::string("m")}) {
+    const std::size_t before = result.size();
+    const bool along_first = read(kind + "xx");
+    const std::optional<BearingCoefficient> first =
+        along_first ? std::optional(result[before].second) : std::nullopt;
+    read(kind + "xy");
+    read(kind + "yx");
+    if (!read(kind + "yy") && first) result.emplace_back(kind + "yy", *first);
+    if (kind != "m") read(kind + "zz");
+  }
+  return result;
+}
+
+/// The table of a bearing over its argument: the speed of the shaft, or the expression `over`.
+std::optional<BearingTable> read_columns(RotorDraft& rotor, TableReader& table, const NodePlace& place) {
+  if (!table.has("table")) {
+    if (table.has("over")) table.fail("over", "is the argument of a table; there is no 'table'");
+    return std::nullopt;
+  }
+  const Expression argument = table.has("over")
+                                  ? rotor.draft.read_number(table, "over", std::nullopt, Range::any)
+                                  : rotor.shafts[place.shaft].speed;
+  const CsvTable csv = rotor.read_table(table, "table");
+  try {
+    BearingTable columns = tabulate(csv, argument, table.has("over") ? "" : "rad/s");
+    for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {
+      const double at = rotor.draft.check_values(argument)[i];
+      if (const std::string fault = columns.outside(at); !fault.empty())
+        table.fail("table", csv.path + ": " + fault + Draft::where_on_trace(i));
+    }
+    return columns;
+  } catch (const TableFault& error) {
+    table.fail("table", error.what());
+  }
+}
+
+/// The pairs of nodes that a bearing connects.
+std::vector<std::pair<NodePlace, std::optional<NodePlace>>> read_ends(const RotorDraft& rotor,
+                                                                      TableReader& table) {
+  std::vector<std::pair<NodePlace, std::optional<NodePlace>>> result;
+  if (table.has("between")) {
+    if (table.has("node")) table.fail("node", "'between' names the nodes already; leave one of both out");
+    const std::vector<NodePlace> both = rotor.read_nodes(table, "between");
+    if (both.size() != 2) table.fail("between", "expected two nodes, found " + std::to_string(both.size()));
+    if (both[0].shaft == both[1].shaft && both[0].node == both[1].node)
+      table.fail("between", "names " + rotor.name_of(both[0]) + " twice");
+    result.emplace_back(both[0], both[1]);
+    return result;
+  }
+  for (const NodePlace& place : rotor.read_nodes(table, "node")) result.emplace_back(place, std::nullopt);
+  return result;
+}
+
+}  // namespace
+
+void read_bearings(RotorDraft& rotor) {
+  const std::vector<const Table*> all = tables(rotor.draft.scene, "bearing");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = rotor.draft.reader(*all[i], "[[bearing]] " + std::to_string(i + 1));
+    const auto ends = read_ends(rotor, table);
+    const std::optional<BearingTable> columns = read_columns(rotor, table, ends.front().first);
+    const BearingCoefficients coefficients = read_coefficients(rotor, table, columns ? &*columns : nullptr);
+    if (table.has("name")) (void)table.text("name");
+    table.finish();
+    if (coefficients.empty())
+      table.fail("kxx", "is missing; expected coefficients such as kxx = 1e6, cxx = 100, or a table");
+    std::string where;
+    for (const auto& [node, other] : ends) {
+      add_bearing(rotor.sum, {&rotor.at(node), other ? &rotor.at(*other) : nullptr}, coefficients);
+      where +=
+          (where.empty() ? "" : ", ") + rotor.name_of(node) + (other ? " and " + rotor.name_of(*other) : "");
+    }
+    std::string text = (ends.front().second ? "between " : "at ") + where;
+    if (columns) text += "; " + columns->in_words();
+    rotor.data.emplace_back("bearing " + std::to_string(i + 1), text);
+  }
+}
+
+}  // namespace eigentrail

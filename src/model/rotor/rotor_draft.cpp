@@ -1,0 +1,89 @@
+#include "model/rotor/rotor_draft.hpp"
+
+#include <charconv>
+#include <sstream>
+
+#include "model/beside_scene.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// "inner node 3", "inner 3", "node 3" and "3": the name before the number, without the word "node".
+std::string shaft_part(std::string text) {
+  const auto strip = [&text] {
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+  };
+  strip();
+  constexpr std::string_view word = "node";
+  const bool whole = text == word;
+  if (whole || text.ends_with(" node")) text.resize(text.size() - word.size());
+  strip();
+  return text;
+}
+
+}  // namespace
+
+std::string ShaftDraft::node_name(std::size_t node) const {
+  return (name.empty() ? "" : name + " ") + "node " + std::to_string(node + 1);
+}
+
+std::string ShaftDraft::element_name(std::size_t element) const {
+  return (name.empty() ? "" : name + " ") + "element " + std::to_string(element + 1);
+}
+
+std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::string& key) const {
+  std::vector<NodePlace> places;
+  std::vector<std::string> names;
+  for (const ShaftDraft& shaft : shafts) names.push_back(shaft.name);
+  for (const std::string& text : table.texts(key)) {
+    const std::size_t digits = text.find_last_not_of("0123456789") + 1;
+    long number = 0;
+    const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
+    const std::string expected = shafts.size() == 1 ? "3" : "\"" + names.front() + " node 3\"";
+    if (digits == text.size() || error != std::errc() || end != text.data() + text.size())
+      table.fail(key, "expected the number of a node, such as " + expected + ", found \"" + text + "\"");
+    const std::string name = shaft_part(text.substr(0, digits));
+    std::size_t shaft = 0;
+    if (!name.empty() || shafts.size() > 1) {
+      while (shaft < shafts.size() && shafts[shaft].name != name) ++shaft;
+      if (name.empty())
+        table.fail(key, "say of which shaft, such as " + expected + "; found \"" + text + "\"");
+      if (shaft == shafts.size())
+        table.fail(key, "no shaft is called '" + name + "'; " + suggestion(name, names));
+    }
+    const std::size_t count = shafts[shaft].held.size();
+    if (number < 1 || number > static_cast<long>(count))
+      table.fail(key, "there is no " + shafts[shaft].node_name(static_cast<std::size_t>(number - 1)) +
+                          "; the nodes are numbered from 1 to " + std::to_string(count));
+    places.push_back({shaft, static_cast<std::size_t>(number - 1)});
+  }
+  if (places.empty()) table.fail(key, "expected a node, found an empty list");
+  return places;
+}
+
+std::string six_digits(double x) {
+  std::ostringstream text;
+  text.precision(6);
+  text << x;
+  return text.str();
+}
+
+CsvTable RotorDraft::read_table(TableReader& table, const std::string& key) const {
+  const std::string path = beside_scene(draft.scene, table, key);
+  try {
+    return read_csv(path);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
+
+double RotorDraft::first_value(const Expression& expression) const {
+  const std::vector<double> values = draft.check_values(expression);
+  if (!values.empty()) return values.front();
+  Vector si = draft.scene.parameters.declared_values();
+  const std::span<double> span(si.data(), draft.scene.parameters.size());
+  draft.scene.parameters.to_si(span);
+  return expression.evaluate(std::span<const double>(span));
+}
+
+}  // namespace eigentrail

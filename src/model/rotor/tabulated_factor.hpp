@@ -1,0 +1,37 @@
+// A function of one number that is known at single places and interpolated between them.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "model/rational_interpolant.hpp"
+
+namespace eigentrail {
+
+class TabulatedFactor {
+ public:
+  /// `values`: at the nodes of the interpolant, which all columns of a table share.
+  TabulatedFactor(std::shared_ptr<const RationalInterpolant> interpolant, std::vector<double> values)
+      : interpolant_(std::move(interpolant)), values_(std::move(values)) {}
+
+  /// The function at x, a number or a power series about one; not a number outside the table.
+  template <class Scalar>
+  Scalar operator()(const Scalar& x) const {
+    const std::vector<double>& nodes = interpolant_->nodes();
+    const double at = leading_value(x);
+    const double slack = 1e-12 * (nodes.back() - nodes.front());
+    if (!(at >= nodes.front() - slack && at <= nodes.back() + slack))
+      return Scalar(std::numeric_limits<double>::quiet_NaN());
+    const std::vector<Scalar> basis = interpolant_->basis(x);
+    Scalar sum(0.0);
+    for (std::size_t i = 0; i < basis.size(); ++i) sum += basis[i] * Scalar(values_[i]);
+    return sum;
+  }
+
+ private:
+  std::shared_ptr<const RationalInterpolant> interpolant_;
+  std::vector<double> values_;
+};
+
+}  // namespace eigentrail

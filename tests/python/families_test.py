@@ -1,0 +1,166 @@
+"""Families of matrices in memory: the same bits as the program on their files, closed forms, and mistakes."""
+
+import pathlib
+import tempfile
+import timeit
+import unittest
+
+import eigentrail as et
+import numpy as np
+import scipy.sparse as sp
+
+from loci_comparison import differences
+from program import ProgramTest
+
+M, K = np.diag([2.0, 1.0]), np.array([[3.0, -1.0], [-1.0, 2.0]])
+C0, G = 0.01 * K, np.array([[0.0, 1.0], [-1.0, 0.0]])
+
+
+def quadratic(omega):
+    return dict(M=M, C=C0 + omega * G, K=K)
+
+
+def exact(omega):
+    """One eigenvalue of each pair, by the companion matrix."""
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C0 + omega * G)]])
+    s = np.linalg.eigvals(A)
+    return np.sort_complex(s[s.imag > 0])
+
+
+class Polynomials(ProgramTest):
+    def assert_same_as_the_program(self, family, span, **how):
+        scene = family.save(self.folder / "family.toml", span)
+        self.run_well("trace", scene, "-o", "program.h5", "--quiet", "--force", *[f"--{key}={value}" for key, value in how.items()])
+        loci = et.trace(family, **{family.parameter: span}, **how)
+        loci.eigentrail.save(self.folder / "python.h5")
+        found = differences(self.folder / "program.h5", self.folder / "python.h5")
+        self.assertEqual([name for name in found if name != "scene_path"], [])
+        return loci
+
+    def test_dense(self):
+        loci = self.assert_same_as_the_program(et.Family(M=M, C=[C0, G], K=K, parameter="omega", unit="rad/s"), (0, 4))
+        for omega in (0.3, 2.2):
+            found = np.sort_complex(loci.eigentrail.sel(omega=omega).eigenvalue.values)
+            np.testing.assert_allclose(found, exact(omega), rtol=1e-6)
+
+    def test_first_order(self):
+        A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C0)]])
+        A1 = np.block([[np.zeros((2, 4))], [np.zeros((2, 2)), -np.linalg.solve(M, G)]])
+        loci = self.assert_same_as_the_program(et.Family(A=[A, A1], parameter="w", names=["a", "b", "c", "d"]), (0, 4))
+        np.testing.assert_allclose(np.sort_complex(loci.eigentrail.sel(w=2.2).eigenvalue.values), exact(2.2), rtol=1e-6)
+        self.assertEqual(list(loci.coordinate.values), ["a", "b", "c", "d"])
+
+    def test_sparse_with_factors(self):
+        n = 300
+        chain = sp.diags([-1.0, 2.0, -1.0], [-1, 0, 1], (n, n)) * n ** 2
+        foot = sp.csr_matrix(([1.0], ([0], [0])), (n, n)) * n
+        family = et.Family(M=sp.eye(n), K={0: chain, "foot": foot, 1: sp.eye(n)}, parameter="p", factors={"foot": "k"},
+                           parameters={"k": 3.0})
+        loci = self.assert_same_as_the_program(family, (0, 5), modes=4)
+        matrix = (chain + 3.0 * foot + 2.5 * sp.eye(n)).toarray()
+        expected = np.sqrt(np.linalg.eigvalsh(matrix)[:4])
+        np.testing.assert_allclose(loci.eigentrail.sel(p=2.5).natural_frequency, expected, rtol=1e-6)
+        stiffer = et.trace(family, p=(0, 5), k=30, modes=4)
+        self.assertGreater(stiffer.eigentrail.sel(p=2.5).natural_frequency[0], expected[0])
+
+    def test_samples(self):
+        w = np.linspace(0, 4, 9)
+        family = et.Samples(w, M=M, C=[C0 + one * G for one in w], K=K, parameter="omega", unit="rad/s", digits=15)
+        loci = self.assert_same_as_the_program(family, (0.0, 4.0))
+        found = loci.eigentrail.sel(omega=2.2)
+        error = np.abs(np.sort_complex(found.eigenvalue.values) - exact(2.2))
+        self.assertTrue((error < 1e-6 * np.abs(exact(2.2)) + found.interpolation_error.values.max()).all())
+
+    def test_state_space(self):
+        w = np.linspace(0, 4, 9)
+        A = [np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C0 + one * G)]]) for one in w]
+        loci = et.trace(et.StateSpace(np.array(A), w, names=["x", "y", "vx", "vy"]), omega=(0, 4))
+        np.testing.assert_allclose(np.sort_complex(loci.eigentrail.sel(omega=2.2).eigenvalue.values), exact(2.2), rtol=1e-6)
+
+    def test_boundaries_and_maps(self):
+        family = et.Family(M=np.eye(2), C={0: 0.02 * np.eye(2), "d": np.diag([1.0, 0.5])}, parameter="p", factors={"d": "d"},
+                           K=[np.diag([1.0, 2.0]), np.array([[0.0, 1.0], [-1.0, 0.0]])], parameters={"d": 0.1})
+        boundary = et.boundary(family, p=(0, 2), d=(0, 0.5))
+        self.assertGreaterEqual(boundary.sizes["curve"], 1)
+        stability = et.map(family, p=(0, 2), d=(0, 0.5), grid=(4, 30))
+        curve = boundary.eigentrail.curve(0)
+        at = np.interp(0.25, *[curve[name].values[np.argsort(curve.d.values)] for name in ("d", "p")])
+        line = stability.unstable.interp(d=0.25).values
+        self.assertAlmostEqual(stability.p.values[np.flatnonzero(line > 0)[0]], at, delta=2 / 29)
+
+
+class Functions(unittest.TestCase):
+    def test_a_function_gives_the_loci_of_its_matrices(self):
+        loci = et.trace(et.Family(quadratic), omega=(4, 0), tolerance=1e-9)
+        for omega in (0.3, 2.2, 4.0):
+            found = np.sort_complex(loci.eigentrail.sel(omega=omega).eigenvalue.values)
+            np.testing.assert_allclose(found, exact(omega), rtol=1e-9)
+
+    def test_it_is_called_only_where_needed(self):
+        called = []
+
+        def counted(omega):
+            called.append(omega)
+            return quadratic(omega)
+
+        et.trace(et.Family(counted), omega=(0, 4))
+        self.assertLessEqual(len(called), 30)
+        self.assertEqual(len(called), len(set(called)))
+
+    def test_sparse_matrices_lists_and_other_orders_of_memory(self):
+        expected = et.trace(et.Family(quadratic), omega=(0, 4)).eigenvalue
+        for change in (sp.csr_matrix, np.asfortranarray, lambda m: m.tolist(), lambda m: np.repeat(m, 2, 1)[:, ::2]):
+            found = et.trace(et.Family(lambda omega: {key: change(value) for key, value in quadratic(omega).items()}),
+                             omega=(0, 4)).eigenvalue
+            np.testing.assert_array_equal(found, expected)
+
+    def test_kinks_are_places_that_the_user_knows(self):
+        loci = et.trace(et.Family(lambda p: dict(M=np.eye(1), K=[[1.0 + abs(p - 1.0)]]), breaks=[1.0]), p=(0, 3))
+        np.testing.assert_allclose(loci.eigentrail.sel(p=[0.5, 1.0, 2.5]).natural_frequency[:, 0], np.sqrt([1.5, 1, 2.5]), rtol=1e-6)
+
+    def test_what_the_function_raises_comes_through(self):
+        def fail(p):
+            raise ZeroDivisionError("here")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "here"):
+            et.trace(et.Family(fail), p=(0, 1))
+
+    def test_what_it_returns_is_checked(self):
+        for returned, text in ((3, "expected a dict"), (dict(M=M, L=K), "the key 'L'"), (dict(M=M, K=[1, 2]), "K that is no matrix"),
+                               (dict(M=M, K=np.eye(3)), "3 x 3|3 rows|sizes"), (dict(M=M, K=[["a"]]), "K that is no matrix")):
+            with self.subTest(text), self.assertRaisesRegex((TypeError, ValueError), text):
+                et.trace(et.Family(lambda p: returned), p=(0, 1))
+
+    def test_what_cannot_be_resolved_says_where(self):
+        with self.assertRaisesRegex(RuntimeError, "calls"):
+            et.trace(et.Family(lambda p: dict(M=np.eye(1), K=[[1.0 + abs(p - 1 / 3)]]), max_calls=60), p=(0, 1))
+
+    def test_maps_of_functions_are_refused(self):
+        with self.assertRaisesRegex(et.SceneError, "traced only"):
+            et.map(et.Family(quadratic), omega=(0, 1), d=(0, 1))
+
+
+class Mistakes(unittest.TestCase):
+    def test_shapes(self):
+        for build, text in ((lambda: et.Family(M=np.eye(2), K=np.ones((2, 3))), "K: expected a square matrix"),
+                            (lambda: et.Family(), "expected matrices"),
+                            (lambda: et.Family(quadratic, M=M), "expected matrices"),
+                            (lambda: et.Family(3), "expected a function"),
+                            (lambda: et.Samples([0, 1], K=np.ones((3, 2, 2)), M=np.eye(2)), "expected 2 square matrices"),
+                            (lambda: et.Samples([0, 1]), "expected samples")):
+            with self.subTest(text), self.assertRaisesRegex((TypeError, ValueError), text):
+                build()
+
+    def test_the_parameter_must_be_known(self):
+        with self.assertRaisesRegex(TypeError, "name of the family's parameter"):
+            et.trace(et.Family(M=M, K=K))
+
+    def test_faults_of_the_matrices_are_those_of_the_program(self):
+        with self.assertRaisesRegex(et.SceneError, "K is 3 x 3|is 3 x 3"):
+            et.trace(et.Family(M=M, K=np.eye(3)), p=(0, 1))
+        with self.assertRaisesRegex(et.SceneError, "not finite"):
+            et.trace(et.Family(M=M, K=[K, np.full((2, 2), np.nan)]), p=(0, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
