@@ -4,8 +4,8 @@ import h5py
 import numpy as np
 
 
-# A section of a wing that plunges and pitches, x'' = ..., with two lags of the air l' = -b V l + pitch rate: at low speed two
-# real roots that grow with V, then flutter, then divergence.
+# A section of a wing that plunges and pitches, with two lags of the air, l' = -b V l + pitch rate: two real roots, and a plunge
+# that becomes two more before one of them diverges.
 WING = """\
 title = "Wing section with lags"
 [parameters]

@@ -3,7 +3,7 @@
 
 function table(heads, rows, caption) {
   const head = element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text })));
-  for (const row of rows) [...row.children].forEach((node, i) => { if (heads[i]) node.dataset.head = heads[i]; });
+  for (const row of rows) [...row.children].forEach((node, i) => { if (heads[i] && !node.querySelector("button")) node.dataset.head = heads[i]; });
   const body = element("table", { "aria-label": caption }, element("thead", {}, head), element("tbody", {}, ...rows));
   return element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption }, body);
 }
