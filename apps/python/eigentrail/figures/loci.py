@@ -14,7 +14,7 @@ NAME, SMALL = 8.0, 7.0  # sizes of texts in points
 LONGEST_NAME = 26
 MARKS_PER_LINE = 4
 OF_FREQUENCY = ("crossing", "veering")  # events that say nothing about damping
-CROWDED = 40           # more events than this: those of frequency are small
+CROWDED = 25           # more events than this have small marks and labels, those of frequency the smallest
 CANDIDATES = 24       # places of a line at which its number is tried
 DASH = {SOLID: "solid", DASHED: "dash", DOTTED: "dot"}
 STYLE_WORDS = {DASHED: "identity not certified", DOTTED: "backward whirl"}
@@ -209,7 +209,7 @@ class LociFigure:
         for kind, marks in found.items():
             symbol, words = EVENTS.get(kind, (OTHER_EVENT, kind))
             xs, ys, texts, _ = zip(*marks)
-            size, colour = (6.0, INK) if count <= CROWDED or kind not in OF_FREQUENCY else (3.5, GREY)
+            size, colour = (6.0, INK) if count <= CROWDED else (4.5, INK) if kind not in OF_FREQUENCY else (3.5, GREY)
             panel.items.append(Marks(np.array(xs), np.array(ys), symbol, colour, size, kind, list(texts)))
             self.explain(Marks([], [], symbol, colour, 6.0, legend=words))
         if labelled:
@@ -218,7 +218,7 @@ class LociFigure:
         panel.items.extend(before(room))
         for kind in sorted(found, key=lambda kind: list(EVENTS).index(kind) if kind in EVENTS else 99):
             for x, y, text, _ in found[kind] if labelled else ():
-                label = room.beside(x, y, text, NAME, 6) if text else None
+                label = room.beside(x, y, text, NAME if count <= CROWDED else SMALL, 5) if text else None
                 if label:
                     panel.items.append(label)
         return room
