@@ -43,6 +43,15 @@ EffectHelp trace_help() {
   return help;
 }
 
+void add_operating_ranges(EffectHelp& help) {
+  help.fields.push_back({"operating_range", "[from, to] or list",
+                         "speeds between which the machine runs, in the unit of the traced parameter",
+                         "none"});
+  help.fields.push_back({"separation_margin", "fraction",
+                         "how far critical speeds must stay away, of the nearer end of the range",
+                         "by API 684"});
+}
+
 EffectHelp events_help() {
   EffectHelp help{"events", "what counts as a special point beside stability, collisions and veerings", {}};
   for (const EventKindInfo& kind : event_kinds()) {
@@ -51,6 +60,7 @@ EffectHelp events_help() {
     help.fields.push_back({std::string(request.key), "number or list", std::string(request.help), "none"});
     if (request.of_excitation)
       help.fields.push_back({"excitation", "rad/s", "the excitation frequency", "the traced parameter"});
+    if (request.of_excitation) add_operating_ranges(help);
   }
   help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "false"});
   return help;

@@ -146,6 +146,36 @@ void print_rows(const char* heading, const std::vector<std::vector<std::string>>
   print_table(rows);
 }
 
+/// "7 % from the operating range, 15 % wanted"; empty if a critical speed keeps its distance.
+std::string separation_text(const Separation& found) {
+  if (!found.is_too_close()) return "";
+  const auto percent = [](double fraction) { return rounded(100.0 * fraction, 3) + " %"; };
+  const std::string range = exact_text(found.range.from) + " to " + exact_text(found.range.to);
+  if (found.inside) return "in the operating range " + range;
+  return percent(found.distance) + " from the operating range " + range + ", " + percent(found.wanted) +
+         " wanted";
+}
+
+/// Prints the critical speeds that are too close to an operating range.
+void print_separations(const TraceSummary& trace) {
+  const TraceOptions& options = trace.setup.options;
+  const OperatingRanges& operating = options.events.operating;
+  if (operating.ranges.empty()) return;
+  bool is_close = false;
+  for (const Found& found : sorted_events(trace)) {
+    if (found.event.kind != EventKind::resonance) continue;
+    const std::string text = separation_text(*separation(operating, found.event.p, found.event.s));
+    if (text.empty()) continue;
+    is_close = true;
+    std::printf("  margin  critical speed %sx at %s = %s: %s\n", rounded(found.event.value).c_str(),
+                options.parameter.c_str(), rounded(found.event.p).c_str(), text.c_str());
+  }
+  if (is_close) return;
+  std::printf("  margin  all critical speeds keep their distance from the operating range %s (%s)\n",
+              ranges_text(operating).c_str(),
+              operating.margin ? (rounded(100.0 * *operating.margin, 3) + " %").c_str() : "API 684");
+}
+
 /// Prints onsets of instability first, then critical speeds, then all others.
 void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) {
   const std::string& parameter = trace.setup.options.parameter;
@@ -162,6 +192,7 @@ void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) 
   }
   print_rows("onset of instability", onsets);
   print_rows("critical speeds", critical);
+  print_separations(trace);
   print_rows("other special points", others);
   for (const std::string& note : trace.result.notes) std::printf("  note  %s\n", note.c_str());
 }

@@ -31,7 +31,7 @@ void check_entries(const Scene& scene, const ModelRequest& request) {
 }  // namespace
 
 void check_top_level(const Scene& scene) {
-  std::vector<std::string> known = {"title", "parameters", "trace", "events"};
+  std::vector<std::string> known = {"title", "parameters", "trace", "events", "modes"};
   std::string family;
   for (const char* name : {"shaft", "sampled_family", "matrix_family"}) {
     if (scene.root.find(name) != nullptr) family = name;

@@ -79,6 +79,7 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
               {"real", event.s.real()},
               {"imag", event.s.imag()},
               {"modes", mode_numbers(event.modes, loci.modes.size())},
+              {"value", event.value},
               {"node", i < nodes.size() ? nodes[i] : -1}};
     if (loci.data_errors && std::isfinite(loci.data_errors->intervals[i].from)) {
       const EventInterval& interval = loci.data_errors->intervals[i];
@@ -107,6 +108,37 @@ Json ranges_data(const LociFile& loci) {
   return list;
 }
 
+/// Operating ranges in the unit of the traced parameter; `margin` is null where that of API 684 is wanted.
+Json operating_data(const OperatingRanges& operating) {
+  Json ranges = Json::array();
+  for (const OperatingRange& range : operating.ranges) ranges.push_back({range.from, range.to});
+  return {{"ranges", ranges}, {"margin", operating.margin ? Json(*operating.margin) : Json(nullptr)}};
+}
+
+/// The unit in which the page shows frequencies first: that of the traced parameter if it is a speed or a
+/// frequency, so that the first harmonic is the diagonal; Hz otherwise.
+Json frequency_unit(const LociFile& loci) {
+  const auto unit = parse_unit(loci.parameter_unit);
+  const auto hertz = parse_unit("Hz");
+  if (unit && unit->dimension == hertz->dimension)
+    return {{"name", loci.parameter_unit}, {"factor", unit->factor}};
+  return {{"name", "Hz"}, {"factor", hertz->factor}};
+}
+
+/// Measure of whirl (1 forward on circles, -1 backward) and the share of the other sense, per point and mode;
+/// null if nothing in the model spins.
+Json whirl_data(const LociFile& loci, const Hdf5File& file) {
+  const Shape expected{static_cast<std::uint64_t>(loci.n_nodes()), loci.modes.size()};
+  for (const char* name : {"whirl", "whirl_reverse"}) {
+    if (!file.has(name) || file.shape(name) != expected) return nullptr;
+  }
+  const auto coded = [&](const char* name) {
+    const std::vector<double> values = file.read_real(name);
+    return base64(std::vector<float>(values.begin(), values.end()));
+  };
+  return {{"measure", coded("whirl")}, {"reverse", coded("whirl_reverse")}};
+}
+
 }  // namespace
 
 Json excitation_data(const LociFile& loci) {
@@ -133,7 +165,8 @@ Json excitation_data(const LociFile& loci) {
     }
     return {{"parameter", parameters},
             {"frequency", frequencies},
-            {"harmonics", events.values(EventKind::resonance)}};
+            {"harmonics", events.values(EventKind::resonance)},
+            {"operating", operating_data(events.operating)}};
   } catch (const InputError&) {
     return nullptr;  // a scene that this version cannot read: the page has no lines of harmonics
   }
@@ -146,6 +179,8 @@ Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& b
   }
   Json data{{"kind", "loci"}};
   data["parameter"] = {{"name", loci.parameter}, {"unit", loci.parameter_unit}};
+  data["frequency_unit"] = frequency_unit(loci);
+  data["whirl"] = whirl_data(loci, file);
   data["coordinates"] = loci.coordinates;
   data["constraints"] = loci.constraints.size();
   data["curves"] = curves_data(loci, budget);

@@ -227,7 +227,8 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
   add_dense_output(list, parameter, unit);
   add_events(list, parameter, unit);
   if (!description.masses.empty()) add_motions(list);
-  if (!description.masses.empty() || !description.shafts.empty() || named_by_coordinates(description))
+  if (!description.masses.empty() || !description.shafts.empty() || named_by_coordinates(description) ||
+      !options.mode_names.empty())
     list.push_back(
         {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
   return list;

@@ -65,6 +65,8 @@ struct LociWriter::Implementation {
   Clock::time_point last_saved = Clock::now();
   double cost = 0.0;  ///< seconds that the last save took
   std::string bytes = {};  ///< what was saved, of a file that stays in memory
+  std::vector<GivenName> wanted_names = {};  ///< of the scene, until the first point has come
+  std::string scene_path = {};
 
   void append_modes(const TracePoint& point);
   void append_step(const PathStep& step);
@@ -98,6 +100,8 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), model, options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()), save_every,
                                            std::move(motions)});
+  implementation_->wanted_names = options.mode_names;
+  implementation_->scene_path = scene.path;
 }
 
 LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
@@ -112,6 +116,8 @@ LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOption
                                            static_cast<std::size_t>(model.n_coordinates()),
                                            usual_interval,
                                            std::move(motions)});
+  implementation_->wanted_names = options.mode_names;
+  implementation_->scene_path = scene.path;
 }
 
 LociWriter::LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
@@ -233,6 +239,10 @@ void LociWriter::append(const TracePoint& point) {
   if (point.step != nullptr) self.append_step(*point.step);
   self.append_modes(point);
   self.motions.append(point);
+  if (!self.wanted_names.empty()) {
+    self.motions.give_names(self.wanted_names, point, self.scene_path + ": [modes] names");
+    self.wanted_names.clear();
+  }
   LociRows& rows = self.rows;
   rows.parameter.push_back(point.node.p);
   const auto x = point.node.path.x.col(0);

@@ -99,7 +99,31 @@ void ModeMotions::append(const TracePoint& point) {
   }
 }
 
+void ModeMotions::give_names(const std::vector<GivenName>& names, const TracePoint& first,
+                             const std::string& label) {
+  if (names.empty()) return;
+  std::size_t n_modes = 0;
+  for (const ModeState& mode : first.modes)
+    n_modes = std::max(n_modes, static_cast<std::size_t>(mode.mode) + 1);
+  const std::vector<std::string> own = own_names(n_modes);
+  std::vector<NamedMode> modes;
+  for (const ModeState& mode : first.modes)
+    modes.push_back({mode.s, mode.shape, own[static_cast<std::size_t>(mode.mode)]});
+  const std::vector<std::size_t> chosen =
+      modes_of_names(names, modes, model_->description().coordinate_names, label);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    given_[static_cast<std::size_t>(first.modes[chosen[i]].mode)] = names[i].name;
+}
+
 std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
+  std::vector<std::string> result = own_names(n_modes);
+  for (const auto& [mode, name] : given_) {
+    if (mode < n_modes) result[mode] = name;
+  }
+  return result;
+}
+
+std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
   std::vector<std::string> result(n_modes);
   for (const auto& [mode, name] : by_participation_) {
     if (mode < n_modes) result[mode] = name;
@@ -131,7 +155,7 @@ std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
 
 void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
   const std::size_t motions = shares_.motions().size();
-  if (motions == 0 && coordinates_.empty() && rotor_modes_.empty()) return;
+  if (motions == 0 && coordinates_.empty() && rotor_modes_.empty() && given_.empty()) return;
   std::vector<double> values;
   for (const bool first : {true, false}) {
     for (std::size_t mode = 0; mode < n_modes; ++mode) {

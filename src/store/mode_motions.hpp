@@ -9,6 +9,7 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
+#include "eigentrail/modes/given_names.hpp"
 #include "eigentrail/modes/rotor_names.hpp"
 
 namespace eigentrail {
@@ -25,6 +26,10 @@ class ModeMotions {
   /// The directions of motion ("flap", "lag") are defined at the point `first`.
   ModeMotions(const Model& model, const TracePoint& first);
 
+  /// Names that the scene gives: from the modes at the first point, `first`, which has been appended. `label`
+  /// begins the message of an InputError where a name finds no mode.
+  void give_names(const std::vector<GivenName>& names, const TracePoint& first, const std::string& label);
+
   /// Says of which model the points are, after the members were read; it must outlive this.
   void belongs_to(const Model& model) { model_ = &model; }
 
@@ -35,7 +40,7 @@ class ModeMotions {
   std::vector<std::string> labels() const;
 
   /// A name for each of `n_modes` modes, from its shares at the first point where it exists; empty where
-  /// unknown. Rotors: from the shapes of their shafts there, and from the first point with a clear whirl.
+  /// unknown. Names that the scene gives come first. Rotors: from the shapes of their shafts there, and from the first point with a clear whirl.
   std::vector<std::string> names(std::size_t n_modes) const;
 
   /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses, or only names for one
@@ -46,13 +51,15 @@ class ModeMotions {
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_, self.rotor_modes_);
+    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_, self.rotor_modes_,
+          self.given_);
   }
 
   /// Whether a state that was read fits this model.
   bool fits(const ModelDescription& description) const;
 
  private:
+  std::vector<std::string> own_names(std::size_t n_modes) const;
   void name_by_coordinates(const TracePoint& point);
   void describe_rotor_modes(const TracePoint& point);
 
@@ -71,6 +78,7 @@ class ModeMotions {
   std::vector<std::string> coordinates_;  ///< names; empty unless modes are named by participation
   std::map<std::size_t, std::string> by_participation_;
   std::map<std::size_t, RotorMode> rotor_modes_;
+  std::map<std::size_t, std::string> given_;  ///< names of the scene
   const Model* model_ = nullptr;
   std::vector<std::string> written_names_;
 };

@@ -15,6 +15,9 @@ void write_provenance(Hdf5File& file, const std::string& format, int schema_vers
   file.set_attribute("parameter", options.parameter);
   file.set_attribute("tolerance", options.tolerance);
   for (const auto& [key, text] : describe_options(options)) file.set_attribute("option_" + key, text);
+  if (options.events.operating.ranges.empty()) return;
+  file.set_attribute("operating_range", ranges_text(options.events.operating));
+  file.set_attribute("separation_margin", margin_text(options.events.operating));
 }
 
 void write_notes(Hdf5File& file, const std::vector<std::string>& notes) {

@@ -35,6 +35,18 @@ class Trace(CommandTest):
                 self.assertEqual(counted, active)
                 self.assertFalse(set(counted) & set(absent.strip().split(", ")))
 
+    def test_critical_speeds_near_an_operating_range_are_named(self):
+        scene = edited((SCENES / "overhung_disc.toml").read_text(encoding="utf-8"), 'excitation = "omega"', "operating_range = [400, 520]\n§")
+        near = "critical speed 2x at omega = 557.174: 7.15 % from the operating range 400 to 520, {} % wanted"
+        for margin, expected in (("separation_margin = 0.15", near.format(15)), ("", near.format(26)),
+                                 ("separation_margin = 0.07", "all critical speeds keep their distance from the operating range 400 to 520 (7 %)")):
+            with self.subTest(margin):
+                self.write("scene.toml", scene.replace("§", margin))
+                lines = [line for line in self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force").splitlines() if "margin  " in line and "oper" in line]
+                self.assertEqual(lines, ["  margin  " + expected])
+        self.write("scene.toml", scene.replace("[400, 520]", "[400, 600]").replace("§", ""))
+        self.assertIn("critical speed 2x at omega = 557.174: in the operating range 400 to 600\n", self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force"))
+
     def test_quiet_prints_nothing(self):
         self.write("scene.toml", BLADE)
         self.assertEqual(self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet"), "")

@@ -115,6 +115,17 @@ TEST(EventOptions, KeepEveryValueOnceAndNoDampingRatioOfZero) {
   EXPECT_FALSE(setting.options.events.extrema);
 }
 
+TEST(EventOptions, OperatingRangesAreOnePairOrSeveral) {
+  const Setting one = oscillator("p = 1", "harmonics = 1\noperating_range = [2, 3]");
+  ASSERT_EQ(one.options.events.operating.ranges.size(), 1U);
+  EXPECT_EQ(one.options.events.operating.ranges[0].to, 3.0);
+  EXPECT_FALSE(one.options.events.operating.margin.has_value()) << "by the standard";
+  const Setting two =
+      oscillator("p = 1", "harmonics = 1\noperating_range = [[0, 1], [2, 3]]\nseparation_margin = 0.15");
+  EXPECT_EQ(two.options.events.operating.ranges.size(), 2U);
+  EXPECT_EQ(two.options.events.operating.margin, 0.15);
+}
+
 TEST(EventOptions, RefuseWhatHasNoMeaning) {
   EXPECT_THROW(oscillator("p = 1", "damping_ratio = 1"), InputError);
   EXPECT_THROW(oscillator("p = 1", "harmonics = [0]"), InputError);

@@ -8,6 +8,7 @@ import numpy as np
 from command_test_case import CommandTest
 from large_file import enlarge
 from program import BIRTH, BLADE, CROSSING, FAMILY, PUSHED_PENDULUM, edited
+from rotor_files import add_whirl
 from report_page import eigenvalue, numbers, page_data, parameter
 
 # What the page promises, of the range of the real and the imaginary parts; `closeness` in it says more.
@@ -103,6 +104,31 @@ class ReportData(CommandTest):
         expected = self.eval_at("loci.h5", places)
         found = np.array([[eigenvalue(file["curves"], mode, p) for mode in range(0, 100, 9)] for p in places])
         np.testing.assert_allclose(found, expected[:, ::9], rtol=0.0, atol=6.0 * AGREEMENT)
+
+    def test_frequencies_are_in_the_unit_of_the_speed(self):
+        for old, unit, factor in (("", "rad/s", 1.0), ("rad/s", "rpm", np.pi / 30.0), ("rad/s", "Hz", 2.0 * np.pi)):
+            self.trace(BLADE.replace('"rad/s"', f'"{unit}"') if old else BLADE)
+            file, = self.report("loci.h5")
+            self.assertEqual(file["frequency_unit"]["name"], unit)
+            self.assertAlmostEqual(file["frequency_unit"]["factor"], factor)
+            (self.folder / "loci.h5").unlink()
+            (self.folder / "page.html").unlink()
+        self.trace(FAMILY)
+        file, = self.report("loci.h5")
+        self.assertEqual(file["frequency_unit"]["name"], "Hz")
+
+    def test_operating_ranges_and_whirl_are_in_the_page(self):
+        self.trace(BLADE + "\n[events]\nharmonics = 1\noperating_range = [[20, 30], [50, 60]]\nseparation_margin = 0.1\n")
+        with h5py.File(self.folder / "loci.h5") as file:
+            self.assertEqual((file.attrs["operating_range"], file.attrs["separation_margin"]), ("20 to 30, 50 to 60", "0.1"))
+        file, = self.report("loci.h5")
+        self.assertEqual(file["excitation"]["operating"], {"ranges": [[20, 30], [50, 60]], "margin": 0.1})
+        self.assertIsNone(file["whirl"])
+        (self.folder / "page.html").unlink()
+        add_whirl(self.folder / "loci.h5")
+        file, = self.report("loci.h5")
+        with h5py.File(self.folder / "loci.h5") as stored:
+            np.testing.assert_allclose(numbers(file["whirl"]["measure"], "<f4"), stored["whirl"][()].ravel(), rtol=1e-7)
 
 
 if __name__ == "__main__":

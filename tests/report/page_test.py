@@ -1,72 +1,25 @@
 """The report in a real browser: it draws the eigenvalues of `eval` and reacts to mouse and keyboard."""
 
-import os
-import pathlib
 import time
 import unittest
 
 import h5py
 import numpy as np
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
 import browser
 from command_test import HOSTILE
-from command_test_case import CommandTest
 from large_file import enlarge
+from page_test_case import SCREENSHOTS, PageTest
 from program import BIRTH, BLADE, SCENES
 
-SCREENSHOTS = pathlib.Path(os.environ["EIGENTRAIL_SCREENSHOTS"])
 ON_THE_LINE = 1e-6  # of the axis' range
-
-# Points of the lines of one mode in the upper or lower half of the Campbell diagram.
-LINES = """
-const [mode, axis] = arguments;
-return document.querySelector('.campbell').data.filter((trace) => trace.meta && trace.meta.mode === mode && trace.yaxis === axis)
-  .flatMap((trace) => trace.x.map((x, i) => [x, trace.y[i]])).filter(([x]) => x !== null);
-"""
-# Where [x, y] of the Campbell diagram is, from the middle of its element.
-PIXEL = """
-const [x, y] = arguments, figure = document.querySelector('.campbell'), box = figure.getBoundingClientRect();
-const [px, py] = toPixels(figure, 'xaxis', 'yaxis', x, y);
-return [px - Math.floor(box.width / 2), py - Math.floor(box.height / 2)];
-"""
+HERTZ = 2.0 * np.pi  # rad/s: the unit in which frequencies are shown if the parameter is no speed
 
 
-class Page(CommandTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.driver = browser.start()
-        cls.addClassCleanup(cls.driver.quit)
-
-    def show(self, *files, size=browser.DESKTOP, picture=None):
-        """Writes the page of some files, opens it, and looks for messages in the console."""
-        self.run_well("report", *files, "-o", "page.html", "--force", "--quiet")
-        browser.show(self.driver, self.folder / "page.html", size)
-        if picture:
-            time.sleep(0.3)  # for what is drawn once the layout has settled
-            browser.screenshot(self.driver, SCREENSHOTS / f"{picture}.png")
-        self.assertEqual(browser.messages(self.driver), [])
-
-    def blade(self, **details):
-        self.trace((SCENES / "rotating_mass.toml").read_text(encoding="utf-8"))
-        self.show("loci.h5", **details)
-
-    def lines(self, mode, axis="y"):
-        return np.array(self.driver.execute_script(LINES, mode, axis))
-
-    def isolated(self):
-        """Modes that are drawn in colour."""
-        return sorted({mode for mode in range(2) if len(self.lines(mode))})
-
-    def pointer_to(self, x, y):
-        figure = self.driver.find_element(By.CSS_SELECTOR, ".campbell")
-        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'start' })", figure)
-        dx, dy = self.driver.execute_script(PIXEL, x, y)
-        return ActionChains(self.driver).move_to_element_with_offset(figure, round(dx), round(dy))
-
+class Page(PageTest):
     def test_page_asks_for_nothing_and_says_nothing(self):
         self.blade(picture="blade_desktop")
         self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').map((entry) => entry.name)"), [])
@@ -89,8 +42,8 @@ class Page(CommandTest):
             return [bars.x.slice(0, 2), Math.max(...band.y), Math.min(...band.y)];"""
         bar, top, bottom = self.driver.execute_script(drawn, "y")
         np.testing.assert_allclose(bar, [low, high])
-        self.assertAlmostEqual(top - 1.0, error, 3)
-        self.assertAlmostEqual(1.0 - bottom, error, 3)
+        self.assertAlmostEqual(HERTZ * top - 1.0, error, 3)
+        self.assertAlmostEqual(1.0 - HERTZ * bottom, error, 3)
         key = self.driver.find_element(By.CSS_SELECTOR, ".key").text
         self.assertIn("undecided: the errors of the data leave it open", key)
         self.assertIn("bands and bars: errors of the data", key)
@@ -197,11 +150,13 @@ class Page(CommandTest):
         self.assertEqual(sorted(marked), places)
         self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "[aria-label=Events] tbody tr")), len(places))
 
-    def test_stretch_that_is_not_certified_is_dashed(self):
-        self.trace(BLADE, "--no-certify")
-        self.show("loci.h5")
-        dashes = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.meta && 'mode' in t.meta).map((t) => t.line.dash)")
-        self.assertEqual(set(dashes), {"6px,4px"})
+    def test_stretch_that_is_not_certified_has_a_band(self):
+        bands = "return document.querySelector('.campbell').data.filter((t) => t.meta && t.meta.doubtful).map((t) => [t.line.width, t.x[0], t.x[t.x.length - 1]])"
+        for options, expected in (((), []), (("--no-certify",), [[9, 100.0, 5.0]] * 2)):
+            self.trace(BLADE, *options)
+            self.show("loci.h5")
+            self.assertEqual(self.driver.execute_script(bands), expected)
+            (self.folder / "loci.h5").unlink()
 
     def test_shape_is_painted_and_follows_the_mode(self):
         self.blade()

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eigentrail/continuation/event.hpp"
+#include "eigentrail/continuation/operating_range.hpp"
 #include "eigentrail/scene/scene.hpp"
 
 namespace eigentrail {
@@ -22,6 +23,7 @@ struct EventOptions {
   /// it is requested.
   std::optional<Expression> excitation = {};
   bool extrema = false;  ///< whether extrema of the damping ratio are searched for
+  OperatingRanges operating = {};  ///< from which critical speeds must stay away
 
   /// The values requested of one kind.
   std::vector<double> values(EventKind kind) const;

@@ -13,6 +13,7 @@
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/continuation/thresholds.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/modes/given_names.hpp"
 #include "eigentrail/modes/mode_choice.hpp"
 
 namespace eigentrail {
@@ -49,6 +50,8 @@ struct TraceOptions {
   std::map<std::string, double> values = {};
 
   EventOptions events = {};  ///< of the scene's [events]
+
+  std::vector<GivenName> mode_names = {};  ///< of the scene's [modes]
 
   /// Threads that share the modes of a point, >= 1. Not an option of a scene, because results do not depend
   /// on it.

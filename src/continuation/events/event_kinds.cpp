@@ -29,8 +29,12 @@ std::string stability_remark(const EventFacts& facts) {
 }
 
 std::string collision_remark(const EventFacts& facts) {
-  const Complex puiseux = facts.puiseux;
+  Complex puiseux = facts.puiseux;
   if (!std::isfinite(puiseux.real()) || puiseux == 0.0) return "";
+  // The coefficient is real or imaginary where two real eigenvalues or a pair meet, but for rounding.
+  constexpr double rounding = 1e-12;
+  if (std::abs(puiseux.real()) < rounding * std::abs(puiseux)) puiseux.real(0.0);
+  if (std::abs(puiseux.imag()) < rounding * std::abs(puiseux)) puiseux.imag(0.0);
   return "Puiseux coefficient " + rounded(puiseux.real()) + (std::signbit(puiseux.imag()) ? " - " : " + ") +
          rounded(std::abs(puiseux.imag())) + "j";
 }

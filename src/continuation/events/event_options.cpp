@@ -1,6 +1,7 @@
 #include "eigentrail/continuation/event_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
@@ -9,6 +10,12 @@
 namespace eigentrail {
 namespace {
 
+/// The value of a number without parameters.
+double constant(const TableReader& table, const std::string& key, const Expression& expression) {
+  if (!expression.is_constant()) table.fail(key, "expected numbers without parameters");
+  return expression.evaluate(std::span<const double>());
+}
+
 /// The numbers that a scene requests for one kind of event, without repetitions. They may not depend on
 /// parameters.
 std::vector<double> read_numbers(TableReader& table, const EventRequest& request) {
@@ -16,8 +23,7 @@ std::vector<double> read_numbers(TableReader& table, const EventRequest& request
   std::vector<double> values;
   if (!table.has(key)) return values;
   for (const Expression& expression : table.list(key)) {
-    if (!expression.is_constant()) table.fail(key, "expected numbers without parameters");
-    const double value = expression.evaluate(std::span<const double>());
+    const double value = constant(table, key, expression);
     if (!request.accepts(value))
       table.fail(key, std::string(request.expected) + "; found " + exact_text(value));
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
@@ -37,6 +43,37 @@ Expression traced_frequency(const Scene& scene, const std::string& traced, const
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
   }
   return frequency;
+}
+
+/// One pair [from, to], or a list of pairs, in the unit of the traced parameter.
+std::vector<OperatingRange> read_ranges(TableReader& table) {
+  const std::string key = "operating_range";
+  std::vector<OperatingRange> ranges;
+  for (const std::vector<Expression>& row : table.matrix(key)) {
+    if (row.size() != 2) table.fail(key, "expected [from, to], or a list of such pairs");
+    const OperatingRange range{constant(table, key, row[0]), constant(table, key, row[1])};
+    if (!(range.from >= 0.0 && range.from <= range.to && std::isfinite(range.to)))
+      table.fail(key, "expected 0 <= from <= to; found " + exact_text(range.from) + " and " +
+                          exact_text(range.to));
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+OperatingRanges read_operating_ranges(TableReader& table, bool is_excited) {
+  const std::string key = "separation_margin";
+  OperatingRanges operating;
+  if (table.has("operating_range")) {
+    if (!is_excited) table.fail("operating_range", "is of no use without `harmonics`");
+    operating.ranges = read_ranges(table);
+  }
+  if (!table.has(key)) return operating;
+  if (operating.ranges.empty()) table.fail(key, "is of no use without `operating_range`");
+  const double margin = constant(table, key, table.expression(key, ""));
+  if (!(margin >= 0.0 && margin < 1.0))
+    table.fail(key, "must be a fraction, at least 0 and below 1; found " + exact_text(margin));
+  operating.margin = margin;
+  return operating;
 }
 
 }  // namespace
@@ -72,6 +109,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
     // A traced parameter that does not exist is reported where the other options are read.
     options.excitation = traced_frequency(scene, traced, table);
   }
+  options.operating = read_operating_ranges(table, is_excited);
   if (table.has("extrema")) options.extrema = table.flag("extrema");
   table.finish();
   return options;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "continuation/trace/mode_choice_option.hpp"
+#include "continuation/trace/mode_names_option.hpp"
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
@@ -271,6 +272,7 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   OptionReader reader(scene, table);
   TraceOptions::fields(options, reader);
   options.events = read_event_options(scene, options.parameter, used);
+  options.mode_names = read_mode_names(scene, used);
   if (const auto& band = options.modes.band) {
     for (const double edge : {band->lowest, band->highest}) {
       if (edge > 0.0) options.events.wanted.push_back({EventKind::band_edge, edge});

@@ -58,9 +58,18 @@ class Piecewise {
   }
 }
 
-function modeStretch(data, degree) {
-  const numbers = int32(data.values), [a, unitA, b, unitB] = data.scale;
-  return new Piecewise(float64(data.knots), degree, 2, (i) => [a + unitA * numbers[2 * i], b + unitB * numbers[2 * i + 1]]);
+/** Imaginary parts below this share of the largest abs(s) of a stretch are none: stored curves are known to 1e-8 of their range. */
+const SAME_AS_REAL = 1e-7;
+
+/** Eigenvalues [Re s, Im s] of a mode on a stretch of the path. */
+class ModeStretch extends Piecewise {
+  constructor(data, degree) {
+    const numbers = int32(data.values), [a, unitA, b, unitB] = data.scale;
+    super(float64(data.knots), degree, 2, (i) => [a + unitA * numbers[2 * i], b + unitB * numbers[2 * i + 1]]);
+    this.largest = 0;
+    for (let i = 0; 2 * i < numbers.length; ++i) this.largest = Math.max(this.largest, Math.hypot(...this.value(i)));
+  }
+  isReal([, im]) { return Math.abs(im) <= SAME_AS_REAL * this.largest; }
 }
 
 /** The path of a loci file: its parameter and its modes at every place. */
@@ -70,7 +79,7 @@ class Path {
     this.nodes = float64(data.nodes.parameter);
     const values = float64(data.parameter.values);
     this.parameter = new Piecewise(float64(data.parameter.knots), data.parameter.degree, 1, (i) => [values[i]]);
-    this.modes = data.modes.map((list) => list.map((stretch) => modeStretch(stretch, data.degree)));
+    this.modes = data.modes.map((list) => list.map((stretch) => new ModeStretch(stretch, data.degree)));
     this.lowest = Math.min(...values);
     this.highest = Math.max(...values);
   }

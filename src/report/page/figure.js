@@ -4,11 +4,32 @@
 /** Okabe and Ito's colours without yellow, which is too light for lines on white. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
 const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star", "pentagon", "hexagram"];
+/** Modes beyond the seventh have other dashes, unless dashes tell the sense of whirl. */
+const DASHES = ["solid", "12px,4px", "10px,3px,2px,3px", "3px,3px"];
+const BACKWARD_DASH = "7px,4px";
+const DOUBT = "rgba(120,120,120,0.32)";
+const OPERATING_FILL = "rgba(0,114,178,0.10)";
+const MARGIN_FILL = "rgba(196,0,70,0.13)";
 const FAINT = "#d4d4d4";
 const GRID = "#e8e8e8";
 const INK = "#1a1a1a";
 
+/** Frequency units that can be chosen: how many are in one rad/s. */
 const FREQUENCY_UNITS = { "rad/s": 1, Hz: 0.5 / Math.PI, rpm: 30 / Math.PI };
+
+/** Ticks of an axis of decimal logarithms: at 1, 2, 5 times powers of ten, or at round numbers where it is short. */
+function logTicks([low, high]) {
+  const values = [];
+  if (high - low > 0.8) {
+    const digits = high - low > 3 ? [1] : high - low > 2.2 ? [1, 3] : [1, 2, 5];
+    for (let power = Math.floor(low); power <= high; ++power) values.push(...digits.map((digit) => digit * 10 ** power));
+  } else {
+    const size = 10 ** high - 10 ** low, power = 10 ** Math.floor(Math.log10(size / 4)), step = [1, 2, 5, 10].find((n) => n * power >= size / 5) * power;
+    for (let n = Math.ceil(10 ** low / step); n * step <= 10 ** high; ++n) values.push(n * step);
+  }
+  const seen = values.filter((value) => value > 0 && Math.log10(value) >= low && Math.log10(value) <= high);
+  return { tickmode: "array", tickvals: seen.map(Math.log10), ticktext: seen.map((value) => number(value, 4)) };
+}
 
 const isNarrow = () => window.innerWidth < 700;
 const isTouch = () => window.matchMedia("(pointer: coarse)").matches;
@@ -68,7 +89,7 @@ function insideAxes(figure, xaxis, yaxis, [px, py]) {
 }
 
 /** A small picture of a line with its mark, for tables. */
-function swatch(colour, symbol) {
+function swatch(colour, symbol, dash = "solid") {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   for (const [name, value] of Object.entries({ width: 30, height: 12, viewBox: "0 0 30 12", "aria-hidden": "true" }))
     svg.setAttribute(name, value);
@@ -77,7 +98,7 @@ function swatch(colour, symbol) {
     for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
     svg.append(node);
   };
-  shape("line", { x1: 0, x2: 30, y1: 6, y2: 6, stroke: colour, "stroke-width": 2 });
+  shape("line", { x1: 0, x2: 30, y1: 6, y2: 6, stroke: colour, "stroke-width": 2, ...(dash === "solid" ? {} : { "stroke-dasharray": dash.replaceAll("px", "") }) });
   const paths = {
     circle: "M10.5 6a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0", square: "M11 2h8v8h-8z", diamond: "M15 1l5 5l-5 5l-5 -5z",
     "triangle-up": "M15 1l5 9h-10z", "triangle-down": "M15 11l5 -9h-10z", cross: "M13.5 1h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5z",
@@ -87,4 +108,18 @@ function swatch(colour, symbol) {
   };
   if (symbol) shape("path", { d: paths[symbol], fill: colour });
   return svg;
+}
+
+/** A broad translucent band along a line given by pixels "x,y x,y", cut at the axes of the figure. */
+function overlayLine(figure, points, colour) {
+  const make = (tag, attributes, ...children) => {
+    const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    node.append(...children);
+    return node;
+  };
+  const { xaxis, yaxis, yaxis2 } = figure._fullLayout, lowest = yaxis2 || yaxis;
+  const left = xaxis._offset, top = yaxis._offset, width = xaxis._length, height = lowest._offset + lowest._length - top;
+  return make("svg", { class: "overlay-line", style: `left:${left}px;top:${top}px`, width, height, viewBox: `${left} ${top} ${width} ${height}`, "aria-hidden": "true" },
+    make("polyline", { points, fill: "none", stroke: colour, "stroke-width": 8, "stroke-opacity": 0.3, "stroke-linejoin": "round" }));
 }

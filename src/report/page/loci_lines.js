@@ -4,16 +4,18 @@
 const LARGEST_CORNER = 0.25;  // largest distance in px of the curve from a chord
 const SAME_LINE = 0.3;        // points closer to a line than this, in px, are dropped
 
+/** The point { place, x, y, real } of a chart at a place; `real`: whether the eigenvalue is. */
+const pointOn = (stretch, project) => (place) => {
+  const s = stretch.at(place), [x, y] = project(place, s);
+  return { place, x, y, real: stretch.isReal(s) };
+};
+
 /**
- * Points {place, x, y} of one stretch. `project(place, s)` gives [x, y]. `view` has the pixels per unit and the
+ * Points of one stretch. `project(place, s)` gives [x, y]. `view` has the pixels per unit and the
  * visible window; lines outside of it are not refined. `spacing` is the largest distance of points in px.
  */
 function drawnLine(stretch, project, view, spacing) {
-  const point = (place) => {
-    const [x, y] = project(place, stretch.at(place));
-    return { place, x, y };
-  };
-  const line = [];
+  const point = pointOn(stretch, project), line = [];
   const refine = (a, b, depth) => {
     const middle = point(0.5 * (a.place + b.place));
     const dx = (b.x - a.x) * view.perX, dy = (b.y - a.y) * view.perY, length = Math.hypot(dx, dy);
@@ -64,26 +66,37 @@ function canSkip(line, from, to, view, spacing) {
   return true;
 }
 
-/** The parts of a line inside and outside of stretches [from, to] of the path. Neighbouring parts share a point. */
-function splitLine(line, stretches, pointAt) {
-  const inside = [], outside = [];
-  let current = null, currentIn = null;
-  const isIn = (place) => stretches.some(([from, to]) => place >= from && place <= to);
-  const cuts = stretches.flat();
+/**
+ * The parts of a line that look alike: { points, kind }. `kindAt(place)` is a text; it may change at the places `cuts`
+ * and once between two points. Neighbouring parts share a point.
+ */
+function partsOf(line, cuts, kindAt, pointAt) {
+  const parts = [];
   for (let i = 0; i + 1 < line.length; ++i) {
-    const a = line[i], b = line[i + 1];
-    const places = [a, ...cuts.filter((cut) => cut > a.place && cut < b.place).sort((u, v) => u - v).map(pointAt), b];
-    for (let k = 0; k + 1 < places.length; ++k) {
-      const within = isIn(0.5 * (places[k].place + places[k + 1].place));
-      if (within !== currentIn) {
-        current = [places[k]];
-        (within ? inside : outside).push(current);
-        currentIn = within;
+    const inner = cuts.filter((cut) => cut > line[i].place && cut < line[i + 1].place).sort((u, v) => u - v).map(pointAt);
+    const coarse = [line[i], ...inner, line[i + 1]];
+    for (let k = 0; k + 1 < coarse.length; ++k) {
+      const change = changeOf(kindAt, coarse[k].place, coarse[k + 1].place);
+      const fine = change === null ? [coarse[k], coarse[k + 1]] : [coarse[k], pointAt(change), coarse[k + 1]];
+      for (let m = 0; m + 1 < fine.length; ++m) {
+        const kind = kindAt(0.5 * (fine[m].place + fine[m + 1].place)), last = parts[parts.length - 1];
+        if (last && last.kind === kind) last.points.push(fine[m + 1]);
+        else parts.push({ kind, points: [fine[m], fine[m + 1]] });
       }
-      current.push(places[k + 1]);
     }
   }
-  return { inside, outside };
+  return parts;
+}
+
+/** The place at which the kind changes between two places, by bisection; null if it is the same near both. */
+function changeOf(kindAt, from, to) {
+  const inset = 1e-3 * (to - from), first = kindAt(from + inset);
+  if (kindAt(to - inset) === first) return null;
+  for (let k = 0; k < 30; ++k) {
+    const middle = 0.5 * (from + to);
+    if (kindAt(middle) === first) from = middle; else to = middle;
+  }
+  return 0.5 * (from + to);
 }
 
 /** The coordinates of several lines as arrays for Plotly, with null between the lines. */

@@ -2,23 +2,27 @@
 // The traces that Plotly draws: Campbell diagram (frequency above, damping below) and root locus.
 
 const PARAMETER_COLOURS = 24;
-const MOST_LABELLED = 14;  // modes with marks and names on their lines
-const MOST_EVENT_NAMES = 12;
+const MOST_MARKED = 14;    // modes with five marks on their lines; more have two
 
 /** The three charts: their axes and the coordinates of an eigenvalue in them. `settings`: those of LociView. */
 const CHARTS = {
   frequency: {
     xaxis: "xaxis", yaxis: "yaxis",
     project: (file, settings) => (place, [re, im]) =>
-      [file.path.parameterAt(place), (settings.frequency === "abs" ? Math.hypot(re, im) : Math.abs(im)) * settings.unitFactor],
+      [file.path.parameterAt(place), onFrequencyAxis(frequencyOf([re, im], settings), settings)],
   },
   damping: {
     xaxis: "xaxis", yaxis: "yaxis2",
     project: (file, settings) => (place, [re, im]) =>
       [file.path.parameterAt(place), settings.damping === "real" ? re : dampingRatio(re, im)],
   },
-  locus: { xaxis: "xaxis", yaxis: "yaxis", project: () => (place, [re, im]) => [re, im] },
+  locus: { xaxis: "xaxis", yaxis: "yaxis", project: (file, settings) => (place, [re, im]) => [re, im * settings.unitFactor] },
 };
+
+const LEAST_FREQUENCY = 1e-12;  // in the unit of the axis; smaller ones are drawn there on a logarithmic axis
+
+/** The coordinate of a frequency on its axis: itself, or its decimal logarithm. */
+const onFrequencyAxis = (value, settings) => (settings.logarithmic ? Math.log10(Math.max(value, LEAST_FREQUENCY)) : value);
 
 function dampingRatio(re, im) {
   const ratio = -re / Math.max(Math.hypot(re, im), Number.MIN_VALUE);
@@ -31,53 +35,79 @@ function errorScale(chart, settings) {
   return settings.damping === "real" ? () => 1 : (s) => 1 / Math.max(Math.hypot(...s), Number.MIN_VALUE);
 }
 
-/** Lines of all modes in one chart: { file, mode, points, outside (certified), inside (not certified) }. */
+/**
+ * Lines of all modes in one chart: { file, mode, stretch, points, parts }. A part { points, kind } looks alike; its kind
+ * has "r" if the eigenvalue is real, "d" if the identity of the mode is not certified, "b" if it whirls backward.
+ * Campbell diagrams are without real eigenvalues unless the settings ask for them.
+ */
 function chartLines(files, chart, settings, view, spacing) {
-  const lines = [];
+  const hidesReal = chart !== "locus" && !settings.realRoots, lines = [];
   for (const file of files) {
     const project = CHARTS[chart].project(file, settings);
     file.path.modes.forEach((stretches, mode) => {
-      const doubtful = file.data.modes[mode].uncertified.map(([a, b]) => [file.path.places[a], file.path.places[b]]);
+      const cuts = file.data.modes[mode].uncertified.flatMap((ends) => ends.map((end) => file.path.places[end]));
       for (const stretch of stretches) {
-        const points = drawnLine(stretch, project, view, spacing);
-        const pointAt = (place) => {
-          const [x, y] = project(place, stretch.at(place));
-          return { place, x, y };
-        };
-        const parts = doubtful.length ? splitLine(points, doubtful, pointAt) : { inside: [], outside: [points] };
-        lines.push({ file, mode, points, certified: parts.outside, uncertified: parts.inside });
+        const points = drawnLine(stretch, project, view, spacing), kindAt = kindOn(file, mode, stretch);
+        const plain = !cuts.length && !file.whirl && !points.some((point) => point.real);
+        const parts = plain ? [{ points, kind: "" }] : partsOf(points, cuts, kindAt, pointOn(stretch, project));
+        lines.push(...runsOf(parts, hidesReal).map((run) => ({ file, mode, stretch, ...run })));
       }
     });
   }
   return lines;
 }
 
+const kindOn = (file, mode, stretch) => (place) => (stretch.isReal(stretch.at(place)) ? "r" : "") +
+  (file.isCertified(mode, place) ? "" : "d") + (file.whirlText(mode, place) === "backward" ? "b" : "");
+
+/** Neighbouring parts as runs { points, parts }, without the real ones if they are hidden. */
+function runsOf(parts, hidesReal) {
+  const runs = [];
+  let last = null;
+  for (const part of parts) {
+    if (hidesReal && part.kind.includes("r")) { last = null; continue; }
+    if (!last) runs.push(last = { points: [], parts: [] });
+    last.points.push(...(last.points.length ? part.points.slice(1) : part.points));
+    last.parts.push(part);
+  }
+  return runs;
+}
+
 const lineTrace = (lines, line, more = {}) =>
   ({ ...joined(lines), type: "scatter", mode: "lines", line, hoverinfo: "skip", showlegend: false, ...more });
 
-/** Traces of the lines in the colour of their mode or file. If some modes are isolated, all others are faint. */
+const pointsOf = (lines, test) => lines.flatMap((line) => line.parts.filter(test).map((part) => part.points));
+const isDoubtful = ({ kind }) => kind.includes("d");
+const isBackward = ({ kind }) => kind.includes("b");
+
+/** Faint lines of the modes that are not isolated, and pale bands under those whose identity is not certified. */
+function underTraces(lines, isActive, axes) {
+  const faint = pointsOf(lines.filter((line) => !isActive(line)), () => true), doubtful = pointsOf(lines.filter(isActive), isDoubtful);
+  return [...(faint.length ? [lineTrace(faint, { color: FAINT, width: 1 }, axes)] : []),
+    ...(doubtful.length ? [lineTrace(doubtful, { color: DOUBT, width: 9 }, { ...axes, meta: { doubtful: true } })] : [])];
+}
+
+/** Traces of the lines in the colour and dash of their mode or file. If some modes are isolated, all others are faint. */
 function modeTraces(lines, isActive, style, axes) {
-  const traces = [];
-  const faint = lines.filter((line) => !isActive(line)).flatMap((line) => line.certified.concat(line.uncertified));
-  if (faint.length) traces.push(lineTrace(faint, { color: FAINT, width: 1 }, axes));
-  const byMode = new Map();
+  const traces = underTraces(lines, isActive, axes), byMode = new Map();
   for (const line of lines.filter(isActive)) {
     const key = `${line.file.index}/${line.mode}`;
-    if (!byMode.has(key)) byMode.set(key, { line, certified: [], uncertified: [] });
-    byMode.get(key).certified.push(...line.certified);
-    byMode.get(key).uncertified.push(...line.uncertified);
+    byMode.set(key, [...(byMode.get(key) || []), line]);
   }
-  for (const { line, certified, uncertified } of byMode.values()) {
-    const { colour, width } = style(line.file, line.mode);
-    const meta = { file: line.file.index, mode: line.mode };
-    if (certified.length) traces.push(lineTrace(certified, { color: colour, width }, { ...axes, meta }));
-    if (uncertified.length) traces.push(lineTrace(uncertified, { color: colour, width, dash: "6px,4px" }, { ...axes, meta }));
+  for (const list of byMode.values()) {
+    const [{ file, mode }] = list, { colour, width, dash } = style(file, mode);
+    for (const backward of [false, true]) {
+      const points = pointsOf(list, (part) => isBackward(part) === backward);
+      const meta = { file: file.index, mode, backward };
+      if (points.length) traces.push(lineTrace(points, { color: colour, width, dash: backward ? BACKWARD_DASH : dash }, { ...axes, meta }));
+    }
   }
   return traces;
 }
 
 /** Bands in which the eigenvalues lie as far as the errors of the data tell, one trace per mode. `scale` turns an error of s into one of the chart. */
-function bandTraces(lines, isActive, style, axes, scale) {
+function bandTraces(lines, isActive, style, axes, scale, logarithmic) {
+  const shifted = (y, by) => (logarithmic ? Math.log10(Math.max(10 ** y + by, LEAST_FREQUENCY)) : y + by);
   const traces = [];
   for (const line of lines.filter(isActive)) {
     const errors = line.file.errors(line.mode);
@@ -86,8 +116,8 @@ function bandTraces(lines, isActive, style, axes, scale) {
     const add = ({ x, y, place }, step) => {
       const error = errors[step] * scale(line.file.path.eigenvalue(line.mode, place));
       if (!Number.isFinite(error)) return;
-      above.push([x, y + error]);
-      below.push([x, y - error]);
+      above.push([x, shifted(y, error)]);
+      below.push([x, shifted(y, -error)]);
     };
     for (let i = 0; i + 1 < line.points.length; ++i) {
       const step = line.file.path.stepOf(0.5 * (line.points[i].place + line.points[i + 1].place));
@@ -121,104 +151,17 @@ function intervalTrace(files, chart, settings, isActive, axes) {
 
 /** A few marks on every line, by which lines can be distinguished without colours. */
 function markTrace(lines, isActive, style, axes) {
-  const x = [], y = [], symbol = [], color = [];
-  for (const line of lines.filter(isActive)) {
-    const project = CHARTS[axes.chart].project(line.file, axes.settings);
-    const { colour, symbol: mark } = style(line.file, line.mode);
-    const stretch = line.file.path.modes[line.mode].find((s) => s.covers(line.points[0].place) && s.covers(line.points[line.points.length - 1].place));
-    for (let i = 0; stretch && i < 5; ++i) {
-      const place = stretch.from + (stretch.to - stretch.from) * ((i + 0.5 + 0.13 * ((line.mode * 3 + line.file.index) % 5 - 2)) / 5);
-      const [px, py] = project(place, stretch.at(place));
+  const x = [], y = [], symbol = [], color = [], active = lines.filter(isActive), many = active.length > MOST_MARKED;
+  for (const line of active) {
+    const project = CHARTS[axes.chart].project(line.file, axes.settings), { colour, symbol: mark } = style(line.file, line.mode);
+    const from = line.points[0].place, to = line.points[line.points.length - 1].place, n = many ? 2 : 5;
+    for (let i = 0; i < n; ++i) {
+      const place = from + (to - from) * ((i + 0.5 + 0.13 * ((line.mode * 3 + line.file.index) % 5 - 2)) / n);
+      const [px, py] = project(place, line.stretch.at(place));
       x.push(px); y.push(py); symbol.push(mark); color.push(colour);
     }
   }
-  return { x, y, type: "scatter", mode: "markers", marker: { symbol, color, size: 7 }, hoverinfo: "skip", showlegend: false, ...axes.plot };
-}
-
-/** Names at the right ends of lines, shifted where they would overlap. */
-function nameTrace(lines, isActive, style, view, short) {
-  const ends = new Map();
-  for (const line of lines.filter(isActive)) {
-    for (const point of line.points) {
-      if (!(point.x >= view.x[0] && point.x <= view.x[1] && point.y >= view.y[0] && point.y <= view.y[1])) continue;
-      const key = `${line.file.index}/${line.mode}`, before = ends.get(key);
-      if (!before || point.x > before.point.x) ends.set(key, { line, point });
-    }
-  }
-  const list = [...ends.values()].sort((a, b) => a.point.y - b.point.y);
-  const gap = 14 / view.perY;
-  let last = -Infinity;
-  const heights = list.map(({ point }) => (last = Math.max(point.y, last + gap)));
-  for (let i = list.length - 1, next = view.y[1]; i >= 0; --i) next = (heights[i] = Math.min(heights[i], next)) - gap;
-  return {
-    x: list.map(() => view.x[1]), y: heights, type: "scatter", mode: "text", textposition: "middle right", cliponaxis: false,
-    text: list.map(({ line }) => " " + plotText(short ? line.mode + 1 : line.file.shortText(line.mode))),
-    textfont: { color: list.map(({ line }) => style(line.file, line.mode).colour), size: 11.5 },
-    hoverinfo: "skip", showlegend: false, xaxis: "x", yaxis: "y",
-  };
-}
-
-/** Coordinates of an event in a chart. */
-function eventPoint(event, chart, settings) {
-  const size = Math.hypot(event.real, event.imag);
-  if (chart === "locus") return [event.real, Math.abs(event.imag)];
-  if (chart === "damping") return [event.parameter, settings.damping === "real" ? event.real : dampingRatio(event.real, event.imag)];
-  return [event.parameter, (settings.frequency === "abs" ? size : Math.abs(event.imag)) * settings.unitFactor];
-}
-
-/** The marks of events: one trace per kind. */
-function eventTraces(files, chart, settings, isActive, axes, showLegend) {
-  const kinds = new Map();
-  for (const file of files) {
-    for (const event of file.data.events) {
-      if (event.real === null || event.imag === null) continue;
-      if (event.modes.length && !event.modes.some((mode) => isActive({ file, mode }))) continue;
-      if (!kinds.has(event.kind)) kinds.set(event.kind, []);
-      kinds.get(event.kind).push({ file, event });
-    }
-  }
-  for (const list of kinds.values())
-    for (const mark of list) [mark.x, mark.y] = eventPoint(mark.event, chart, settings);
-  const marks = [...kinds.values()].flat();
-  const named = settings.eventNames && marks.length <= MOST_EVENT_NAMES && chart !== "damping";
-  if (named) placeNames(marks, axes.view);
-  const { view, ...plot } = axes;
-  return [...kinds].map(([kind, list]) => {
-    const { symbol } = list[0].event;
-    return {
-      x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: named ? "markers+text" : "markers",
-      text: named ? list.map(({ name }) => plotText(name)) : undefined,
-      textposition: named ? list.map(({ side }) => side) : undefined, textfont: { size: 11, color: INK }, cliponaxis: true,
-      marker: { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
-      name: kind, legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot, marks: list,
-    };
-  });
-}
-
-const SIDES = { "top center": [0, -1], "bottom center": [0, 1], "middle right": [1, 0], "middle left": [-1, 0], "top right": [1, -1],
-  "top left": [-1, -1], "bottom right": [1, 1], "bottom left": [-1, 1] };
-
-/** Sets the `name` of every mark and the `side` on which it covers no other name or mark; the name is empty if there is no such side. */
-function placeNames(marks, view) {
-  const at = (mark) => [mark.x * view.perX, -mark.y * view.perY];
-  const taken = marks.map((mark) => { const [x, y] = at(mark); return [x - 6, x + 6, y - 6, y + 6]; });
-  const overlaps = ([a, b, c, d]) => taken.some(([e, f, g, h]) => a < f && b > e && c < h && d > g);
-  for (const mark of marks) {
-    const { file, event } = mark, [x, y] = at(mark);
-    const number = file.eventNumber(event), long = event.labelled ? `${event.kind} ${number}` : number;
-    mark.name = "";
-    mark.side = "top center";
-    for (const [name, side] of [long, number].flatMap((text) => Object.keys(SIDES).map((key) => [text, key]))) {
-      const width = 6.3 * name.length, [dx, dy] = SIDES[side];
-      const left = x - width / 2 + dx * (width / 2 + 8), top = y - 6 + dy * 13;
-      const box = [left, left + width, top, top + 12];
-      const right = view.x[1] * view.perX, leftEnd = view.x[0] * view.perX;
-      if (overlaps(box) || box[1] > right || box[0] < leftEnd) continue;
-      taken.push(box);
-      Object.assign(mark, { name, side });
-      break;
-    }
-  }
+  return { x, y, type: "scatter", mode: "markers", marker: { symbol, color, size: many ? 6 : 7 }, hoverinfo: "skip", showlegend: false, meta: { marks: true }, ...axes.plot };
 }
 
 const RANGE_COLOURS = { stable: "rgba(0,158,115,0.13)", marginal: "rgba(230,159,0,0.16)", undecided: "rgba(110,110,110,0.16)" };
@@ -240,34 +183,33 @@ function rangeShapes(files) {
   return shapes;
 }
 
-/** Lines of the harmonics n times the excitation frequency, each with its name at its end in the window. */
-function rayTraces(files, settings, view) {
+/** Lines of the harmonics n times the excitation frequency. */
+function rayTraces(files, settings) {
   const source = files.find((file) => file.data.excitation);
   if (!source) return [];
   const { parameter, frequency } = source.data.excitation;
-  return settings.harmonics.map((n) => {
-    const points = parameter.map((p, i) => [p, n * frequency[i] * settings.unitFactor]);
-    const top = view.y[1] - 16 / view.perY, right = view.x[1] - 8 / view.perX;
-    const seen = points.filter(([x, y]) => x >= view.x[0] && x <= right && y >= view.y[0] && y <= top);
-    const end = seen.length ? seen.reduce((a, b) => (b[0] > a[0] ? b : a)) : null;
-    const last = points.findIndex((point) => point === end);
-    return {
-      x: points.map(([x]) => x), y: points.map(([, y]) => y), type: "scatter", mode: "lines+text", hoverinfo: "skip", showlegend: false,
-      line: { color: "#777", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic: n },
-      text: points.map((_, i) => (i === last ? plotText(`${number(n)}\u00d7`) : "")), textposition: "middle left", textfont: { color: "#555", size: 11.5 },
-    };
-  });
+  return settings.harmonics.map((n) => ({
+    x: parameter, y: frequency.map((value) => onFrequencyAxis(n * value * settings.unitFactor, settings)), type: "scatter", mode: "lines",
+    hoverinfo: "skip", showlegend: false, line: { color: "#666", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic: n },
+  }));
+}
+
+/** Operating ranges (between lines) and the strips beside them that critical speeds must not enter, in the frequency chart. */
+function operatingShapes(files, crossings) {
+  const strip = ([x0, x1], fillcolor, line) => ({ type: "rect", xref: "x", yref: "y domain", x0, x1, y0: 0, y1: 1, fillcolor, line, layer: "below" });
+  const ranges = files.flatMap((file) => ((file.data.excitation || {}).operating || { ranges: [] }).ranges);
+  return [...ranges.map((range) => strip(range, OPERATING_FILL, { color: "#0072b2", width: 1.2 })),
+    ...marginStrips(files, crossings).filter(([from, to]) => to > from).map((range) => strip(range, MARGIN_FILL, { width: 0 }))];
 }
 
 /** The root locus coloured by the parameter: one trace per colour, and one for the colour scale. */
 function parameterTraces(lines, isActive, range) {
   const traces = [];
-  const faint = lines.filter((line) => !isActive(line)).flatMap((line) => line.certified.concat(line.uncertified));
-  if (faint.length) traces.push(lineTrace(faint, { color: FAINT, width: 1 }));
-  for (const [part, dash] of [["certified", "solid"], ["uncertified", "6px,4px"]]) {
+  traces.push(...underTraces(lines, isActive, {}));
+  for (const backward of [false, true]) {
     const bins = Array.from({ length: PARAMETER_COLOURS }, () => []);
     for (const line of lines.filter(isActive)) {
-      for (const points of line[part]) {
+      for (const { points } of line.parts.filter((part) => isBackward(part) === backward)) {
         let current = null, bin = -1;
         for (let i = 0; i + 1 < points.length; ++i) {
           const p = line.file.path.parameterAt(0.5 * (points[i].place + points[i + 1].place));
@@ -278,7 +220,7 @@ function parameterTraces(lines, isActive, range) {
       }
     }
     bins.forEach((list, bin) => {
-      if (list.length) traces.push(lineTrace(list, { color: parameterColour((bin + 0.5) / PARAMETER_COLOURS), width: 2.6, dash }));
+      if (list.length) traces.push(lineTrace(list, { color: parameterColour((bin + 0.5) / PARAMETER_COLOURS), width: 2.6, dash: backward ? BACKWARD_DASH : "solid" }));
     });
   }
   return traces;
@@ -298,9 +240,11 @@ function parameterScale(range, title) {
   return {
     x: [null], y: [null], type: "scatter", mode: "markers", hoverinfo: "skip", showlegend: false,
     marker: { color: [range[0]], cmin: range[0], cmax: range[1], colorscale, showscale: true,
-      colorbar: { title: { text: title, side: "right" }, thickness: 12, outlinewidth: 0, len: 0.9, x: 1.02, xpad: 4 } },
+      colorbar: { title: { text: title, side: "right" }, thickness: 12, outlinewidth: 0, len: 0.9, x: 1.02, xpad: 4, exponentformat: "power", minexponent: 4 } },
   };
 }
+
+const endPoints = (lines, isActive) => lines.filter(isActive).flatMap(({ points }) => [points[0], points[points.length - 1]]);
 
 /** The beginning (a ring) and the end (a dot) of every line, which show its direction. */
 function endTraces(lines, isActive) {

@@ -3,6 +3,7 @@
 
 function table(heads, rows, caption) {
   const head = element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text })));
+  for (const row of rows) [...row.children].forEach((node, i) => { if (heads[i] && !node.querySelector("button")) node.dataset.head = heads[i]; });
   const body = element("table", { "aria-label": caption }, element("thead", {}, head), element("tbody", {}, ...rows));
   return element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption }, body);
 }
@@ -20,25 +21,25 @@ function eventTable(files, choose) {
     return element("tr", {},
       cell(element("button", { type: "button", text: file.eventNumber(event), click: () => choose(file, event), title: "show it" })),
       ...(several ? [cell(file.data.name)] : []),
-      cell(event.kind), cell(number(event.parameter, 12), "value"),
-      cell(event.real === null ? "–" : complexText(event.real, event.imag, 9), "value"), cell(modes), cell([event.remark, intervalText(event)].filter(Boolean).join(", ")));
+      cell(event.kind), cell(event.kind === "resonance" ? `${number(event.value)}×` : "–"), cell(number(file.parameterValue(event.parameter), 12), "value"),
+      cell(event.real === null ? "–" : file.eigenvalueText(event.real, event.imag, 9), "value"), cell(modes, "words"), cell([event.remark, intervalText(event)].filter(Boolean).join(", "), "words"));
   }));
   if (!rows.length) return element("p", { class: "note", text: "No special points on the traced range." });
   const { name, unit } = files[0].data.parameter;
-  return table(["", ...(several ? ["file"] : []), "kind", withUnit(name, unit === "1" ? "" : `(${unit})`), "s, 1/s", "modes", "remark"], rows, "Events");
+  return table(["", ...(several ? ["file"] : []), "kind", "harmonic", withUnit(name, unit === "1" ? "" : `(${unit})`), "s, 1/s", "modes", "remark"], rows, "Events");
 }
 
 function rangeEnd(file, end, kind) {
   const mode = end.mode >= 0 ? `, ${file.modeText(end.mode)}` : "";
   const margin = kind === "stable" && end.margin ? `, margin ${number(end.margin, 4)}` : "";
-  return `${number(end.parameter, 12)} (${end.cause}${mode}${margin})`;
+  return `${number(file.parameterValue(end.parameter), 12)} (${end.cause}${mode}${margin})`;
 }
 
 function rangeTable(files) {
   const several = files.length > 1;
   const rows = files.flatMap((file) => (file.data.ranges || []).map((range) => element("tr", {},
-    ...(several ? [cell(file.data.name)] : []), cell(range.kind), cell(rangeEnd(file, range.from, range.kind)), cell(rangeEnd(file, range.to, range.kind)),
-    cell(range.kind === "stable" ? `${number(range.least_margin, 4)} to ${number(range.largest_margin, 4)}, largest at ${number(range.largest_at, 6)}` : ""))));
+    ...(several ? [cell(file.data.name)] : []), cell(range.kind), cell(rangeEnd(file, range.from, range.kind), "words"), cell(rangeEnd(file, range.to, range.kind), "words"),
+    cell(range.kind === "stable" ? `${number(range.least_margin, 4)} to ${number(range.largest_margin, 4)}, largest at ${number(file.parameterValue(range.largest_at), 6)}` : "", "words"))));
   if (files.every((file) => !file.data.ranges)) return element("p", { class: "note", text: "The trace ended before stable ranges were written." });
   if (!rows.length) return element("p", { class: "note", text: "No stable range: some mode grows everywhere." });
   return table([...(several ? ["file"] : []), "kind", "from", "to", "margin −max Re s, 1/s"], rows, "Stable ranges");
@@ -51,11 +52,11 @@ class ModeTable {
     this.entries = files.flatMap((file) => file.data.modes.map((mode, i) => {
       const button = element("button", { type: "button", "aria-pressed": "false", text: mode.label, title: "isolate, again to release",
         click: (event) => toggle(file, i, event.shiftKey || event.ctrlKey || event.metaKey) });
-      const { colour, symbol } = style(file, i);
+      const { colour, symbol, dash } = style(file, i);
       const values = ["s", "frequency", "damping"].map(() => element("td", { class: "value" }));
       const share = mode.certified === null ? "–" : `${number(100 * mode.certified, 4)} %`;
-      const row = element("tr", {}, element("td", {}, swatch(colour, symbol), button), ...(several ? [cell(file.data.name)] : []),
-        ...(named ? [cell(mode.name || "–")] : []), ...values, cell(share, "value"));
+      const row = element("tr", {}, element("td", {}, swatch(colour, symbol, dash), button), ...(several ? [cell(file.data.name)] : []),
+        ...(named ? [cell(mode.name || "–", "words")] : []), ...values, cell(share, "value"));
       return { file, mode: i, button, values, row };
     }));
     this.node = table(["mode", ...(several ? ["file"] : []), ...(named ? ["what moves"] : []), "s, 1/s", "frequency", "damping", "certified"],
@@ -67,12 +68,17 @@ class ModeTable {
     this.frequencyHead.textContent = `${frequencyName(settings)}, ${settings.unit}`;
     for (const { file, mode, button, values, row } of this.entries) {
       const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
-      const frequency = s && (settings.frequency === "abs" ? Math.hypot(...s) : Math.abs(s[1])) * settings.unitFactor;
-      const texts = s ? [complexText(s[0], s[1], 8), number(frequency, 8), number(dampingRatio(...s), 6)] : ["–", "–", "–"];
+      const texts = s ? [file.eigenvalueText(...s, 7), number(file.frequency(s, settings), 7), number(dampingRatio(...s), 5)] : ["–", "–", "–"];
       values.forEach((node, i) => { node.textContent = texts[i]; });
+      values[1].dataset.head = this.frequencyHead.textContent;
       button.setAttribute("aria-pressed", String(isIsolated(file, mode)));
       row.classList.toggle("dim", !isActive({ file, mode }));
     }
+  }
+
+  /** Marks the row of a line { file, mode }; none for null. */
+  mark(line) {
+    for (const { file, mode, row } of this.entries) row.classList.toggle("pointed", Boolean(line) && line.file === file && line.mode === mode);
   }
 }
 

@@ -20,21 +20,37 @@ const SAME_AS_ZERO = 1e-9;
 function number(value, digits = 6) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  if (value === 0) return "0";  // not −0
   return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e−", "e-");
 }
 
-/** A complex number. Real parts below 1e-9 of the imaginary part are rounding, as in the stability analysis, and shown as zero. */
-function complexText(real, imag, digits = 7) {
-  if (Math.abs(real) < SAME_AS_ZERO * Math.abs(imag)) real = 0;
+/** Parts of a complex number below 1e-9 of its size, or of `reference`, are rounding, as in the stability analysis: zero. */
+function withoutRounding(real, imag, reference = 0) {
+  const least = SAME_AS_ZERO * Math.max(Math.abs(real), Math.abs(imag), reference);
+  return [Math.abs(real) < least ? 0 : real, Math.abs(imag) < least ? 0 : imag];
+}
+
+/** A complex number without rounding. */
+function complexText(real, imag, digits = 7, reference = 0) {
+  [real, imag] = withoutRounding(real, imag, reference);
   return `${number(real, digits)} ${imag < 0 ? "−" : "+"} ${number(Math.abs(imag), digits)}j`;
 }
 
 /** What the frequency axis shows, by its name. */
 const frequencyName = (settings) => (settings.frequency === "abs" ? "natural frequency abs(s)" : "damped frequency Im s");
 
+/** The frequency of an eigenvalue in the unit of the settings. */
+const frequencyOf = (s, settings) => (settings.frequency === "abs" ? Math.hypot(...s) : Math.abs(s[1])) * settings.unitFactor;
+
+/** −2π Re s/abs(Im s); NaN of a real eigenvalue, which has none. */
+function logDecrement(re, im) {
+  const [real, imag] = withoutRounding(re, im);
+  return imag === 0 ? NaN : (-2 * Math.PI * real) / Math.abs(imag);
+}
+
 /** Damping ratio and logarithmic decrement of an eigenvalue, which a real one does not have. */
 function dampingText(real, imag) {
-  const decrement = imag === 0 ? "" : `, logarithmic decrement ${number((-2 * Math.PI * real) / Math.abs(imag), 6)}`;
+  const value = logDecrement(real, imag), decrement = Number.isNaN(value) ? "" : `, logarithmic decrement ${number(value, 6)}`;
   return `damping ratio ${number(dampingRatio(real, imag), 6)}${decrement}`;
 }
 

@@ -1,0 +1,121 @@
+"use strict";
+// Marks of events and critical speeds, and all names inside of the charts.
+
+const MOST_NAMES = 14;  // events, or critical speeds, with names beside their marks
+
+/** Coordinates of an event in a chart. */
+function eventPoint(event, chart, settings) {
+  if (chart === "locus") return [event.real, Math.abs(event.imag) * settings.unitFactor];
+  if (chart === "damping") return [event.parameter, settings.damping === "real" ? event.real : dampingRatio(event.real, event.imag)];
+  return [event.parameter, onFrequencyAxis(frequencyOf([event.real, event.imag], settings), settings)];
+}
+
+const isShown = (event, file, isActive) => event.real !== null && event.imag !== null &&
+  (!event.modes.length || event.modes.some((mode) => isActive({ file, mode })));
+
+/** The marks { file, event, x, y } of the events that are shown. */
+function eventMarks(files, chart, settings, isActive) {
+  return files.flatMap((file) => file.data.events.filter((event) => isShown(event, file, isActive)).map((event) => {
+    const [x, y] = eventPoint(event, chart, settings);
+    return { file, event, x, y };
+  }));
+}
+
+/** One trace of marks per kind of event. */
+function eventTraces(marks, plot, showLegend) {
+  const kinds = new Map();
+  for (const mark of marks) kinds.set(mark.event.kind, [...(kinds.get(mark.event.kind) || []), mark]);
+  return [...kinds].map(([kind, list]) => {
+    const { symbol } = list[0].event;
+    return {
+      x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: "markers", cliponaxis: true,
+      marker: { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
+      name: kind, legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot,
+    };
+  });
+}
+
+/** Whether a critical speed is an event of the file as well, which has its own mark. */
+function isEvent({ file, mode, harmonic, parameter }) {
+  const near = 1e-6 * (file.path.highest - file.path.lowest);
+  return file.data.events.some((event) => event.kind === "resonance" && event.value === harmonic && event.modes.includes(mode) && Math.abs(event.parameter - parameter) <= near);
+}
+
+/** The marks { file, crossing, name, x, y } of the critical speeds that are shown and no events. */
+function crossingMarks(crossings, settings, isActive) {
+  return crossings.map((crossing, i) => ({ file: crossing.file, crossing, name: `C${i + 1}`, x: crossing.parameter, y: onFrequencyAxis(frequencyOf(crossing.s, settings), settings) }))
+    .filter(({ crossing }) => isActive(crossing) && !isEvent(crossing));
+}
+
+function crossingTrace(marks, plot) {
+  return { x: marks.map(({ x }) => x), y: marks.map(({ y }) => y), type: "scatter", mode: "markers", hoverinfo: "skip", name: "critical speed", showlegend: marks.length > 0,
+    marker: { symbol: "diamond-open", size: 10, color: "#b3004b", line: { width: 2, color: "#b3004b" } }, meta: { crossings: true }, ...plot };
+}
+
+/** Labels of marks; those of many are left out. */
+function markLabels(marks, view) {
+  if (marks.length > MOST_NAMES) return [];
+  const { fromX, fromY } = viewPixels(view);
+  return marks.map((mark) => {
+    const number = mark.event ? mark.file.eventNumber(mark.event) : mark.name;
+    return { texts: mark.event && mark.event.labelled ? [`${mark.event.kind} ${number}`, number] : [number], colour: mark.event ? INK : "#b3004b",
+      middles: (width) => besideMark(fromX(mark.x), fromY(mark.y), width) };
+  });
+}
+
+const markBoxes = (marks, view) => marks.map(({ x, y }) => boxAbout(viewPixels(view).fromX(x), viewPixels(view).fromY(y), MARK_SIZE, MARK_SIZE));
+
+/** Names of the rays, on them near their ends in the window. */
+function rayLabels(traces, view) {
+  const { fromX, fromY, area } = viewPixels(view);
+  return traces.map((trace) => {
+    const pixels = trace.x.map((x, i) => [fromX(x), fromY(trace.y[i])]);
+    const spots = pixels.slice(1).flatMap(([x, y], i) => [0.25, 0.5, 0.75, 1].map((t) => [pixels[i][0] + t * (x - pixels[i][0]), pixels[i][1] + t * (y - pixels[i][1])]));
+    const seen = spots.filter(([x, y]) => x > area.left && x < area.right && y > area.top && y < area.bottom).reverse();
+    return { texts: [`${number(trace.meta.harmonic)}×`], size: 11.5, colour: "#444",
+      middles: (width) => seen.flatMap(([x, y]) => [[x - width / 2 - 3, y - 8], [x + width / 2 + 3, y + 8]]) };
+  });
+}
+
+/** Names of the operating ranges, at the top of their strips. */
+function operatingLabels(files, view) {
+  const { fromX, area } = viewPixels(view);
+  const ranges = files.flatMap((file) => ((file.data.excitation || {}).operating || { ranges: [] }).ranges);
+  return ranges.map(([from, to]) => ({ texts: ["operating range", "operation"], colour: "#005a8c",
+    middles: () => [0, 1, 2].map((row) => [Math.min(Math.max(fromX(0.5 * (from + to)), area.left + 46), area.right - 46), area.top + 9 + 15 * row]) }));
+}
+
+/** The last point { line, point } in the window of every mode. */
+function lineEnds(lines, view) {
+  const ends = new Map();
+  for (const line of lines) {
+    for (const point of line.points) {
+      if (!(point.x >= view.x[0] && point.x <= view.x[1] && point.y >= view.y[0] && point.y <= view.y[1])) continue;
+      const key = `${line.file.index}/${line.mode}`, before = ends.get(key);
+      if (!before || point.x > before.point.x) ends.set(key, { line, point });
+    }
+  }
+  return [...ends.values()];
+}
+
+/** Names of lines that end before the right edge, beside their ends; those of others stand at the edge (nameTrace). */
+function innerNames(lines, style, view, nameOf) {
+  const { fromX, fromY } = viewPixels(view);
+  return lineEnds(lines, view).filter(({ point }) => !isAtEdge(point, view)).map(({ line, point }) => ({ texts: [nameOf(line), String(line.mode + 1)],
+    size: 11.5, colour: style(line.file, line.mode).colour, middles: (width) => besideMark(fromX(point.x), fromY(point.y), width) }));
+}
+
+const isAtEdge = (point, view) => (view.x[1] - point.x) * view.perX < 30;
+
+/** Names at the right ends of lines, one column beside the chart. */
+function nameTrace(lines, style, view, nameOf) {
+  const { fromY, toY, area } = viewPixels(view);
+  const ends = lineEnds(lines, view).filter(({ point }) => isAtEdge(point, view));
+  const heights = spreadLabels(ends.map(({ point }) => fromY(point.y)), LABEL_HEIGHT, area.top, area.bottom);
+  const list = ends.map(({ line }, i) => ({ line, height: heights[i] })).filter(({ height }) => height !== null);
+  return {
+    x: list.map(() => view.x[1]), y: list.map(({ height }) => toY(height)), type: "scatter", mode: "text", textposition: "middle right", cliponaxis: false,
+    text: list.map(({ line }) => ` ${plotText(nameOf(line))}`), textfont: { color: list.map(({ line }) => style(line.file, line.mode).colour), size: 11.5 },
+    hoverinfo: "skip", showlegend: false, xaxis: "x", yaxis: "y", meta: { labels: "modes" },
+  };
+}

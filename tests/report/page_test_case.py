@@ -1,0 +1,60 @@
+"""Shared by the tests of the page: writes pages, opens them in a browser and reads what they draw."""
+
+import os
+import pathlib
+import time
+
+import numpy as np
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+
+import browser
+from command_test_case import CommandTest
+from program import SCENES
+
+SCREENSHOTS = pathlib.Path(os.environ["EIGENTRAIL_SCREENSHOTS"])
+# Points of the lines of one mode in the upper or lower half of the Campbell diagram.
+LINES = """
+const [mode, axis] = arguments;
+return document.querySelector('.campbell').data.filter((trace) => trace.meta && trace.meta.mode === mode && trace.yaxis === axis)
+  .flatMap((trace) => trace.x.map((x, i) => [x, trace.y[i]])).filter(([x]) => x !== null);
+"""
+# Where [x, y] of the Campbell diagram is, from the middle of its element.
+PIXEL = """
+const [x, y] = arguments, figure = document.querySelector('.campbell'), box = figure.getBoundingClientRect();
+const [px, py] = toPixels(figure, 'xaxis', 'yaxis', x, y);
+return [px - Math.floor(box.width / 2), py - Math.floor(box.height / 2)];
+"""
+
+
+class PageTest(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = browser.start()
+        cls.addClassCleanup(cls.driver.quit)
+
+    def show(self, *files, size=browser.DESKTOP, picture=None):
+        """Writes the page of some files, opens it, and looks for messages in the console."""
+        self.run_well("report", *files, "-o", "page.html", "--force", "--quiet")
+        browser.show(self.driver, self.folder / "page.html", size)
+        if picture:
+            time.sleep(0.3)  # for what is drawn once the layout has settled
+            browser.screenshot(self.driver, SCREENSHOTS / f"{picture}.png")
+        self.assertEqual(browser.messages(self.driver), [])
+
+    def blade(self, **details):
+        self.trace((SCENES / "rotating_mass.toml").read_text(encoding="utf-8"))
+        self.show("loci.h5", **details)
+
+    def lines(self, mode, axis="y"):
+        return np.array(self.driver.execute_script(LINES, mode, axis))
+
+    def isolated(self):
+        """Modes that are drawn in colour."""
+        return sorted({mode for mode in range(2) if len(self.lines(mode))})
+
+    def pointer_to(self, x, y):
+        figure = self.driver.find_element(By.CSS_SELECTOR, ".campbell")
+        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'start' })", figure)
+        dx, dy = self.driver.execute_script(PIXEL, x, y)
+        return ActionChains(self.driver).move_to_element_with_offset(figure, round(dx), round(dy))
