@@ -6,7 +6,7 @@ from unittest import mock
 
 import eigentrail
 import numpy as np
-from eigentrail.figures import planes, shapes, studies, trace_figures, with_matplotlib
+from eigentrail.figures import planes, separation, shapes, studies, trace_figures, with_matplotlib
 from eigentrail.figures.labels import HEIGHT, text_width
 from eigentrail.figures.picture import Area, Cells, Label, Line, Marks, Span
 
@@ -237,6 +237,30 @@ class Harmonics(FigureTest):
             loci.eigentrail.campbell(harmonics=[1])
         with self.assertRaisesRegex(ValueError, "positive"):
             self.loci.eigentrail.campbell(harmonics=[0])
+
+    def test_operating_ranges_and_their_margins(self):
+        scene = edited((SCENES / "overhung_disc.toml").read_text(encoding="utf-8"), 'excitation = "omega"',
+                       "operating_range = [400, 520]")
+        picture = trace_figures.campbell_picture(self.traced(scene))
+        for panel in picture.panels:
+            spans = sorted((round(span.low, 9), round(span.high, 9)) for span in panel.of(Span))
+            # No damping: 16 % of the lowest speed and 26 % of the highest one, by API RP 684.
+            self.assertEqual(spans, [(0.0, 2000.0), (336.0, 400.0), (400.0, 520.0), (520.0, 655.2)])
+        (close,) = [item for item in picture.panels[0].of(Marks) if item.name == "too_close"]
+        np.testing.assert_allclose(close.x, [557.173763269], rtol=1e-9)
+        self.assertIn("2\u00d7 557.2", self.texts(picture.panels[0]))
+        self.assertLessEqual({"operating range", "separation margin", "resonance, too close"},
+                             {entry.legend for entry in picture.legend})
+
+    def test_the_margin_of_the_scene_and_that_of_the_standard(self):
+        damped = complex(-0.2, 1.0)  # amplification factor 2.55
+        self.assertAlmostEqual(separation.api_margin(damped, True), 0.17 * (1 - 1 / (0.5 / (0.2 / abs(damped)) - 1.5)))
+        self.assertEqual(separation.api_margin(complex(-0.3, 1.0), False), 0.0)
+        self.assertEqual((separation.api_margin(1j, True), separation.api_margin(1j, False)), (0.16, 0.26))
+        operation = separation.Operation([(20.0, 30.0), (50.0, 60.0)], 0.1)
+        self.assertEqual([operation.is_too_close(p, damped) for p in (17.9, 18.1, 25, 32.9, 33.1, 45.1, 66.1)],
+                         [False, True, True, True, False, True, False])
+        np.testing.assert_allclose(operation.strips([]), [(18, 20), (30, 33), (45, 50), (60, 66)])
 
     def test_without_the_engine_the_unit_says_it(self):
         with_engine = trace_figures.campbell_picture(self.loci, harmonics=[1]).panels[0]

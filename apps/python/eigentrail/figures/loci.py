@@ -5,8 +5,8 @@ import numpy as np
 from .curves import DASHED, DOTTED, SOLID, Curves, parts, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
-from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, mode_colour, mode_symbol, number,
-                    with_unit)
+from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, TOO_CLOSE, WARNING, mode_colour,
+                    mode_symbol, number, with_unit)
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
 MOST_NAMES_LISTED = 80
@@ -197,12 +197,12 @@ class LociFigure:
             self.add_numbers(panel, room, modes, x, y, shown)
             self.add_list(panel, modes)
 
-    def add_events(self, panel, place, labelled=True, further=(), before=lambda room: ()):
+    def add_events(self, panel, place, labelled=True, events=(), before=lambda room: ()):
         """Marks of events, and labels where there is room. `place` maps the parameter and s to data coordinates; NaN: none.
 
-        `further`: events that the file does not have; `before`: gives labels that come first. Returns the room that is left."""
+        `events`: events instead of those of the file; `before`: gives labels that come first. Returns the room that is left."""
         found = {}
-        for kind, p, s, value, modes in [*self.event_table(), *further]:
+        for kind, p, s, value, modes in events or self.event_table():
             s = complex(without_rounding(np.complex128(s)))
             x, y = place(p, s)
             if np.isfinite(x) and np.isfinite(y) and _within(panel, x, y) and (labelled or kind not in OF_FREQUENCY):
@@ -212,6 +212,7 @@ class LociFigure:
             symbol, words = EVENTS.get(kind, (OTHER_EVENT, kind))
             xs, ys, texts, _ = zip(*marks)
             size, colour = (6.0, INK) if count <= CROWDED else (4.5, INK) if kind not in OF_FREQUENCY else (3.5, GREY)
+            colour = WARNING if kind == TOO_CLOSE else colour
             panel.items.append(Marks(np.array(xs), np.array(ys), symbol, colour, size, kind, list(texts)))
             self.explain(Marks([], [], symbol, colour, 6.0, legend=words))
         if labelled:
@@ -294,7 +295,7 @@ def legend_grid(texts, width):
 def event_label(kind, p, value):
     """A short label; empty for kinds that have only a mark."""
     place = number(p)
-    if kind == "resonance":
+    if kind in ("resonance", TOO_CLOSE):
         return f"{number(value)}\u00d7 {place}"
     if kind in ("damping_ratio", "extremum"):
         return f"{number(100 * value, 3)} % at {place}" if kind == "damping_ratio" else ""

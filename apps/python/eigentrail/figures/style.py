@@ -21,6 +21,11 @@ EVENTS = {
     "resonance": ("diamond-open", "resonance"), "extremum": ("triangle-down-open", "extremum"),
     "log_decrement": ("hexagon-open", "logarithmic decrement"), "band_edge": ("line-ew-open", "edge of the band"),
 }
+TOO_CLOSE = "too_close"  # a resonance in the separation margin of an operating range
+EVENTS[TOO_CLOSE] = ("diamond-open", "resonance, too close")
+WARNING = "#b2182b"
+OPERATION = ("#56b4e9", 0.3, "operating range")
+MARGIN = ("#d55e00", 0.16, "separation margin")
 OTHER_EVENT = "circle-open-dot"
 
 # rad/s in one unit of an angular velocity or a frequency.

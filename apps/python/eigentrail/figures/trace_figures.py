@@ -5,8 +5,9 @@ import numpy as np
 from .curves import damping_percent, oscillates, usual_range, with_ends
 from .drawing import excitation
 from .loci import BOTTOM, LEFT, MOST_NAMED, NAME, RIGHT, LociFigure, padded
-from .picture import Axis, Line, Marks
-from .style import ANGULAR, GREY, INK, mode_colour, number
+from .picture import Axis, Line, Marks, Span
+from .separation import Operation
+from .style import ANGULAR, EVENTS, GREY, INK, MARGIN, OPERATION, TOO_CLOSE, mode_colour, number
 
 
 def of_oscillations(figure):
@@ -52,21 +53,38 @@ def campbell_picture(loci, harmonics=None, unit=None, log=False, size=None):
     shown, modes = of_oscillations(figure), oscillating(figure)
     low, high = frequency_range(figure, modes, shown, harmonics, source, log)
     modes = [mode for mode in modes if np.nanmin(np.where(shown(mode), frequency(figure)(mode), np.nan)) < high]
-    picture, top = figure.begin(size or (9.0, 6.5), modes, ["resonance"] if harmonics else [])
+    events = [*figure.event_table(), *ray_crossings(figure, modes, harmonics, source)]
+    operation = Operation.of(loci)
+    words = [OPERATION[2], MARGIN[2], EVENTS[TOO_CLOSE][1]] if operation.ranges else []
+    picture, top = figure.begin(size or (9.0, 6.5), modes, ["resonance", *words] if harmonics else words)
     right, middle = picture.width - RIGHT - figure.name_width(modes), BOTTOM + 0.3 * (top - BOTTOM)
     above = picture.add(LEFT, middle + 0.18, right, top, figure.parameter_axis(),
                         Axis(f"damped frequency, {figure.unit}", low, high, log))
     above.x.title, above.x.shown = "", False
     below = picture.add(LEFT, BOTTOM, right, middle, figure.parameter_axis(),
                         Axis("damping ratio, %", *damping_range(figure, modes, shown)))
+    for panel in picture.panels:
+        add_operation(figure, panel, operation, events)
     rays = add_rays(figure, above, harmonics, source)
     add_curves(figure, above, modes, frequency(figure), lambda mode: 1 / figure.factor, shown)
     add_curves(figure, below, modes, damping(figure), lambda mode: 100 / np.abs(figure.curves.s[:, mode]), shown)
-    room = figure.add_events(above, lambda p, s: (p, abs(s.imag) / figure.factor),
-                             further=ray_crossings(figure, modes, harmonics, source), before=rays)
-    figure.add_events(below, damping_place, labelled=False)
+    events = [(TOO_CLOSE if kind == "resonance" and operation.is_too_close(p, s) else kind, p, s, *more)
+              for kind, p, s, *more in events]
+    room = figure.add_events(above, lambda p, s: (p, abs(s.imag) / figure.factor), events=events, before=rays)
+    figure.add_events(below, damping_place, labelled=False, events=events)
     figure.add_names(above, room, modes, along(figure), frequency(figure), shown)
     return figure.finish(picture)
+
+
+def add_operation(figure, panel, operation, events):
+    """Shaded operating ranges and their separation margins."""
+    critical = [(p, s) for kind, p, s, *_ in events if kind == "resonance"]
+    for intervals, (colour, opacity, words) in ((operation.ranges, OPERATION), (operation.strips(critical), MARGIN)):
+        for low, high in intervals:
+            low, high = max(low, panel.x.low), min(high, panel.x.high)
+            if low < high:
+                panel.items.append(Span(low, high, colour, opacity))
+                figure.explain(Span(0, 0, colour, 2 * opacity, legend=words))
 
 
 def damping_picture(loci, size=None):

@@ -1,0 +1,57 @@
+"""Operating ranges of a machine, and the margins that critical speeds must keep from them.
+
+Source: API RP 684, SP6.8.2.10. The amplification factor is 1/(2 zeta) of the mode.
+"""
+
+import re
+
+import numpy as np
+
+
+class Operation:
+    """Ranges (from, to) in the unit of the parameter, and the wanted margin as a fraction of the nearer end; None: API 684."""
+
+    def __init__(self, ranges, margin):
+        self.ranges, self.margin = ranges, margin
+
+    @classmethod
+    def of(cls, loci):
+        """As the attributes of the file have them: "3000 to 3600, 8000 to 9000", and "0.15" or "API 684"."""
+        text = str(loci.attrs.get("operating_range", ""))
+        ranges = [tuple(sorted(map(float, part.split(" to ")))) for part in re.split(r",\s*", text) if " to " in part]
+        margin = str(loci.attrs.get("separation_margin", ""))
+        return cls(ranges, float(margin) if re.fullmatch(r"[0-9.eE+-]+", margin) else None)
+
+    def wanted(self, s, below):
+        """The margin for a critical speed below or above a range, from the eigenvalue there."""
+        return api_margin(s, below) if self.margin is None else self.margin
+
+    def is_too_close(self, p, s):
+        """Whether a critical speed keeps less than its margin from a range, or lies within it."""
+        for low, high in self.ranges:
+            distance = (low - p) / low if p < low else (p - high) / high if p > high > 0 else np.inf if p > high else 0.0
+            wanted = self.wanted(s, p <= high)
+            if wanted > 0 and distance < wanted:
+                return True
+        return False
+
+    def strips(self, critical):
+        """Intervals beside the ranges that critical speeds must not enter. `critical`: pairs of parameter and eigenvalue; the
+        widest margin of those on a side counts."""
+        found = []
+        for low, high in self.ranges:
+            below = max((self.wanted(s, True) for p, s in critical if p < low), default=self.margin or 0.0)
+            above = max((self.wanted(s, False) for p, s in critical if p > high), default=self.margin or 0.0)
+            found += [(low * (1 - below), low), (high, high * (1 + above))]
+        return [(low, high) for low, high in found if high > low]
+
+
+def api_margin(s, below):
+    """The margin by API RP 684 as a fraction of the nearer end of the range."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = -s.real / abs(s)
+        amplification = 0.5 / ratio if ratio > 0 else np.inf
+    if not amplification >= 2.5:
+        return 0.0
+    grows = 0.17 * (1 - 1 / (amplification - 1.5))
+    return min(0.16, grows) if below else min(0.26, 0.1 + grows)
