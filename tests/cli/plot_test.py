@@ -24,18 +24,15 @@ class Plot(ProgramTest):
             self.assertTrue(self.bytes_of(f"blade.{ending}").startswith(beginning), ending)
 
     def test_the_same_files_give_the_same_bytes(self):
-        for ending in BEGINNINGS:
-            self.run_well("plot", "loci.h5", "-o", f"a.{ending}")
-            self.run_well("plot", "loci.h5", "-o", f"b.{ending}")
-            self.assertEqual(self.bytes_of(f"a.{ending}"), self.bytes_of(f"b.{ending}"), ending)
+        self.run_well("plot", "loci.h5", "-o", "a.svg")
+        self.run_well("plot", "loci.h5", "-o", "b.svg")
+        self.assertEqual(self.bytes_of("a.svg"), self.bytes_of("b.svg"))
 
-    def test_every_kind_of_picture(self):
+    def test_options_reach_the_picture(self):
         made = {self.run_well("plot", "loci.h5", "-o", f"{i}.svg", "-q", *options) + self.bytes_of(f"{i}.svg").decode()
-                for i, options in enumerate([
-                    (), ("--kind", "root-locus"), ("--kind", "damping"), ("--kind", "shape", "--at", "40", "--mode", "2"),
-                    ("--kind", "shape", "--at", "40", "--mode", "2", "--view", "xz"), ("--harmonics", "1,2", "--unit", "Hz"),
-                    ("--log",), ("--size", "5x4")])}
-        self.assertEqual(len(made), 8)
+                for i, options in enumerate([(), ("--kind", "shape", "--at", "40", "--mode", "2", "--view", "xz"),
+                                             ("--harmonics", "1,2", "--unit", "Hz", "--log", "--size", "5x4")])}
+        self.assertEqual(len(made), 3)
 
     def test_planes_and_studies(self):
         scene = SCENES / "rotating_mass.toml"
@@ -44,11 +41,8 @@ class Plot(ProgramTest):
         self.run_well("map", scene, *window, "--grid", "5x6", "-o", "map.h5")
         self.run_well("accuracy", scene, "--tolerances", "1e-3", "--orders", "2", "--grids", "25", "--repeat", "1",
                       "-o", "study.h5")
-        for files in (("map.h5", "flutter.h5"), ("flutter.h5",), ("study.h5",)):
+        for files in (("map.h5", "flutter.h5"), ("study.h5",)):
             self.run_well("plot", *files, "-o", "picture.svg", "--force")
-        self.assert_refused(self.run_program("plot", "flutter.h5", "flutter.h5", "-o", "x.svg"), ["one map, one boundary"])
-        self.assert_refused(self.run_program("plot", "loci.h5", "map.h5", "-o", "x.svg"),
-                            ["map.h5", "campbell", "eigentrail-map"])
 
     def test_the_default_name(self):
         self.run_well("plot", "loci.h5")
@@ -66,21 +60,12 @@ class Plot(ProgramTest):
             (("-o", "x.jpg"), ["x.jpg", ".svg, .pdf, .png"]),
             (("-o", "x.html"), [".svg, .pdf, .png", "eigentrail report"]),
             (("-o", "x.svg", "--kind", "plane"), ["loci.h5", "needs a file of the kind map or boundary"]),
-            (("-o", "x.svg", "--mode", "1"), ["--mode", "campbell"]),
-            (("-o", "x.svg", "--unit", "V"), ["unit='V'", "rpm"]),
-            (("-o", "x.svg", "--harmonics", "0"), ["positive"]),
-            (("-o", "x.svg", "--kind", "shape", "--mode", "7"), ["numbers 1 to 2"]),
-            (("-o", "x.svg", "--kind", "shape", "--at", "400"), ["--at 400", "from 5 to 100"]),
+            (("-o", "x.svg", "--kind", "pie"), ["--kind", "campbell"]),
             (("-o", "nowhere/x.svg"), ["folder nowhere does not exist"]),
         ]:
             with self.subTest(options):
                 self.assert_refused(self.run_program("plot", "loci.h5", *options), fragments)
         self.assert_refused(self.run_program("plot", "nothing.h5", "-o", "x.svg"), ["nothing.h5", "No such file"])
-        self.assert_refused(self.run_program("plot", "scene.toml", "-o", "x.svg"), ["scene.toml"])
-        for options in (("--harmonics", "one"), ("--size", "9"), ("--at", "fast")):
-            run = self.run_program("plot", "loci.h5", "-o", "x.svg", *options)
-            self.assertEqual(run.returncode, EXIT_BAD_INPUT)
-            self.assertIn(options[0], run.stderr)
         self.assertFalse((self.folder / "x.svg").exists())
 
     def test_without_python_it_says_what_to_install(self):

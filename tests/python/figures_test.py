@@ -1,11 +1,14 @@
 """Figures: what they show agrees with the dense output, and texts do not lie on each other. Both libraries draw the same."""
 
+import contextlib
+import io
 import sys
 import unittest
 from unittest import mock
 
 import eigentrail
 import numpy as np
+from eigentrail import plot
 from eigentrail.figures import planes, separation, shapes, studies, trace_figures, with_matplotlib
 from eigentrail.figures.labels import HEIGHT, text_width
 from eigentrail.figures.picture import Area, Cells, Label, Line, Marks, Span
@@ -385,6 +388,55 @@ class Planes(FigureTest):
         self.boundary.attrs["second_parameter"] = "drag"
         with self.assertRaisesRegex(ValueError, "over omega and a_n, found omega and drag"):
             self.map.eigentrail.plane(self.boundary)
+
+
+class PlotCommand(FigureTest):
+    """What `eigentrail plot` runs."""
+
+    def plot(self, *arguments):
+        """Exit code and what is said on stderr."""
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            code = plot.main([str(argument) for argument in arguments])
+        return code, said.getvalue()
+
+    def test_every_kind_of_a_trace(self):
+        self.traced(SCENES / "rotating_mass.toml")
+        file = self.folder / "loci.h5"
+        pictures = set()
+        for i, kind in enumerate(("campbell", "root-locus", "damping", "shape")):
+            self.assertEqual(self.plot(file, "-o", self.folder / f"{i}.svg", "--kind", kind), (0, ""))
+            pictures.add((self.folder / f"{i}.svg").read_bytes())
+        self.assertEqual(len(pictures), 4)
+
+    def test_what_is_refused(self):
+        self.traced(SCENES / "rotating_mass.toml")
+        file, output = self.folder / "loci.h5", self.folder / "x.svg"
+        self.write("notes.txt", "no file of HDF5")
+        for arguments, fragments in [
+            ((file, "--kind", "plane"), ["needs a file of the kind map or boundary, found eigentrail-loci"]),
+            ((file, "--kind", "accuracy"), ["needs a file of the kind accuracy"]),
+            ((file, file), ["shows one file, found 2", "eigentrail report"]),
+            ((file, "--mode", "1"), ["--mode: a picture of the kind campbell has no use for it"]),
+            ((file, "--kind", "damping", "--unit", "Hz"), ["--unit"]),
+            ((file, "--unit", "V"), ["unit='V'", "rpm"]),
+            ((file, "--harmonics", "0"), ["positive"]),
+            ((file, "--harmonics", "one"), ["--harmonics", "1,2"]),
+            ((file, "--size", "9"), ["--size", "9x6"]),
+            ((file, "--kind", "shape", "--mode", "7"), ["numbers 1 to 2"]),
+            ((file, "--kind", "shape", "--mode", "torsion"), ["'lag', 'flap'"]),
+            ((file, "--kind", "shape", "--view", "top"), ["'3D', 'xy'"]),
+            ((file, "--kind", "shape", "--at", "400"), ["--at 400", "from 5 to 100"]),
+            ((self.folder / "nothing.h5",), ["nothing.h5: No such file"]),
+            ((self.folder / "notes.txt",), ["notes.txt: is no readable file of eigentrail"]),
+        ]:
+            with self.subTest(arguments):
+                code, said = self.plot(*arguments, "-o", output)
+                self.assertEqual((code, said.count("\n"), said[:12]), (2, 1, "eigentrail: "), said)
+                for fragment in fragments:
+                    self.assertIn(fragment, said)
+        self.assertEqual(self.plot(file, "-o", self.folder / "x.jpg")[0], 2)
+        self.assertFalse(output.exists())
 
 
 class Studies(FigureTest):

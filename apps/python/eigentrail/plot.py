@@ -26,8 +26,8 @@ class BadInput(ValueError):
 
 def main(arguments=None):
     """Draws and returns the exit code."""
-    options = _parser().parse_args(arguments)
     try:
+        options = _parser().parse_args(arguments)
         kind = _suffix(options.output)
         picture = picture_of([_opened(path) for path in options.files], options)
         files.replace(options.output, with_matplotlib.image(picture, kind, __version__))
@@ -129,8 +129,13 @@ def _mode(text):
     return int(text) if text.isdigit() else text
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message.removeprefix("argument "))
+
+
 def _parser():
-    parser = argparse.ArgumentParser(prog="eigentrail plot", description="Draws files of eigentrail into a picture.")
+    parser = _Parser(prog="eigentrail plot", description="Draws files of eigentrail into a picture.")
     parser.add_argument("files", nargs="+", metavar="FILE")
     parser.add_argument("-o", "--output", required=True)
     parser.add_argument("--kind", choices=KINDS)
