@@ -13,7 +13,7 @@ from eigentrail.figures import planes, separation, shapes, studies, trace_figure
 from eigentrail.figures.labels import HEIGHT, text_width
 from eigentrail.figures.picture import Area, Cells, Label, Line, Marks, Span
 
-from families import oscillators
+from families import family, oscillators
 from program import BIRTH, PUSHED_PENDULUM, SCENES, ProgramTest, edited
 
 DRAWN = 1e-3  # a curve lies nearer to its polygon than this share of the axis
@@ -213,6 +213,13 @@ class Paths(FigureTest):
         self.assertEqual({text for text in self.texts(panel) if text.isdigit()}, {str(i + 1) for i in range(60)})
         self.assert_apart(panel)
 
+    def test_short_lines_of_a_root_locus_have_their_numbers_too(self):
+        i = np.arange(1.0, 21.0)
+        loci = self.traced(family(0, 1, M=[np.eye(20)], C=[np.diag(i)], K=[np.diag(100 * i**2), np.diag(i)]))
+        panel = trace_figures.root_locus_picture(loci).panels[0]
+        self.assertEqual({text for text in self.texts(panel) if text.isdigit()}, {str(k + 1) for k in range(20)})
+        self.assert_apart(panel)
+
 
 class Harmonics(FigureTest):
     def setUp(self):
@@ -409,6 +416,15 @@ class PlotCommand(FigureTest):
             pictures.add((self.folder / f"{i}.svg").read_bytes())
         self.assertEqual(len(pictures), 4)
 
+    def test_places_have_units(self):
+        self.traced(SCENES / "rotating_mass.toml")
+        images = []
+        for name, at in (("a.svg", "10 Hz"), ("b.svg", "62.8 rad/s"), ("c.svg", "600 rpm"), ("d.svg", "20")):
+            code = self.plot(self.folder / "loci.h5", "-o", self.folder / name, "--kind", "shape", "--at", at)
+            self.assertEqual(code, (0, ""))
+            images.append((self.folder / name).read_bytes())
+        self.assertEqual([image == images[0] for image in images], [True, True, True, False])
+
     def test_what_is_refused(self):
         self.traced(SCENES / "rotating_mass.toml")
         file, output = self.folder / "loci.h5", self.folder / "x.svg"
@@ -427,6 +443,9 @@ class PlotCommand(FigureTest):
             ((file, "--kind", "shape", "--mode", "torsion"), ["'lag', 'flap'"]),
             ((file, "--kind", "shape", "--view", "top"), ["'3D', 'xy'"]),
             ((file, "--kind", "shape", "--at", "400"), ["--at 400", "from 5 to 100"]),
+            ((file, "--kind", "shape", "--at", "100 Hz"), ["--at 100 Hz", "from 5 to 100"]),
+            ((file, "--kind", "shape", "--at", "fast"), ["--at 'fast'", "a number"]),
+            ((file, "--kind", "shape", "--at", "10 m"), ["--at '10 m'", "'rad/s'"]),
             ((self.folder / "nothing.h5",), ["nothing.h5: No such file"]),
             ((self.folder / "notes.txt",), ["notes.txt: is no readable file of eigentrail"]),
         ]:

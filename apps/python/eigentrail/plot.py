@@ -12,6 +12,7 @@ import sys
 
 from . import files
 from .figures import planes, shapes, studies, trace_figures, with_matplotlib
+from .figures.style import ANGULAR
 from .version import __version__
 
 KINDS = {"campbell": "loci", "root-locus": "loci", "damping": "loci", "shape": "loci", "plane": "map or boundary",
@@ -97,9 +98,25 @@ def _place(loci, at):
     values = loci[loci.attrs["parameter"]].values
     if at is None:
         return float(values[0])
-    if not values.min() <= at <= values.max():
-        raise BadInput(f"--at {at:g}: {loci.attrs['parameter']} was traced from {values.min():.15g} to {values.max():.15g}")
-    return at
+    value = _with_unit(at, loci[loci.attrs["parameter"]].attrs.get("units", "1"))
+    if not values.min() <= value <= values.max():
+        raise BadInput(f"--at {at}: {loci.attrs['parameter']} was traced from {values.min():.15g} to {values.max():.15g}")
+    return value
+
+
+def _with_unit(text, unit):
+    """A value in the unit of the parameter: "40", or "100 rpm" where both are angular velocities or frequencies."""
+    number, _, own = text.strip().partition(" ")
+    try:
+        value = float(number)
+    except ValueError:
+        raise BadInput(f"--at {text!r}: expected a number") from None
+    own = own.strip()
+    if own in ("", unit):
+        return value
+    if own not in ANGULAR or unit not in ANGULAR:
+        raise BadInput(f"--at {text!r}: the unit of the parameter is {unit!r}, which {own!r} does not fit")
+    return value * ANGULAR[own] / ANGULAR[unit]
 
 
 def _suffix(path):
@@ -142,7 +159,7 @@ def _parser():
     parser.add_argument("--harmonics", type=_numbers)
     parser.add_argument("--unit")
     parser.add_argument("--mode", type=_mode)
-    parser.add_argument("--at", type=float)
+    parser.add_argument("--at")
     parser.add_argument("--view", default="3D")
     parser.add_argument("--log", action="store_true")
     parser.add_argument("--size", type=_size)

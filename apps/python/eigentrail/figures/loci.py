@@ -152,7 +152,7 @@ class LociFigure:
             texts = room.on_line(panel.x.value(np.interp(places, along, px) / right),
                                  panel.y.value(np.interp(places, along, py) / top), str(mode + 1), SMALL, mode_colour(mode))
             if not texts:
-                beside = room.beside(panel.x.value(px[-1] / right), panel.y.value(py[-1] / top), str(mode + 1), SMALL, 3,
+                beside = room.beside(panel.x.value(px[-1] / right), panel.y.value(py[-1] / top), str(mode + 1), SMALL, 5,
                                      mode_colour(mode))
                 texts = [beside] if beside else []
             panel.items.extend(texts)
