@@ -5,7 +5,6 @@ import json
 import math
 import unittest
 
-import h5py
 import numpy as np
 
 from command_test_case import CommandTest
@@ -56,7 +55,8 @@ class Export(CommandTest):
         expected = self.eval_rows("loci.h5", values)  # both passages at the values before the fold
         self.assertEqual(len(rows), len(expected))
         for row, (p, mode, s) in zip(rows, expected):
-            self.assertEqual((float(row["p"]), "mode " + row["mode"], complex(float(row["real"]), float(row["imag"]))), (p, mode, s))
+            found = complex(float(row["real"]), float(row["imag"]))
+            self.assertEqual((float(row["p"]), "mode " + row["mode"], found), (p, mode, s))
         self.assertGreater(len({row["place"] for row in rows}), 7)
 
     def test_events_have_all_columns(self):
@@ -99,7 +99,8 @@ class Export(CommandTest):
             mode = self.column(rows, "mode").astype(int) - 1
             for name in ("interpolation_error", "digits_error"):
                 np.testing.assert_array_equal(self.column(rows, name), file[name][()][step, mode])
-            intervals = np.column_stack([self.column(self.table("tables/events.csv"), f"interval_{end}") for end in ("from", "to")])
+            events = self.table("tables/events.csv")
+            intervals = np.column_stack([self.column(events, f"interval_{end}") for end in ("from", "to")])
             np.testing.assert_array_equal(intervals, file["event_interval"][()])
 
     def test_json_has_the_same_tables(self):

@@ -42,11 +42,13 @@ class Plot(ProgramTest):
         window = ("--second", "a_n", "--from", "200", "--to", "3000", "--quiet")
         self.run_well("boundary", scene, *window, "-o", "flutter.h5")
         self.run_well("map", scene, *window, "--grid", "5x6", "-o", "map.h5")
-        self.run_well("accuracy", scene, "--tolerances", "1e-3", "--orders", "2", "--grids", "25", "--repeat", "1", "-o", "study.h5")
+        self.run_well("accuracy", scene, "--tolerances", "1e-3", "--orders", "2", "--grids", "25", "--repeat", "1",
+                      "-o", "study.h5")
         for files in (("map.h5", "flutter.h5"), ("flutter.h5",), ("study.h5",)):
             self.run_well("plot", *files, "-o", "picture.svg", "--force")
         self.assert_refused(self.run_program("plot", "flutter.h5", "flutter.h5", "-o", "x.svg"), ["one map, one boundary"])
-        self.assert_refused(self.run_program("plot", "loci.h5", "map.h5", "-o", "x.svg"), ["map.h5", "campbell", "eigentrail-map"])
+        self.assert_refused(self.run_program("plot", "loci.h5", "map.h5", "-o", "x.svg"),
+                            ["map.h5", "campbell", "eigentrail-map"])
 
     def test_the_default_name(self):
         self.run_well("plot", "loci.h5")
@@ -82,7 +84,8 @@ class Plot(ProgramTest):
         self.assertFalse((self.folder / "x.svg").exists())
 
     def test_without_python_it_says_what_to_install(self):
-        for python, words in (("/nowhere/python3", "apt install python3-matplotlib"), (self.without_matplotlib(), "no matplotlib")):
+        for python, words in (("/nowhere/python3", "apt install python3-matplotlib"),
+                              (self.without_matplotlib(), "no matplotlib")):
             run = subprocess.run([PROGRAM, "plot", "loci.h5", "-o", "x.svg"], cwd=self.folder, capture_output=True, text=True,
                                  timeout=TIME_LIMIT, env={**os.environ, "EIGENTRAIL_PYTHON": str(python)})
             self.assertEqual(run.returncode, EXIT_BAD_INPUT)

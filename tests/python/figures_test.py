@@ -189,6 +189,20 @@ class Paths(FigureTest):
                          {"mode 1": "solid", "mode 2": "dot", "mode 3": "solid", "mode 4": "dot"})
         self.assertIn("backward whirl", [entry.legend for entry in picture.legend])
 
+    def test_a_rotor_has_whirl_and_a_bent_shaft(self):
+        loci = self.traced(SCENES / "two_disc_rotor.toml")
+        panel = trace_figures.campbell_picture(loci).panels[0]
+        dots = {line.name for line in self.lines(panel) if line.dash == "dot"}
+        backward = {f"mode {i + 1}" for i, name in enumerate(loci.mode_name.values) if "backward" in str(name)}
+        self.assertEqual(dots, backward & {line.name for line in self.lines(panel)})
+        self.assertIn("3 backward conical", self.texts(panel))
+        (panel,) = shapes.shape_picture(loci, 4500, 4).panels  # circles: x is as large as y, a quarter period apart
+        lines = {line.name: line for line in panel.of(Line) if line.name != "axis"}
+        self.assertEqual(len(lines), 2)
+        np.testing.assert_allclose(*(np.abs(line.y) for line in lines.values()), atol=1e-6)
+        for line in lines.values():
+            np.testing.assert_allclose(line.x, np.linspace(0, 1.5, 7), atol=1e-12)
+
     def test_sixty_modes_can_be_told_apart(self):
         rng = np.random.default_rng(7)
         loci = self.traced(oscillators(np.linspace(8, 60, 60) ** 2, rng.uniform(-5, 60, 60)), "--tolerance", "1e-5")
@@ -351,8 +365,8 @@ class Planes(FigureTest):
 
 class Studies(FigureTest):
     def test_a_line_per_method_and_order(self):
-        self.run_well("accuracy", SCENES / "rotating_mass.toml", "--tolerances", "1e-3,1e-5", "--orders", "2,3", "--grids", "25",
-                      "--repeat", "1", "-o", "study.h5")
+        self.run_well("accuracy", SCENES / "rotating_mass.toml", "--tolerances", "1e-3,1e-5", "--orders", "2,3",
+                      "--grids", "25", "--repeat", "1", "-o", "study.h5")
         study = eigentrail.open(self.folder / "study.h5")
         (panel,) = studies.work_precision_picture(study, "points").panels
         (line,) = [item for item in panel.of(Line) if item.name == "eigentrail, order 3"]

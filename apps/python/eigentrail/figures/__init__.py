@@ -5,11 +5,17 @@ are imported when a figure is drawn.
 """
 
 from importlib import import_module
+from typing import Any, Optional, Sequence, Union
 
+import xarray
+
+from .picture import Picture
+
+Size = Optional[tuple[float, float]]
 BACKENDS = {"plotly": "with_plotly", "matplotlib": "with_matplotlib"}
 
 
-def drawn(picture, backend):
+def drawn(picture: Picture, backend: str) -> Any:
     """The figure of a library."""
     if backend not in BACKENDS:
         raise ValueError(f"backend={backend!r}: expected one of {', '.join(map(repr, BACKENDS))}")
@@ -22,7 +28,16 @@ class Figures:
     `size`: width and height in inches.
     """
 
-    def campbell(self, harmonics=None, unit=None, backend="plotly", log=False, size=None):
+    _data: xarray.Dataset
+
+    def _of(self, kind: str) -> xarray.Dataset:
+        raise NotImplementedError  # of the accessor
+
+    def _wanted(self, at: Any) -> Any:
+        raise NotImplementedError  # of the accessor
+
+    def campbell(self, harmonics: Optional[Sequence[float]] = None, unit: Optional[str] = None, backend: str = "plotly",
+                 log: bool = False, size: Size = None) -> Any:
         """Campbell diagram: damped frequency over the parameter, the damping ratio (percent) below.
 
         `harmonics`: multiples of the excitation frequency to draw as rays; by default those of the scene, an empty list for
@@ -31,17 +46,18 @@ class Figures:
         from .trace_figures import campbell_picture
         return drawn(campbell_picture(self._of("loci"), harmonics, unit, log, size), backend)
 
-    def root_locus(self, unit=None, backend="plotly", size=None):
+    def root_locus(self, unit: Optional[str] = None, backend: str = "plotly", size: Size = None) -> Any:
         """Im s (in `unit`) over Re s (1/s); a ring where a mode begins, a dot where it ends."""
         from .trace_figures import root_locus_picture
         return drawn(root_locus_picture(self._of("loci"), unit, size), backend)
 
-    def damping(self, backend="plotly", size=None):
+    def damping(self, backend: str = "plotly", size: Size = None) -> Any:
         """Damping ratio (percent) of oscillating modes over the parameter."""
         from .trace_figures import damping_picture
         return drawn(damping_picture(self._of("loci"), size), backend)
 
-    def mode_shape(self, mode, view="3D", backend="plotly", size=None, **at):
+    def mode_shape(self, mode: Union[int, str], view: str = "3D", backend: str = "plotly", size: Size = None,
+                   **at: float) -> Any:
         """The shape of a mode at the stored point nearest to a value of the parameter: mode_shape(omega=120, mode=3).
 
         `mode`: number from 1, label or name. Scenes of points and bodies are drawn as on the report page, displaced where the
@@ -50,14 +66,15 @@ class Figures:
         from .shapes import shape_picture
         return drawn(shape_picture(self._of("loci"), self._wanted(at), mode, view, size), backend)
 
-    def plane(self, boundary=None, backend="plotly", size=None):
+    def plane(self, boundary: Optional[xarray.Dataset] = None, backend: str = "plotly", size: Size = None) -> Any:
         """The plane of two parameters: the cells of a map file by their growing modes, with the located events on its lines;
         the curves of a boundary file. `boundary`: Dataset of a boundary file to draw on a map."""
         from .planes import plane_picture
         data = self._data if self._data.attrs.get("format") == "eigentrail-boundary" else self._of("map")
         return drawn(plane_picture(data, boundary, size), backend)
 
-    def work_precision(self, work="wall_time", backend="plotly", size=None):
-        """Largest relative error over the work of all runs of an accuracy study; `work`: wall_time (s), factorizations, points."""
+    def work_precision(self, work: str = "wall_time", backend: str = "plotly", size: Size = None) -> Any:
+        """Largest relative error over the work of all runs of an accuracy study. `work`: wall_time (s), factorizations or
+        points."""
         from .studies import work_precision_picture
         return drawn(work_precision_picture(self._of("accuracy"), work, size), backend)

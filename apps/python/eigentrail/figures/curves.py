@@ -7,6 +7,7 @@ from ..interpolation import TwoPointTaylor
 from .style import SAME_AS_ZERO
 
 FIRST_PLACES = 5       # of each step before it is refined
+MANY_STEPS = 300       # more steps than this have three places at first
 MOST_REFINEMENTS = 7
 BENT = 4e-4            # largest distance of a curve from its polygon, as a share of the usual range
 BISECTIONS = 50
@@ -81,7 +82,7 @@ class Curves:
 
     def _refine(self):
         steps = self._loci.sizes["step"]
-        places = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, FIRST_PLACES))
+        places = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, FIRST_PLACES if steps <= MANY_STEPS else 3))
         step, t = np.repeat(np.arange(steps), len(places)), np.tile(places, steps)
         s, p = self.eigenvalues(step, t)
         new = np.ones(len(t), bool)

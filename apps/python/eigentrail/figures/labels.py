@@ -6,8 +6,9 @@ from .picture import Label, Line, Marks
 
 CHARACTER = 0.6   # width of a character, as a share of the size of the text
 HEIGHT = 1.15     # of a line of text
-SIDES = [("center", 0, 1), ("center", 0, -1), ("left", 1, 0), ("right", -1, 0), ("left", 1, 1), ("right", -1, 1), ("left", 1, -1),
-         ("right", -1, -1)]
+SIDES = [("center", 0, 1), ("center", 0, -1), ("left", 1, 0), ("right", -1, 0), ("left", 1, 1), ("right", -1, 1),
+         ("left", 1, -1), ("right", -1, -1)]
+GAP = 3.0         # points between texts beside each other
 SPACING = 3.0     # points between the places of a line that are kept free
 
 
@@ -22,9 +23,9 @@ class Room:
     def __init__(self, panel):
         self._panel = panel
         self._boxes = np.empty((0, 4))
-        self._dots = np.empty((0, 2))
-        for line in panel.of(Line):
-            self._dots = np.vstack([self._dots, _along(*panel.place(line.x, line.y))])
+        dots = np.vstack([np.empty((0, 2)), *(_along(*panel.place(line.x, line.y)) for line in panel.of(Line))])
+        self._dots = dots[np.isfinite(dots).all(axis=1)]
+        self._dots = self._dots[np.argsort(self._dots[:, 0])]  # so that those under a box are found fast
         for marks in panel.of(Marks):
             x, y = panel.place(marks.x, marks.y)
             half = 0.5 * marks.size + 1
@@ -47,15 +48,16 @@ class Room:
     def covered(self, box):
         """Number of places of lines under a box."""
         left, right, bottom, top = box
-        x, y = self._dots.T
-        return int(np.sum((x > left) & (x < right) & (y > bottom) & (y < top)))
+        begin, end = np.searchsorted(self._dots[:, 0], (left, right))
+        y = self._dots[begin:end, 1]
+        return int(np.sum((y > bottom) & (y < top)))
 
     def beside(self, x, y, text, size, distance, colour="#1a1a1a"):
         """A label on the side of a place (data coordinates) that covers least; None where all sides are taken."""
         px, py = self._panel.place(x, y)
         if not (np.isfinite(px) and np.isfinite(py)):
             return None
-        width, height = text_width(text, size), HEIGHT * size
+        width, height = text_width(text, size) + GAP, HEIGHT * size
         best = None
         for align, dx, dy in SIDES:
             left = px + (dx * distance if dx else -width / 2) - (width if align == "right" else 0)
@@ -65,7 +67,8 @@ class Room:
                 continue
             cost = self.covered(box)
             if best is None or cost < best[0]:
-                best = (cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py, halo=cost > 0))
+                best = (cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py,
+                                         halo=cost > 0))
         if best is None:
             return None
         self.take(best[1])

@@ -10,6 +10,7 @@ from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, mode
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
 MOST_NAMES_LISTED = 80
+MANY = 30              # more modes than this have thin lines
 NAME, SMALL = 8.0, 7.0  # sizes of texts in points
 LONGEST_NAME = 26
 MARKS_PER_LINE = 4
@@ -62,7 +63,8 @@ class LociFigure:
             for style, dash in DASH.items():
                 line = parts(across, up, styles, style)
                 if len(line[0]):
-                    panel.items.append(Line(*line, mode_colour(mode), 1.6 if len(modes) <= 30 else 1.1, dash, f"mode {mode + 1}"))
+                    width = 1.6 if len(modes) <= MANY else 1.1
+                    panel.items.append(Line(*line, mode_colour(mode), width, dash, f"mode {mode + 1}"))
                     if style in STYLE_WORDS:
                         self.explain(Line([], [], GREY, 1.4, dash, legend=STYLE_WORDS[style]))
             if 1 < len(modes) <= MOST_NAMED:
@@ -129,8 +131,8 @@ class LociFigure:
         px, py = px[order], py[order]
         along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
         for place in np.arange(along[-1], 0.3 * along[-1] - 1e-9, -max(HEIGHT * NAME, 0.02 * along[-1])):
-            label = room.beside(panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top),
-                                self.short_name(mode), NAME, 4, mode_colour(mode))
+            x, y = (panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top))
+            label = room.beside(x, y, self.short_name(mode), NAME, 4, mode_colour(mode))
             if label:
                 panel.items.append(label)
                 return
@@ -176,8 +178,8 @@ class LociFigure:
         width, height = panel.points
         for column, members in enumerate(self._listed(modes)):
             for row, mode in enumerate(members):
-                panel.items.append(Label(panel.x.value(1.0), panel.y.value(1.0), self.short_name(mode), mode_colour(mode), SMALL,
-                                         "left", 8 + column * self._column(modes), -(row + 0.5) * HEIGHT * SMALL))
+                panel.items.append(Label(panel.x.value(1.0), panel.y.value(1.0), self.short_name(mode), mode_colour(mode),
+                                         SMALL, "left", 8 + column * self._column(modes), -(row + 0.5) * HEIGHT * SMALL))
 
     # Events, ranges, rays.
 

@@ -3,9 +3,10 @@
 import numpy as np
 
 from ..boundary import curve as smooth_curve
+from .curves import parts
 from .labels import Room
 from .loci import BOTTOM, LEFT, LEGEND_ROW, NAME, RIGHT, TITLE, TOP, legend_grid
-from .picture import Area, Axis, Cells, Label, Line, Marks, Picture
+from .picture import Area, Axis, Cells, Line, Marks, Picture
 from .style import INK, with_unit
 
 # Names and colours of cells: by the number of growing modes, as on the report page.
@@ -31,7 +32,7 @@ def plane_picture(data, boundary=None, size=None):
     legend = (_cell_legend(data) if is_map else []) + [entry for one in curves for entry in _curve_legend(one)]
     picture.legend_columns, rows = legend_grid([entry.legend for entry in legend], picture.width - LEFT)
     top = picture.height - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * rows
-    axes = [Axis(with_unit(name, data[name].attrs.get("units", "1")), *ends) for name, ends in zip(names, _window(data, curves))]
+    axes = [Axis(with_unit(name, data[name].attrs.get("units", "1")), *ends) for name, ends in zip(names, _window(data, names))]
     panel = picture.add(LEFT + 0.15, BOTTOM, picture.width - RIGHT, top, *axes)
     if is_map:
         _add_map(panel, data, names)
@@ -41,16 +42,14 @@ def plane_picture(data, boundary=None, size=None):
     return picture
 
 
-def _window(data, curves):
+def _window(data, names):
     """Ranges of both axes: those of the map, or the window of the boundary."""
     if data.attrs["format"] == "eigentrail-map":
-        return [(float(data[name].min()), float(data[name].max())) for name in (data.attrs["parameter"], data.attrs["second_parameter"])]
-    attributes = data.attrs
-    keys = (("option_from", "option_to"), ("second_from", "second_to"))
+        return [(float(data[name].min()), float(data[name].max())) for name in names]
     ends = []
-    for name, (begin, end) in zip((attributes["parameter"], attributes["second_parameter"]), keys):
+    for name, (begin, end) in zip(names, (("option_from", "option_to"), ("second_from", "second_to"))):
         try:
-            low, high = sorted((float(attributes[begin]), float(attributes[end])))
+            low, high = sorted((float(data.attrs[begin]), float(data.attrs[end])))
         except (KeyError, ValueError):
             low, high = (float(data[name].min()), float(data[name].max())) if data.sizes["point"] else (0.0, 1.0)
         ends.append((low - OUTSIDE * (high - low), high + OUTSIDE * (high - low)))
@@ -66,8 +65,8 @@ def _kinds(data):
 def _add_map(panel, data, names):
     x, y = (np.argsort(data[name].values) for name in names)
     kinds = data.unstable.copy(data=_kinds(data)).transpose(names[1], names[0]).values
-    panel.items.append(Cells(data[names[0]].values[x], data[names[1]].values[y], kinds[np.ix_(y, x)], [colour for _, colour in CELLS],
-                             [name for name, _ in CELLS]))
+    panel.items.append(Cells(data[names[0]].values[x], data[names[1]].values[y], kinds[np.ix_(y, x)],
+                             [colour for _, colour in CELLS], [name for name, _ in CELLS]))
     if data.sizes.get("axis_point", 0):
         panel.items.append(Marks(data.axis_parameter.values, data[names[1]].values[data.axis_line.values], "circle", INK, 3.0,
                                  "located events", [str(kind) for kind in data.axis_kind.values]))
@@ -82,7 +81,8 @@ def _cell_legend(data):
 
 
 def _curve_legend(data):
-    entries = [Line([], [], CURVES.get(kind, INK), 2.2, legend=kind.replace("_", " ")) for kind in dict.fromkeys(map(str, data.curve_kind.values))]
+    kinds = dict.fromkeys(map(str, data.curve_kind.values))
+    entries = [Line([], [], CURVES.get(kind, INK), 2.2, legend=kind.replace("_", " ")) for kind in kinds]
     if data.sizes["point"] and (data.other_unstable.values > 0).any():
         entries.append(Line([], [], "#777777", 1.2, "dash", legend="others grow already"))
     if data.sizes["corner"]:
@@ -103,20 +103,15 @@ def _add_curves(panel, data, names):
         step = np.minimum(np.arange(len(x) - 1) // POINTS_PER_STEP, steps - 1)
         bounds = (np.minimum(others[step], others[step + 1]) == 0)
         for on, width, dash in ((True, 2.2, "solid"), (False, 1.2, "dash")):
-            parts = _joined(x, y, bounds == on)
-            if len(parts[0]):
-                panel.items.append(Line(*parts, CURVES.get(kind, INK), width, dash, f"{kind} {curve + 1}"))
+            line_parts = parts(x, y, (bounds == on).astype(int), 1)
+            if len(line_parts[0]):
+                panel.items.append(Line(*line_parts, CURVES.get(kind, INK), width, dash, f"{kind} {curve + 1}"))
     if data.sizes["corner"]:
         corners = data.corner_parameter.values
-        panel.items.append(Marks(corners[:, 0], corners[:, 1], "diamond-open", INK, 6.0, "corner", [str(kind) for kind in data.corner_kind.values]))
+        panel.items.append(Marks(corners[:, 0], corners[:, 1], "diamond-open", INK, 6.0, "corner",
+                                 [str(kind) for kind in data.corner_kind.values]))
         room = Room(panel)
         for (x, y), kind in zip(corners, data.corner_kind.values):
             label = room.beside(x, y, str(kind).replace("takens_bogdanov", "Takens\u2013Bogdanov"), NAME, 5)
             if label:
                 panel.items.append(label)
-
-
-def _joined(x, y, segments):
-    """The polygon of the segments (n - 1) that are set, with NaN between its parts."""
-    from .curves import parts
-    return parts(x, y, segments.astype(int), 1)

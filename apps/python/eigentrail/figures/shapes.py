@@ -8,7 +8,7 @@ from .curves import damping_percent, without_rounding
 from .drawing import geometry
 from .labels import Room, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture
-from .style import ANGULAR, COLOURS, FAINT, GREY, INK, number, with_unit
+from .style import ANGULAR, COLOURS, FAINT, GREY, INK, number
 
 # Turns of the view about the vertical axis and its tilt, in radians, as on the report page.
 VIEWS = {"3D": (-0.6, 0.42), "xy": (0.0, np.pi / 2), "xz": (0.0, 0.0), "yz": (-np.pi / 2, 0.0)}
@@ -117,7 +117,8 @@ class _Carriers:
     def scale(self, shape):
         """Factor of the shape with which the largest displacement is a share of the radius."""
         moved = [self.at((shape * np.exp(1j * phase)).real) for phase in PHASES[:36]]
-        largest = max(np.linalg.norm(np.concatenate([origins, places]) - self.rest, axis=1).max() for origins, _, places in moved)
+        largest = max(np.linalg.norm(np.concatenate([origins, places]) - self.rest, axis=1).max()
+                      for origins, _, places in moved)
         radius = self.radius() if self.radius() > 1e-8 else 1.0
         return LARGEST * radius / largest if largest > 0 else 0.0
 
@@ -198,8 +199,10 @@ def _add_parts(panel, figure, positions, flat, ghost):
     for kind, begin, end in figure.lines:
         soft = any(word in kind for word in SOFT)
         line(places[begin], places[end], GREEN if soft else INK, 1.2 if soft else 1.7, "dash" if soft else "solid", kind)
-    dots([places[end] for kind, _, end in figure.lines if any(word in kind for word in JOINTS)], "circle-open", INK, 5.0, "joint")
-    dots([place for (carrier, _), place in zip(figure.places, places) if carrier is None], "circle-open", GREY, 5.0, "fixed place")
+    joints = [places[end] for kind, _, end in figure.lines if any(word in kind for word in JOINTS)]
+    dots(joints, "circle-open", INK, 5.0, "joint")
+    fixed = [place for (carrier, _), place in zip(figure.places, places) if carrier is None]
+    dots(fixed, "circle-open", GREY, 5.0, "fixed place")
     for origin, rows, body in zip(positions[0], axes, figure.body):
         for row, colour in zip(rows if body else (), (ORANGE, GREEN, PINK)):
             line(origin @ flat, (origin + 0.1 * figure.radius() * row) @ flat, colour, 1.2, name="axis of a body")
@@ -213,7 +216,8 @@ def _add_triad(panel, flat):
     for k, name in enumerate("xyz"):
         tip = 22 * flat[k]
         at = [(24 + part[0], 24 + part[1]) for part in ((0.0, 0.0), tip, 1.35 * tip)]
-        x, y = ([axis.value(place[i] / extent) for place in at] for i, (axis, extent) in enumerate(((panel.x, width), (panel.y, height))))
+        x = [panel.x.value(place[0] / width) for place in at]
+        y = [panel.y.value(place[1] / height) for place in at]
         if np.hypot(*tip) > 4:
             panel.items.append(Line(x[:2], y[:2], GREY, 1.0, name=f"direction {name}"))
             panel.items.append(Label(x[2], y[2], name, GREY, 8.0, "center"))
@@ -235,7 +239,7 @@ def _bent_axis(figure, shape, title, size):
 def _bent_shafts(loci, shape, title, size):
     """The same for the shafts of a rotor, whose coordinates "node 3: x" have places along the axis."""
     places = loci.coordinate_place.values
-    parts: dict[str, list[tuple[float, complex]]] = {}
+    parts = {}
     for name, place, value in zip(loci.coordinate.values, places, shape):
         if np.isfinite(place):
             before, direction = str(name).rsplit(": ", 1)
@@ -252,11 +256,11 @@ def _over_the_axis(parts, title, size):
     picture = Picture(*(size or (8.0, 4.2)), title=title)
     low, high = min(places.min() for _, places, _ in parts), max(places.max() for _, places, _ in parts)
     pad = 0.02 * (high - low)
-    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, Axis("place along the axis, m", low - pad, high + pad),
-                        Axis("displacement / largest", -1.12, 1.12))
+    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6,
+                        Axis("place along the axis, m", low - pad, high + pad), Axis("displacement / largest", -1.12, 1.12))
     panel.items.append(Line([low - pad, high + pad], [0, 0], GREY, 0.8, name="axis"))
-    for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
-        for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
+    for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
+        for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
             height = (turned * values).real / largest
             if np.abs(height).max() < NOTHING:
                 continue
@@ -276,7 +280,8 @@ def _bars(loci, shape, title, size):
     picture = Picture(*(size or (max(5.0, margin + 4.0), 1.1 + 0.19 * max(n, 4))), title=title)
     picture.legend_columns = 2
     axis = Axis("", n - 0.4, -0.6, ticks=list(enumerate(names)))
-    panel = picture.add(margin, 0.55, picture.width - 0.25, picture.height - 0.55, Axis("component / largest", -1.08, 1.08), axis)
+    panel = picture.add(margin, 0.55, picture.width - 0.25, picture.height - 0.55,
+                        Axis("component / largest", -1.08, 1.08), axis)
     for i, value in enumerate(shape):
         for low, high, opacity, name in ((-abs(value), abs(value), 0.18, "magnitude"), (0.0, value.real, 1.0, "real part")):
             panel.items.append(Area([low, high, high, low], [i - 0.32, i - 0.32, i + 0.32, i + 0.32], BLUE, opacity,
@@ -293,7 +298,10 @@ def _profile(shape, title, size):
     panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, Axis("number of the coordinate", 0, n + 1),
                         Axis("component / largest", -1.08, 1.08))
     where = np.arange(1, n + 1)
-    panel.items += [Area(np.concatenate([where, where[::-1]]), np.concatenate([np.abs(shape), -np.abs(shape[::-1])]), BLUE, 0.18,
-                         "magnitude"), Line([0, n + 1], [0, 0], GREY, 0.8, name="axis"), Line(where, shape.real, BLUE, 1.2, name="real part")]
+    size_of = np.abs(shape)
+    panel.items += [
+        Area(np.concatenate([where, where[::-1]]), np.concatenate([size_of, -size_of[::-1]]), BLUE, 0.18, "magnitude"),
+        Line([0, n + 1], [0, 0], GREY, 0.8, name="axis"),
+        Line(where, shape.real, BLUE, 1.2, name="real part")]
     picture.legend = [Line([], [], BLUE, 1.2, legend="real part"), Area([], [], BLUE, 0.18, legend="magnitude")]
     return picture

@@ -5,7 +5,7 @@ import numpy as np
 from .curves import damping_percent, oscillates, usual_range, with_ends
 from .drawing import excitation
 from .loci import BOTTOM, LEFT, MOST_NAMED, NAME, RIGHT, LociFigure, padded
-from .picture import Axis, Label, Line, Marks
+from .picture import Axis, Line, Marks
 from .style import ANGULAR, GREY, INK, mode_colour, number
 
 
@@ -196,7 +196,7 @@ def root_locus_picture(loci, unit=None, size=None):
     size_of_ends = 5.0 if len(ends) <= 40 else 3.5
     for pick, symbol in ((0, "circle-open"), (1, "circle")):
         at = [(real(mode)[piece[pick]], imag(mode)[piece[pick]]) for piece, mode in ends]
-        panel.items.append(Marks(*(np.array(values) for values in zip(*at)), symbol, INK, size_of_ends, "begins" if pick == 0 else "ends"))
+        panel.items.append(Marks(*(np.array(values) for values in zip(*at)), symbol, INK, size_of_ends, ("begins", "ends")[pick]))
     room = figure.add_events(panel, lambda p, s: (s.real, abs(s.imag) / figure.factor))
     if len(modes) <= MOST_NAMED:
         for (_, end), mode in ends:

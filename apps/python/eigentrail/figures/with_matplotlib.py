@@ -130,10 +130,12 @@ def _draw_span(axes, item):
 
 def _draw_label(axes, item):
     from matplotlib.patheffects import withStroke
-    axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align, va="center",
-                  fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5, parse_math=False,
-                  rotation_mode="anchor" if item.turn else "default", path_effects=[withStroke(linewidth=2, foreground="white")] if item.halo else None,
-                  bbox=dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85) if item.boxed else None)
+    more = {"path_effects": [withStroke(linewidth=2, foreground="white")]} if item.halo else {}
+    if item.boxed:
+        more["bbox"] = dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85)
+    axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align,
+                  va="center", fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5,
+                  parse_math=False, rotation_mode="anchor" if item.turn else "default", **more)
 
 
 def _draw_cells(axes, item):
@@ -182,7 +184,7 @@ def _draw_legend(figure, picture, left, top):
         panel = picture.panels[0]
         left, top, columns = panel.left + panel.width + 0.15 / picture.width, panel.bottom + panel.height, 1
     legend = figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(left, top), ncols=columns,
-                           frameon=False, borderaxespad=0, borderpad=0, fontsize=8, handlelength=2.6 if picture.legend_right else 1.7, handletextpad=0.5,
-                           columnspacing=1.4, labelspacing=0.35)
+                           frameon=False, borderaxespad=0, borderpad=0, fontsize=8, handletextpad=0.5,
+                           handlelength=2.6 if picture.legend_right else 1.7, columnspacing=1.4, labelspacing=0.35)
     for text in legend.get_texts():
         text.set_parse_math(False)

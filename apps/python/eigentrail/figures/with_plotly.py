@@ -72,8 +72,10 @@ def _ticks(axis):
 
 
 def _hover(panel, name):
-    return dict(hovertemplate=f"{plain(panel.x.title or 'x')}: %{{x:.6g}}<br>{plain(panel.y.title)}: %{{y:.6g}}<extra>{plain(name)}</extra>") \
-        if name else dict(hoverinfo="skip")
+    if not name:
+        return dict(hoverinfo="skip")
+    x, y = plain(panel.x.title or "x"), plain(panel.y.title)
+    return dict(hovertemplate=f"{x}: %{{x:.6g}}<br>{y}: %{{y:.6g}}<extra>{plain(name)}</extra>")
 
 
 def _draw_line(figure, go, item, axes, panel):
