@@ -20,6 +20,16 @@ struct BodyDraft {
   std::map<std::string, ExpressionVector> markers;  ///< in body axes
 };
 
+/// A beam: its nodes, with indices of Draft::masses, and its quadrature points in the order of the elements,
+/// with those of Draft::beam_sections.
+struct BeamDraft {
+  std::string name;
+  std::size_t first_mass = 0;
+  std::size_t n_nodes = 0;
+  std::size_t first_section = 0;
+  std::size_t n_sections = 0;
+};
+
 /// What a place or direction moves with: a body, a point, or neither (the frame).
 struct Carrier {
   int body = -1;
@@ -42,6 +52,8 @@ struct Draft {
   MultibodyData data;
   std::vector<std::string> points;  ///< points by triple; the bodies follow them
   std::vector<BodyDraft> bodies;
+  std::vector<BeamDraft> beams;
+  std::vector<BeamSection> beam_sections;
   std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of mass_names
   std::vector<std::string> mass_names;
   std::vector<Expression> guess;         ///< starting guess, one per coordinate of points and bodies
@@ -123,6 +135,9 @@ std::string numbered(std::string_view name, std::size_t index);
 
 /// Directions may be of any length, in any unit.
 inline constexpr WantedUnit any_unit = std::nullopt;
+
+/// The six constraints on the products of the directors of a body: unit vectors at right angles.
+void add_directors(Draft& draft, int body);
 
 /// Read the [[body]] tables (read_bodies.cpp) and the tables of all constraints (read_constraints.cpp).
 void read_bodies(Draft& draft);

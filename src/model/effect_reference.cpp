@@ -1,6 +1,7 @@
 // Describes the keys of all effects, collected from the registry.
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
+#include "model/read_beams.hpp"
 #include "model/registry.hpp"
 #include "model/strips.hpp"
 
@@ -72,6 +73,8 @@ std::vector<FieldHelp> table_fields() {
     return {{"acceleration", "[x, y, z] m/s^2", "of gravity; in a rotating frame parallel to its axis"}};
   }
   if constexpr (std::is_same_v<Element, BladeElement>) return strip_fields();
+  if constexpr (std::is_same_v<Element, BeamSection>) return beam_fields();
+  if constexpr (std::is_same_v<Element, BeamDamping>) return beam_damping_fields();
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ template <class Scalar>
 using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
 
 /// Largest number of moving vectors of one element.
-inline constexpr int max_arguments = 4;
+inline constexpr int max_arguments = 7;
 
 /// A number that may depend on the parameters. `slot` is its index in the table of values of an evaluation.
 struct Quantity {

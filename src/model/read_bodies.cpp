@@ -167,7 +167,8 @@ void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const Expre
   }
 }
 
-/// The six constraints on the products of directors: unit vectors at right angles.
+}  // namespace
+
 void add_directors(Draft& draft, int body) {
   const std::array<Place, 3> d = draft.directors(body);
   std::vector<ConstraintRow> rows;
@@ -179,8 +180,6 @@ void add_directors(Draft& draft, int body) {
   draft.add_constraint("directors", draft.bodies[static_cast<std::size_t>(body)].name + ".directors",
                        std::move(rows));
 }
-
-}  // namespace
 
 void read_bodies(Draft& draft) {
   const std::vector<const Table*> all = tables(draft.scene, "body");

@@ -81,14 +81,14 @@ struct FamilyReader {
     }
   }
 
-  /// The polynomial in the datasets /KEY/0, /KEY/1, ... of an HDF5 file; absent powers are zero.
-  MatrixPolynomial from_file(const Hdf5File& file, const std::string& key) {
+  /// The polynomial in the matrices KEY/0, KEY/1, ... of a file or in memory; absent powers are zero.
+  template <class Source>
+  MatrixPolynomial polynomial_in(const Source& source, const std::string& key) {
     MatrixPolynomial polynomial;
-    if (!file.has("/" + key)) return polynomial;
-    for (const std::string& name : file.members("/" + key)) {
+    for (const std::string& name : names_in(source, key)) {
       const std::size_t power = power_of(name, key);
       if (power >= polynomial.coefficients.size()) polynomial.coefficients.resize(power + 1);
-      polynomial.coefficients[power] = matrix(file, "/" + key + "/" + name);
+      polynomial.coefficients[power] = matrix(source, key, name);
     }
     for (Matrix& c : polynomial.coefficients) {
       if (c.size() != 0) continue;
@@ -109,7 +109,30 @@ struct FamilyReader {
     return static_cast<std::size_t>(power);
   }
 
-  Matrix matrix(const Hdf5File& file, const std::string& name) {
+  /// The names of the matrices of a group; none if it is absent.
+  static std::vector<std::string> names_in(const Hdf5File& file, const std::string& key) {
+    return file.has("/" + key) ? file.members("/" + key) : std::vector<std::string>();
+  }
+  static std::vector<std::string> names_in(const MatricesInMemory& matrices, const std::string& key) {
+    std::vector<std::string> names;
+    const auto group = matrices.find(key);
+    if (group == matrices.end()) return names;
+    for (const auto& [name, matrix] : group->second) names.push_back(name);
+    return names;
+  }
+
+  Matrix matrix(const MatricesInMemory& matrices, const std::string& key, const std::string& name) {
+    const MatrixInMemory& view = matrices.at(key).at(name);
+    if (view.rows > max_size || view.columns > max_size)
+      fail("file", key + "/" + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+    count(static_cast<std::size_t>(view.rows * view.columns));
+    using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
+    return Eigen::Map<const Matrix, 0, Strides>(view.data, view.rows, view.columns,
+                                                Strides(view.column_stride, view.row_stride));
+  }
+
+  Matrix matrix(const Hdf5File& file, const std::string& key, const std::string& in_group) {
+    const std::string name = "/" + key + "/" + in_group;
     const Shape shape = file.shape(name);
     if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
       fail("file",
@@ -189,22 +212,30 @@ Polynomials first_order(MatrixPolynomial E, MatrixPolynomial A) {
 const std::string expected_datasets =
     "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
 
+template <class Source>
+Polynomials polynomials_in(FamilyReader& reader, const Source& source) {
+  const auto has = [&](const char* key) { return !reader.names_in(source, key).empty(); };
+  if (reader.is_first_order(has("M"), has("C"), has("K"), has("E"), has("A"), "file"))
+    return first_order(reader.polynomial_in(source, "E"), reader.polynomial_in(source, "A"));
+  return {reader.polynomial_in(source, "M"), reader.polynomial_in(source, "C"),
+          reader.polynomial_in(source, "K"), reader.polynomial_in(source, "A")};
+}
+
 Polynomials read_file(FamilyReader& reader) {
   for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
   }
   Polynomials p;
   try {
-    const Hdf5File file = open_beside_scene(reader.scene, reader.table);
-    reader.reject_unknown_groups(file);
-    const auto has = [&](const char* name) { return file.has(name); };
-    if (reader.is_first_order(has("/M"), has("/C"), has("/K"), has("/E"), has("/A"), "file")) {
-      p = first_order(reader.from_file(file, "E"), reader.from_file(file, "A"));
+    const auto in_memory = reader.scene.matrices.find(reader.table.text("file"));
+    if (in_memory != reader.scene.matrices.end()) {
+      p = polynomials_in(reader, in_memory->second);
     } else {
-      p = {reader.from_file(file, "M"), reader.from_file(file, "C"), reader.from_file(file, "K"),
-           reader.from_file(file, "A")};
+      const Hdf5File file = open_beside_scene(reader.scene, reader.table);
+      reader.reject_unknown_groups(file);
+      p = polynomials_in(reader, file);
+      if (file.has("/state_names")) p.state_names = file.read_texts("/state_names");
     }
-    if (has("/state_names")) p.state_names = file.read_texts("/state_names");
   } catch (const Hdf5Error& error) {
     reader.fail("file", error.what() + expected_datasets);
   }
@@ -218,6 +249,10 @@ std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used)
   const bool has_factors = reader.table.has("factors");
   if (!reader.table.has("file")) {
     if (has_factors) reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
+    return nullptr;
+  }
+  if (reader.scene.matrices.contains(reader.table.text("file"))) {
+    if (has_factors) reader.fail("factors", "are those of matrices in a file, not in memory");
     return nullptr;
   }
   try {

@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/multibody.hpp"
+#include "model/read_beams.hpp"
 #include "model/strips.hpp"
 
 namespace eigentrail {
@@ -301,6 +302,9 @@ ModelDescription describe(const Draft& draft) {
     description.masses.push_back(
         {draft.mass_names[i], masses.carriers[0].terms[0].triple, static_cast<Eigen::Index>(masses.size)});
   }
+  for (const BeamDraft& beam : draft.beams) {
+    for (std::size_t i = 0; i < beam.n_nodes; ++i) description.masses[beam.first_mass + i].name = beam.name;
+  }
   for (auto [names, of_states] : {std::pair(&description.coordinate_names, &draft.state_names),
                                   std::pair(&description.coordinate_units, &draft.state_units)})
     names->insert(names->end(), of_states->begin(), of_states->end());
@@ -347,8 +351,10 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   const Scene& scene = draft.scene;
   read_points(draft);
   read_bodies(draft);
+  read_beams(draft);
   if (draft.masses.empty()) {
-    throw InputError(scene.path + ": a scene needs at least one [[point]] or [[body]], or a [matrix_family]");
+    throw InputError(scene.path +
+                     ": a scene needs at least one [[point]], [[body]] or [[beam]], or a [matrix_family]");
   }
   check_without(draft);
   add_masses(draft);
@@ -360,6 +366,8 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
     if constexpr (has_own_table<Element>) read_elements<Element>(draft);
   });
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
+  for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
+  for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
   if (rotation && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(
         scene, tables(scene, "spinning_disc")[0]->where,

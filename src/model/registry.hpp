@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/constraint.hpp"
+#include "model/elements/beam.hpp"
 #include "model/elements/bearing.hpp"
 #include "model/elements/blade_element.hpp"
 #include "model/elements/damper.hpp"
@@ -73,14 +74,17 @@ using Elements = ElementTable<  //
     InternalDamping,            //
     Bearing,                    //
     SpinningDisc,               //
-    BladeElement>;
+    BladeElement,               //
+    BeamSection,                //
+    BeamDamping>;
 
 /// Whether every [[table]] of that name is one element. The others have their own readers: masses, the frame
-/// and gravity act on every mass, and a blade is divided into strips.
+/// and gravity act on every mass, a blade is divided into strips and a beam into elements.
 template <class Element>
 inline constexpr bool has_own_table =
     !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RigidBody> &&
     !std::is_same_v<Element, RotatingFrame> && !std::is_same_v<Element, Gravity> &&
-    !std::is_same_v<Element, BladeElement>;
+    !std::is_same_v<Element, BladeElement> && !std::is_same_v<Element, BeamSection> &&
+    !std::is_same_v<Element, BeamDamping>;
 
 }  // namespace eigentrail

@@ -1,29 +1,16 @@
 #include "model/strips.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "eigentrail/core/text.hpp"
+#include "model/gauss_points.hpp"
 
 namespace eigentrail {
 namespace {
 
 constexpr int most_strips = 64;
 constexpr int usual_strips = 4;  ///< default: exact for loads of degree up to 7 along the span
-
-/// Nodes and weights of Gauss-Legendre quadrature on [0, 1] (Golub & Welsch 1969).
-std::vector<std::array<double, 2>> gauss_points(int n) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
-  for (int k = 1; k < n; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
-  std::vector<std::array<double, 2>> points;
-  for (int k = 0; k < n; ++k) {
-    const double first = solver.eigenvectors()(0, k);
-    points.push_back({0.5 * (1.0 + solver.eigenvalues()[k]), first * first});
-  }
-  return points;
-}
 
 /// Data that all strips of a blade share.
 struct Blade {

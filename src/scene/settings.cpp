@@ -90,6 +90,7 @@ ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings
     const std::string toml = as_toml(changed.scene, changed.scene.parameters.at(name), value, label);
     Scene next = parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path);
     next.files = std::move(changed.scene.files);
+    next.matrices = std::move(changed.scene.matrices);
     changed.scene = std::move(next);
   }
   return changed;

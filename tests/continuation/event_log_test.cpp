@@ -35,6 +35,7 @@ TEST_F(Log, AnEventSeenFromTwoStepsIsOne) {
   Event later = b;
   later.node = 20;
   EXPECT_FALSE(are_same(a, later)) << "a path that turns back passes the place again";
+  EXPECT_TRUE(are_one(a, later, 2.0, thresholds.event, false)) << "it cannot turn back";
 }
 
 TEST_F(Log, WhatRoundingPutsBesideTheRangeIsAtItsEnd) {

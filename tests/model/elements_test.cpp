@@ -80,6 +80,19 @@ const std::vector<ElementCase> cases = {
      "0.1]\nlift = "
      "[0, 0, 1]\nchord = \"0.3*p\"\nprofile_drag = 0.02\npitch = \"0.2*p\"\ninflow = [0, 0.1, -1]\nstrips = "
      "2\n"},
+    {"beam",
+     "[[beam]]\nname = \"arm\"\nfrom = \"c.tip\"\nto = [2, \"p\", 0.3]\nelements = 1\ny_axis = [0.1, 1, 0]\n"
+     "mass = \"p\"\nEA = \"9*p\"\nEI_flap = 2\nEI_lag = \"3*p\"\nGJ = 1.5\nGA_flap = 4\nGA_lag = 5\n"},
+    {"beam_with_two_nodes_and_offsets",
+     "[[beam]]\nname = \"arm\"\nfrom = [0, 0, \"p\"]\nto = \"d\"\nelements = 2\ndegree = 1\nspan = [0, 0.4, "
+     "1]\n"
+     "mass = [1, \"p\", 0.5]\nEA = [9, 8, 7]\nEI_flap = 2\nEI_lag = \"3*p\"\nGJ = 1.5\ntension_y = 0.1\n"
+     "shear_z = \"0.1*p\"\ncentre_y = -0.05\ntwist = [0.2, \"0.1*p\", -0.1]\nprebend = [0, 0.05, 0.2]\n"
+     "# it ends at a body: [[body]]\n"},
+    {"beam_damping",
+     "[[beam]]\nname = \"arm\"\nfrom = [0, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 1\nmass = 1\nEA = 9\n"
+     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\nsweep = [0, 0.1, 0]\nspan = [0, 1, 2]\n"
+     "[[beam_damping]]\nbeam = \"arm\"\ntime = \"0.1*p\"\n"},
     {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
     {"revolute_held",
      "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "
@@ -310,9 +323,9 @@ TEST(Registry, DeclaredDependencesAreComplete) {
   using Base = Series<double, 0>;
   using Scalar = Series<Base, 1>;
   PathValues<Base> values;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 8; ++i)
     values.triples.push_back({Base(0.3 + 0.17 * i * i), Base(0.9 - 0.4 * i), Base(0.2 + std::sin(3.0 * i))});
-  for (int i = 0; i < 20; ++i) values.values.emplace_back(1.1 + 0.3 * i + 0.2 * std::sin(5.0 * i));
+  for (int i = 0; i < 40; ++i) values.values.emplace_back(1.1 + 0.3 * i + 0.2 * std::sin(5.0 * i));
   PathValues<Base> elsewhere = values;
   for (auto& triple : elsewhere.triples) triple += Vec3<Base>(Base(0.21), Base(-0.33), Base(0.1) * triple[0]);
 

@@ -102,6 +102,11 @@ class Friswell(unittest.TestCase):
         names = et.from_ross(rotors.isotropic()).names
         self.assertEqual(names[:2] + names[6:8] + names[12:14], ["bearing 1 x", "bearing 1 y", "node 1 x", "node 1 y", "disc 1 x", "disc 1 y"])
 
+    def test_probes_are_names_too(self):
+        import types
+        names = et.from_ross(rotors.isotropic(), probes=[types.SimpleNamespace(node=1, tag="probe 1")]).names
+        self.assertEqual(names[6:8], ["probe 1 x", "probe 1 y"])
+
     def test_another_state_matrix_is_refused(self):
         rotor = rotors.isotropic()
         theirs = rotor.A

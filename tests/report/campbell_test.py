@@ -1,8 +1,6 @@
 """The Campbell diagram in a browser: units, rays and critical speeds, whirl, separation margins, and labels and tables that can be read."""
 
-import pathlib
 import re
-import time
 import unittest
 
 import h5py
@@ -13,7 +11,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
 import browser
-from page_test_case import SCREENSHOTS, PageTest
+from page_test_case import CUT, PageTest
 from program import SCENES, edited
 from rotor_files import WING, add_whirl, rotor
 
@@ -27,9 +25,6 @@ return [...document.querySelectorAll(arguments[0] + ' .textpoint text')].filter(
   const box = node.getBoundingClientRect();
   return [node.textContent.trim(), box.left, box.right, box.top, box.bottom];
 });
-"""
-CUT = """
-return [...document.querySelectorAll('.scroll')].filter((node) => node.scrollWidth > node.clientWidth + 1).map((node) => node.getAttribute('aria-label'));
 """
 LAYOUT = "const layout = document.querySelector(arguments[0])._fullLayout; return "
 # Font boxes are taller than what is drawn: lines 13 px apart have boxes of 14 px.

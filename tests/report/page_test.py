@@ -12,7 +12,7 @@ from selenium.webdriver.support.ui import Select
 import browser
 from command_test import HOSTILE
 from large_file import enlarge
-from page_test_case import SCREENSHOTS, PageTest
+from page_test_case import CUT, SCREENSHOTS, PageTest
 from program import BIRTH, BLADE, SCENES
 
 ON_THE_LINE = 1e-6  # of the axis' range
@@ -184,6 +184,7 @@ class Page(PageTest):
         self.trace(BLADE)
         self.trace(BLADE.replace("drag   = 2.0", "drag   = 400.0"), output="more_drag.h5")
         self.show("loci.h5", "more_drag.h5", picture="comparison")
+        self.assertEqual(self.driver.execute_script(CUT), [])
         colours = self.driver.execute_script("return document.querySelector('.campbell').data.filter((t) => t.meta && 'mode' in t.meta).map((t) => [t.meta.file, t.line.color])")
         self.assertEqual(len({tuple(pair) for pair in colours}), 2)
 

@@ -26,6 +26,11 @@ const [px, py] = toPixels(figure, 'xaxis', 'yaxis', x, y);
 return [px - Math.floor(box.width / 2), py - Math.floor(box.height / 2)];
 """
 
+# Tables that are wider than their place.
+CUT = """
+return [...document.querySelectorAll('.scroll')].filter((node) => node.scrollWidth > node.clientWidth + 1).map((node) => node.getAttribute('aria-label'));
+"""
+
 
 class PageTest(CommandTest):
     @classmethod

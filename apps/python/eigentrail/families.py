@@ -73,8 +73,14 @@ class Family:
         if span is not None:
             tables["trace"].update({"from": span[0], "to": span[1]})
         if self.function is None:
-            tables["matrix_family"] = {"file": file, **({"factors": self.factors} if self.factors else {})}
+            tables["matrix_family"] = {"file": file, **({"factors": self.factors} if self.factors else {}),
+                                       **({"state_names": self.names} if self.names is not None else {})}
         return toml.dumps(tables)
+
+    def is_dense_polynomial(self) -> bool:
+        """Whether the engine can take the matrices where they are: dense ones of powers only."""
+        return self.function is None and not self.factors and not any(
+            _is_sparse(matrix) for terms in self.matrices.values() for matrix in terms.values())
 
     def image(self) -> bytes:
         """The matrices as an HDF5 file, in the layout of [matrix_family]."""
@@ -83,8 +89,6 @@ class Family:
             for key, terms in self.matrices.items():
                 for name, matrix in terms.items():
                     _write_matrix(file, f"{key}/{name}", matrix)
-            if self.names is not None:
-                file["state_names"] = np.array(self.names, dtype=h5py.string_dtype())
         return buffer.getvalue()
 
     def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None) -> str:

@@ -16,7 +16,7 @@ SCHEMA = 1
 NOT_ATTRIBUTES = ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "coordinates")
 # Keys of a Dataset's encoding.
 IMAGE = "eigentrail_file"  # the bytes of its file
-SCENE_FILES = "eigentrail_scene_files"  # files of matrices in memory that its scene names: their bytes by name
+ATTACHED = "eigentrail_attached"  # matrices in memory that its scene names
 
 # Variables that describe the rows of a file. They become coordinates and label plots and tables.
 COORDINATES = {

@@ -22,7 +22,17 @@ class Given(NamedTuple):
     function: Any
     ranges: dict[str, tuple[Any, Any]]
     warnings: list[str]
-    files: dict[str, bytes]  # of matrices in memory, by the names by which the scene calls them
+    attached: "Attached"
+
+
+class Attached(NamedTuple):
+    """Matrices in memory, by the names of the files by which the scene calls them."""
+
+    files: dict[str, bytes] = {}
+    matrices: dict[str, Any] = {}
+
+    def scene(self, text: str, path: str) -> Any:
+        return engine().parse_scene(text, path, self.files, self.matrices)
 
 
 def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None, functions: bool = False,
@@ -34,14 +44,14 @@ def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] =
                          "for one range; give its matrices as a Family of powers and names, or as Samples")
     ranges = {name: _range(name, value) for name, value in values.items() if _is_range(value)}
     settings = [f"{name}={_setting(value)}" for name, value in values.items() if name not in ranges]
-    function, files = None, {}
+    function, attached = None, Attached()
     if isinstance(source, Imported):
-        files = {"model.h5": source.image}
+        attached = Attached({"model.h5": source.image})
         scene = source.scene()
     elif isinstance(source, (Family, Samples)):
         traced = source.parameter or _only(ranges)
-        files = {} if source.function is not None else {"family.h5": source.image()}
-        scene = engine().parse_scene(source.scene(traced, ranges.get(traced)), "family.toml", files)
+        attached = _attached(source)
+        scene = attached.scene(source.scene(traced, ranges.get(traced)), "family.toml")
         if source.function is not None:
             function = engine().FunctionSource(
                 source.function, _function_tolerance(source, tolerance), source.max_calls, source.breaks,
@@ -49,9 +59,9 @@ def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] =
     else:
         scene = _read(source)
     if events:
-        scene = _with_events(scene, events, files)
+        scene = _with_events(scene, events, attached)
     scene, warnings = scene.with_settings(settings)
-    return Given(scene, function, ranges, warnings, files)
+    return Given(scene, function, ranges, warnings, attached)
 
 
 def option_text(key: str, value: Any) -> str:
@@ -84,11 +94,19 @@ def _read(source: Any) -> Any:
     return engine().read_scene(text)
 
 
-def _with_events(scene: Any, events: Mapping[str, Any], files: Mapping[str, bytes]) -> Any:
+def _attached(family: Any) -> Attached:
+    if family.function is not None:
+        return Attached()
+    if isinstance(family, Family) and family.is_dense_polynomial():
+        return Attached(matrices={"family.h5": family.matrices})
+    return Attached({"family.h5": family.image()})
+
+
+def _with_events(scene: Any, events: Mapping[str, Any], attached: Attached) -> Any:
     """The scene with other entries in [events]."""
     tables = tomllib.loads(scene.text)
     tables["events"] = {**tables.get("events", {}), **events}
-    return engine().parse_scene(toml.dumps(tables), scene.path, dict(files))
+    return attached.scene(toml.dumps(tables), scene.path)
 
 
 def _only(ranges: Mapping[str, Any]) -> str:

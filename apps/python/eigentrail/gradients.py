@@ -7,7 +7,8 @@ import pandas
 import xarray
 
 from .engine import SceneError, engine
-from .given import option_text
+from .files import ATTACHED
+from .given import Attached, option_text
 
 QUANTITIES = ("flutter", "damping_ratio", "frequency", "eigenvalue")
 SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by refinement
@@ -135,10 +136,8 @@ def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pa
 
 def _scene_of(loci: xarray.Dataset) -> tuple[Any, list[tuple[str, str]]]:
     """The scene that was traced, with the files of its matrices, and the options that say which model it is."""
-    from .files import SCENE_FILES
-
-    files = loci.encoding.get(SCENE_FILES, {})
-    scene = engine().parse_scene(loci.attrs["scene"], loci.attrs["scene_path"], files)
+    attached = loci.encoding.get(ATTACHED, Attached())
+    scene = attached.scene(loci.attrs["scene"], loci.attrs["scene_path"])
     options = [(key, option_text(key, loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
                if loci.attrs.get(f"option_{key}", "none") not in ("none", "")]
     return scene, options

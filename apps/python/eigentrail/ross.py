@@ -1,5 +1,6 @@
 """Rotors of ROSS (Rotordynamic Open Source Software): their matrices as a family."""
 
+from collections.abc import Sequence
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -11,7 +12,7 @@ FREEDOMS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", 
 AGREE = 1e-9  # largest difference, relative to the largest entry, of the state matrix here and that of ROSS
 
 
-def from_ross(rotor: Any, speeds: Any = None, *, title: str = "") -> Union[Family, Samples]:
+def from_ross(rotor: Any, speeds: Any = None, *, probes: Sequence[Any] = (), title: str = "") -> Union[Family, Samples]:
     """The family M x'' + (C + speed G) x' + K x = 0 of a rotor of ROSS, along its speed in rad/s.
 
         rotor = from_ross(ross.rotor_example())
@@ -21,15 +22,16 @@ def from_ross(rotor: Any, speeds: Any = None, *, title: str = "") -> Union[Famil
     The matrices are those of rotor.M(), K(), C(), G(). Where coefficients of bearings or seals are tables over speed, the
     family is sampled at `speeds`, by default at those of the tables; the error of the interpolation is carried to every
     eigenvalue, and a range must lie within the tables. ROSS takes the speed as the frequency of the tables, and so does
-    this. Coordinates have the names of nodes ("node 3 x"), those of discs and bearings their tags ("disk 0 x").
+    this. Coordinates have the names of nodes ("node 3 x"), those of discs, bearings and `probes` (ross.Probe) their tags
+    ("disk 0 x").
     Raises ValueError where the state matrix differs from rotor.A(speed).
     """
-    names = _names(rotor)
+    names = _names(rotor, probes)
     tables = [np.asarray(table, float) for table in _tables(rotor)]
     if speeds is None and not tables:
         C0, C1 = np.asarray(rotor.C(0.0)), np.asarray(rotor.G())
         stiffness = [np.asarray(rotor.K(0.0))] + _with_speed(rotor)
-        family: Union[Family, Samples] = Family(M=np.asarray(rotor.M()), C=[C0, C1], K=stiffness, parameter="speed", unit="rad/s",
+        family: Union[Family, Samples] = Family(M=_mass(rotor, 0.0), C=[C0, C1], K=stiffness, parameter="speed", unit="rad/s",
                                                 names=names, title=title or _title(rotor))
         _compare(rotor, 100.0, C0 + 100.0 * C1, sum(100.0 ** power * matrix for power, matrix in enumerate(stiffness)))
         return family
@@ -39,7 +41,8 @@ def from_ross(rotor: Any, speeds: Any = None, *, title: str = "") -> Union[Famil
     K = np.array([np.asarray(rotor.K(speed)) + sum(speed * matrix for matrix in stiffening) for speed in at])
     middle = len(at) // 2
     _compare(rotor, at[middle], C[middle], K[middle])
-    return Samples(at, M=np.asarray(rotor.M()), C=C, K=K, parameter="speed", unit="rad/s", names=names,
+    M = np.array([_mass(rotor, speed) for speed in at])
+    return Samples(at, M=M, C=C, K=K, parameter="speed", unit="rad/s", names=names,
                    title=title or _title(rotor))
 
 
@@ -77,16 +80,24 @@ LATERAL = 1e-6  # of the largest component of a shape: below it a node does not 
 STRAIGHT = 1e-6  # ratio of the axes below which an orbit is a line: neither forward nor backward
 
 
-def _names(rotor: Any) -> list[str]:
+def _mass(rotor: Any, speed: float) -> Any:
+    """The mass matrix. In later versions that of seals is a table over the speed, too."""
+    try:
+        return np.asarray(rotor.M(speed))
+    except TypeError:
+        return np.asarray(rotor.M())
+
+
+def _names(rotor: Any, probes: Sequence[Any]) -> list[str]:
     letters = FREEDOMS.get(int(rotor.number_dof))
     if letters is None:
         raise ValueError(f"rotor.number_dof: expected 4 or 6 freedoms per node, found {rotor.number_dof}")
     n_nodes = int(rotor.ndof) // len(letters)
     labels = [f"node {node}" for node in range(n_nodes)]
     taken: set[str] = set()
-    for element in [*getattr(rotor, "bearing_elements", ()), *getattr(rotor, "disk_elements", ())]:
-        tag, node = getattr(element, "tag", None), int(element.n)
-        if tag and node < n_nodes and tag not in taken:
+    for element in [*probes, *getattr(rotor, "bearing_elements", ()), *getattr(rotor, "disk_elements", ())]:
+        tag, node = getattr(element, "tag", None), int(getattr(element, "n", getattr(element, "node", -1)))
+        if tag and 0 <= node < n_nodes and tag not in taken:
             labels[node] = str(tag)
             taken.add(str(tag))
     return [f"{label} {letter}" for label in labels for letter in letters]
@@ -115,7 +126,7 @@ def _with_speed(rotor: Any) -> list[Any]:
 
 
 def _compare(rotor: Any, speed: float, C: Any, K: Any) -> None:
-    M = np.asarray(rotor.M())
+    M = _mass(rotor, speed)
     n = len(M)
     theirs = np.asarray(rotor.A(speed))[n:]
     ours = -np.linalg.solve(M, np.hstack([K, C]))

@@ -11,7 +11,7 @@ import xarray
 
 from . import files
 from .engine import SceneError, TraceError, engine
-from .given import Given, Source, give, number, option_text
+from .given import Attached, Given, Source, give, number, option_text
 from .progress import Bar, Progress
 
 Options = list[tuple[str, str]]
@@ -62,11 +62,11 @@ class Run(NamedTuple):
     image: bytes  # of the loci file
     message: str  # why it ended early; empty if it did not
     remarks: list[str]
-    scene_files: dict[str, bytes]
+    attached: Attached
 
     def loci(self) -> xarray.Dataset:
         loci = files.from_bytes(self.image)
-        loci.encoding[files.SCENE_FILES] = self.scene_files
+        loci.encoding[files.ATTACHED] = self.attached
         return loci
 
 
@@ -86,7 +86,7 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
         remarks.append("interrupted: the Dataset has the points up to here")
     elif outcome.message:
         remarks.append(f"ended early: {outcome.message}")
-    return Run(outcome.file, outcome.message, remarks, given.files)
+    return Run(outcome.file, outcome.message, remarks, given.attached)
 
 
 def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,

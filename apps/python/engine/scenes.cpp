@@ -1,3 +1,4 @@
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "eigentrail/scene/settings.hpp"
@@ -8,10 +9,35 @@ namespace py = pybind11;
 namespace eigentrail::python {
 namespace {
 
-Scene parse(std::string text, const std::string& path, const std::map<std::string, py::bytes>& files) {
+/// The entries of a matrix of doubles, without a copy.
+MatrixInMemory view_of(const py::array_t<double, py::array::forcecast>& entries) {
+  if (entries.ndim() != 2) throw py::value_error("expected a matrix");
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+  const auto release = [](py::object* array) {
+    const py::gil_scoped_acquire acquired;
+    delete array;
+  };
+  return {entries.data(),
+          entries.shape(0),
+          entries.shape(1),
+          entries.strides(0) / size,
+          entries.strides(1) / size,
+          std::shared_ptr<py::object>(new py::object(entries), release)};
+}
+
+using Arrays = std::map<std::string, std::map<std::string, py::array_t<double, py::array::forcecast>>>;
+
+Scene parse(std::string text, const std::string& path, const std::map<std::string, py::bytes>& files,
+            const std::map<std::string, Arrays>& matrices) {
   Scene scene = parse_scene(std::move(text), path);
   for (const auto& [name, bytes] : files)
     scene.files[name] = std::make_shared<const std::string>(static_cast<std::string>(bytes));
+  for (const auto& [file, groups] : matrices) {
+    MatricesInMemory& in_memory = scene.matrices[file];
+    for (const auto& [group, arrays] : groups) {
+      for (const auto& [name, array] : arrays) in_memory[group][name] = view_of(array);
+    }
+  }
   return scene;
 }
 
@@ -54,7 +80,8 @@ void add_scenes(py::module_& module) {
           py::arg("settings"));
   module.def("read_scene", &read_scene, py::arg("path"));
   module.def("parse_scene", &parse, py::arg("text"), py::arg("path"),
-             py::arg("files") = std::map<std::string, py::bytes>{});
+             py::arg("files") = std::map<std::string, py::bytes>{},
+             py::arg("matrices") = std::map<std::string, Arrays>{});
 }
 
 }  // namespace eigentrail::python

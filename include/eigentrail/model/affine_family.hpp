@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigentrail/model/model.hpp"
@@ -19,11 +20,15 @@ class TabulatedFactor;
 /// One summand: a constant matrix, n x n, and its factor, a function of the parameters' SI values.
 template <class Storage>
 struct AffineTerm {
-  Expression factor = 1.0;
+  AffineTerm() : factor(1.0) {}
+  AffineTerm(Expression the_factor, Storage the_matrix, std::string the_name = std::string())
+      : factor(std::move(the_factor)), matrix(std::move(the_matrix)), name(std::move(the_name)) {}
+
+  Expression factor;
   Storage matrix;
-  std::string name = {};  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
+  std::string name;  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
   /// If there is one, the factor is the tabulated function at `factor`.
-  std::shared_ptr<const TabulatedFactor> table = nullptr;
+  std::shared_ptr<const TabulatedFactor> table;
 };
 
 /// The summands of M, C and K; an empty list is a zero matrix.

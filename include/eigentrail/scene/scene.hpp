@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,15 @@
 
 namespace eigentrail {
 
+/// A matrix in the memory of the caller: entry (r, c) is data[r row_stride + c column_stride].
+struct MatrixInMemory {
+  const double* data = nullptr;
+  std::ptrdiff_t rows = 0, columns = 0, row_stride = 0, column_stride = 0;
+  std::shared_ptr<const void> owner = {};  ///< keeps the data alive
+};
+/// The matrices of a family as their file would hold them: by group ("K") and name ("0").
+using MatricesInMemory = std::map<std::string, std::map<std::string, MatrixInMemory>>;
+
 struct Scene {
   std::string path;  ///< as the user gave it; used in messages and to find files relative to the scene
   std::string text;  ///< the full text, stored in result files
@@ -24,6 +34,8 @@ struct Scene {
   /// Files of matrices (HDF5) in memory, by the names by which the scene calls them: their bytes. They stand
   /// before files on the disk.
   std::map<std::string, std::shared_ptr<const std::string>> files = {};
+  /// Dense matrices of [matrix_family] in memory, by the name of the file that would hold them.
+  std::map<std::string, MatricesInMemory> matrices = {};
 };
 
 /// Reads and parses a scene file. With [matrix_family], the traced parameter need not be declared: it is

@@ -40,8 +40,9 @@ void append(FoundEvents more, FoundEvents& all) {
   std::move(more.notes.begin(), more.notes.end(), std::back_inserter(all.notes));
 }
 
-bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds) {
-  if (a.kind != b.kind || std::abs(a.node - b.node) > neighbouring) return false;
+bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds,
+             bool may_turn_back) {
+  if (a.kind != b.kind || (may_turn_back && std::abs(a.node - b.node) > neighbouring)) return false;
   // Zeros in opposite directions are different events, however close they are; so are a minimum and a
   // maximum.
   if (a.direction * b.direction < 0) return false;
@@ -59,8 +60,9 @@ bool EventLog::any_event(const Condition& holds) const {
 }
 
 bool EventLog::has(const Event& event) const {
-  return any_event(
-      [&](const Event& other) { return are_one(other, event, range.length(), thresholds.event); });
+  return any_event([&](const Event& other) {
+    return are_one(other, event, range.length(), thresholds.event, may_turn_back);
+  });
 }
 
 bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) const {

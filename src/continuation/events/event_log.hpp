@@ -27,6 +27,7 @@ struct EventLog {
   const PathRange& range;
   const Thresholds& thresholds;
   const FoundEvents* found = nullptr;  ///< on the present step, not yet recorded; may be null
+  bool may_turn_back = true;           ///< whether the path may pass a value of the parameter again
 
   /// Whether the same event is recorded already, for example from the step before.
   bool has(const Event& event) const;
@@ -56,10 +57,12 @@ struct EventLog {
 void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, std::vector<Event>& dismissed,
             std::vector<std::string>& notes);
 
-/// Whether two events are the same: of one kind, found on the same or on neighbouring steps, not in opposite
-/// directions, of the same modes, and in place and half-width no farther apart than the accuracy to which
-/// these are known. Of veerings the eigenvalues are compared instead of the modes: the two eigenvalues at an
-/// exceptional point can be labelled with different modes on either side. `range`: length of the range.
-bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds);
+/// Whether two events are the same: of one kind, found on the same or on neighbouring steps if the path may
+/// turn back, not in opposite directions, of the same modes, and in place and half-width no farther apart
+/// than the accuracy to which these are known. Of veerings the eigenvalues are compared instead of the modes:
+/// the two eigenvalues at an exceptional point can be labelled with different modes on either side. `range`:
+/// length of the range.
+bool are_one(const Event& a, const Event& b, double range, const EventThresholds& thresholds,
+             bool may_turn_back = true);
 
 }  // namespace eigentrail

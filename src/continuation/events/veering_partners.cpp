@@ -34,9 +34,9 @@ class PencilSearch {
                const std::vector<int>& modes, double widest)
       : search_(search), step_(step), expected_(expected), modes_(modes), widest_(widest) {}
 
-  FoundEvents run() {
+  VeeringsOfPencil run() {
+    if (!go_to(expected_.position.real())) return {};
     FoundEvents found;
-    if (!go_to(expected_.position.real())) return found;
     std::vector<Complex> known = known_roots();
     std::optional<ExceptionalPoint> point;
     for (int i = 0; i < most_of_one_prediction; ++i) {
@@ -45,7 +45,7 @@ class PencilSearch {
       known.push_back(point->h);
       if (auto event = event_at(*point)) found.events.push_back(std::move(*event));
     }
-    return found;
+    return {std::move(found), std::move(untold_)};
   }
 
   /// Puts a veering that was located otherwise where Newton's method leads from it; false where that is
@@ -170,7 +170,11 @@ class PencilSearch {
     const auto below = eigenvalues_below(pencil(), chart(), point);
     if (!below) return std::nullopt;
     event.modes = modes_of(*below, std::clamp(t, 0.0, 1.0));
-    if (event.modes.size() != 2) return std::nullopt;
+    if (event.modes.size() != 2) {
+      event.modes = modes_;
+      untold_.push_back(std::move(event));
+      return std::nullopt;
+    }
     event.s = chart_value(0.5 * ((*below)[0].mu + (*below)[1].mu), chart());
     if (event.s.imag() < 0.0) event.s = std::conj(event.s);
     event.node = search_.node;
@@ -217,12 +221,14 @@ class PencilSearch {
   double widest_;
   double position_ = 0.0;  ///< of the point, as a distance from the left end
   std::optional<PathNode> node_;
+  std::vector<Event> untold_;
 };
 
 }  // namespace
 
-FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-                             const std::vector<int>& modes, double widest) {
+VeeringsOfPencil find_from_pencil(const EventSearch& search, const Step& step,
+                                  const ExpectedMeeting& expected, const std::vector<int>& modes,
+                                  double widest) {
   return PencilSearch(search, step, expected, modes, widest).run();
 }
 

@@ -8,11 +8,19 @@
 
 namespace eigentrail {
 
+struct VeeringsOfPencil {
+  FoundEvents found;
+  /// Those of which the dense output of the step does not tell the modes, under the predicted ones. Other
+  /// steps may tell.
+  std::vector<Event> untold;
+};
+
 /// The veerings to which Newton's method for exceptional points leads from a prediction, up to `widest` off
 /// the real axis (in the coordinate along the path). Those in the log are not found again. Cost: the reduced
 /// equations at a point, and an LU per iteration.
-FoundEvents find_from_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-                             const std::vector<int>& modes, double widest);
+VeeringsOfPencil find_from_pencil(const EventSearch& search, const Step& step,
+                                  const ExpectedMeeting& expected, const std::vector<int>& modes,
+                                  double widest);
 
 /// Puts a veering that was located from series where Newton's method leads from it: its own place to the
 /// digits that rounding leaves. False where it leads to another place: the series were not accurate enough.

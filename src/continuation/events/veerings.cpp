@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "continuation/events/complex_interpolant.hpp"
 #include "continuation/events/event_record.hpp"
@@ -324,8 +326,8 @@ std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected)
 FoundEvents find_veerings(const EventSearch& search, const Step& step) {
   const double speed = search.frame().speed(*step.left);
   FoundEvents found;
-  const EventLog log{search.log.events, search.log.dismissed, search.log.range, search.log.thresholds,
-                     &found};
+  EventLog log = search.log;
+  log.found = &found;
   const EventSearch own{search.solver, search.options, search.criteria, log, search.node};
   for (const ExpectedMeeting& expected :
        expected_beside(*step.left, step.right, step.h, search_width(search, *step.left))) {
@@ -333,14 +335,24 @@ FoundEvents find_veerings(const EventSearch& search, const Step& step) {
     const Complex p(step.left->p + expected.position.real() * speed, expected.position.imag() * speed);
     if (modes.size() < 2 || log.knows_veering(p, modes)) continue;
     const double widest = search_width(search, *step.left);
+    std::vector<Event> dismissed;
     if (!expected.is_rough) {
       FoundEvents located = VeeringWalk(own, step, expected, modes).run();
       std::erase_if(located.events, [&](Event& event) {
         return !settle_by_pencil(own, step, expected, modes, widest, event);
       });
+      dismissed = std::exchange(located.dismissed, {});
       append(std::move(located), found);
     }
-    append(find_from_pencil(own, step, expected, modes, widest), found);
+    VeeringsOfPencil of_pencil = find_from_pencil(own, step, expected, modes, widest);
+    append(std::move(of_pencil.found), found);
+    // What the series do not confirm may still be a veering, whose modes another step tells.
+    const std::vector<Event> none;
+    const EventLog untold{none, of_pencil.untold, log.range, log.thresholds};
+    std::erase_if(dismissed, [&](const Event& event) {
+      return untold.knows_veering(Complex(event.p, event.half_width), event.modes);
+    });
+    std::move(dismissed.begin(), dismissed.end(), std::back_inserter(found.dismissed));
   }
   return found;
 }

@@ -129,7 +129,8 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
       narrow_places_(places_to_land(model, problem_, options)),
-      log_{state_.result.events, state_.dismissed, state_.frame.range, problem_.thresholds},
+      log_{state_.result.events, state_.dismissed, state_.frame.range,
+           problem_.thresholds,  nullptr,          equilibrium_moves(problem_)},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
   state_.frame.range = {problem_.traced, options.from, options.to};

@@ -46,7 +46,7 @@ std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
     }
     SparseMatrix matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    result.push_back({one.factor, std::move(matrix), {}, one.table});
+    result.emplace_back(one.factor, std::move(matrix)).table = one.table;
   }
   return result;
 }

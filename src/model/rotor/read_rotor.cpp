@@ -102,7 +102,7 @@ ModelDescription describe(RotorDraft& rotor) {
 std::vector<AffineTerm<Matrix>> dense(const std::vector<AffineTerm<SparseMatrix>>& terms) {
   std::vector<AffineTerm<Matrix>> result;
   for (const AffineTerm<SparseMatrix>& term : terms)
-    result.push_back({term.factor, Matrix(term.matrix), term.name, term.table});
+    result.emplace_back(term.factor, Matrix(term.matrix), term.name).table = term.table;
   return result;
 }
 

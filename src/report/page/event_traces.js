@@ -52,24 +52,35 @@ function crossingTrace(marks, plot) {
     marker: { symbol: "diamond-open", size: 10, color: "#b3004b", line: { width: 2, color: "#b3004b" } }, meta: { crossings: true }, ...plot };
 }
 
+/** "flutter E2", "1× E3" of a critical speed, "C2"; kinds that are not labelled have their number only. */
+function longName({ event }, short) {
+  if (!event || !event.labelled) return short;
+  return `${event.kind === "resonance" ? `${number(event.value)}×` : event.kind} ${short}`;
+}
+
 /** Labels of marks; those of many are left out. */
 function markLabels(marks, view) {
   if (marks.length > MOST_NAMES) return [];
   const { fromX, fromY } = viewPixels(view);
   return marks.map((mark) => {
-    const number = mark.event ? mark.file.eventNumber(mark.event) : mark.name;
-    return { texts: mark.event && mark.event.labelled ? [`${mark.event.kind} ${number}`, number] : [number], colour: mark.event ? INK : "#b3004b",
+    const short = mark.event ? mark.file.eventNumber(mark.event) : mark.name;
+    return { texts: [longName(mark, short), short], colour: mark.event ? INK : "#b3004b",
       middles: (width) => besideMark(fromX(mark.x), fromY(mark.y), width) };
   });
 }
 
 const markBoxes = (marks, view) => marks.map(({ x, y }) => boxAbout(viewPixels(view).fromX(x), viewPixels(view).fromY(y), MARK_SIZE, MARK_SIZE));
 
-/** Names of the rays, on them near their ends in the window. */
+function rayPixels(traces, view) {
+  const { fromX, fromY } = viewPixels(view);
+  return traces.map((trace) => trace.x.map((x, i) => [fromX(x), fromY(trace.y[i])]));
+}
+
+/** Names of the rays, beside them near their ends in the window. */
 function rayLabels(traces, view) {
-  const { fromX, fromY, area } = viewPixels(view);
-  return traces.map((trace) => {
-    const pixels = trace.x.map((x, i) => [fromX(x), fromY(trace.y[i])]);
+  const { area } = viewPixels(view), lines = rayPixels(traces, view);
+  return traces.map((trace, k) => {
+    const pixels = lines[k];
     const spots = pixels.slice(1).flatMap(([x, y], i) => [0.25, 0.5, 0.75, 1].map((t) => [pixels[i][0] + t * (x - pixels[i][0]), pixels[i][1] + t * (y - pixels[i][1])]));
     const seen = spots.filter(([x, y]) => x > area.left && x < area.right && y > area.top && y < area.bottom).reverse();
     return { texts: [`${number(trace.meta.harmonic)}×`], size: 11.5, colour: "#444",

@@ -121,8 +121,9 @@ class LociCharts {
     const critical = crossingMarks(this.crossings, settings, isActive), marks = [...events, ...critical];
     this.marks.frequency = marks;
     const names = settings.eventNames ? [...markLabels(events, view), ...markLabels(critical, view)] : [];
-    const placed = placeLabels([...operatingLabels(files, view), ...rayLabels(rays, view), ...names, ...innerNames(lines, style, view, nameOf)], markBoxes(marks, view),
-      viewPixels(view).area, linePixels(lines, view));
+    const taken = markBoxes(marks, view), { area } = viewPixels(view), curves = linePixels(lines, view);
+    const placed = [...placeLabels([...operatingLabels(files, view), ...rayLabels(rays, view)], taken, area, curves),
+      ...placeLabels([...names, ...innerNames(lines, style, view, nameOf)], taken, area, [...curves, ...rayPixels(rays, view)])];
     return [crossingTrace(critical, plot), labelTrace(placed, view, plot, "inside"), nameTrace(lines, style, view, nameOf)];
   }
 

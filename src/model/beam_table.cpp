@@ -1,0 +1,220 @@
+#include "model/beam_table.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Ratio of shear and extensional stiffness of a solid rectangular section with Poisson's ratio 0.3: a shear
+/// factor 5/6 times G/E = 1/2.6.
+constexpr double usual_shear = 5.0 / 6.0 / 2.6;
+
+using Column = std::vector<Expression>;
+using StrainVector = std::array<Expression, 6>;
+
+/// Reads keys that may be one number for all stations or a list of one per station.
+class ColumnReader {
+ public:
+  ColumnReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) { read_span(); }
+
+  const std::vector<double>& span() const { return span_; }
+  std::size_t stations() const { return span_.size(); }
+  bool has(const std::string& key) { return table_.has(key); }
+
+  Column required(const std::string& key, std::string_view unit, Range range) {
+    Column column = table_.list(key, unit);
+    if (column.size() == 1) column.assign(stations(), Expression(column[0]));
+    if (column.size() != stations()) {
+      table_.fail(key, "expected one number, or one for each of the " + std::to_string(stations()) +
+                           " stations of span; found " + std::to_string(column.size()));
+    }
+    for (const Expression& e : column) draft_.check_range(table_, key, e, range);
+    return column;
+  }
+
+  Column optional(const std::string& key, std::string_view unit, Range range = Range::any) {
+    return has(key) ? required(key, unit, range) : Column(stations(), Expression(0.0));
+  }
+
+ private:
+  void read_span() {
+    if (!table_.has("span")) return;
+    span_.clear();
+    for (const Expression& e : table_.list("span")) {
+      if (!e.is_constant()) table_.fail("span", "expected numbers, found an expression of parameters");
+      span_.push_back(e.evaluate(std::span<const double>()));
+      const std::size_t n = span_.size();
+      if (!std::isfinite(span_.back()) || (n > 1 && !(span_[n - 1] > span_[n - 2])))
+        table_.fail("span", "expected numbers that increase from station to station");
+    }
+    if (span_.size() < 2) table_.fail("span", "expected at least two stations");
+    const double first = span_.front();
+    const double length = span_.back() - first;
+    for (double& s : span_) s = (s - first) / length;
+  }
+
+  Draft& draft_;
+  TableReader& table_;
+  std::vector<double> span_ = {0.0};
+};
+
+/// Adds k v v^T.
+void add_product(BeamTable::Stiffness& S, const Expression& k, const StrainVector& v) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) S[section_entry(i, j)] = S[section_entry(i, j)] + k * v[i] * v[j];
+  }
+}
+
+StrainVector strain_unit(std::size_t i) {
+  StrainVector v;
+  v[i] = 1.0;
+  return v;
+}
+
+/// Stiffness from that of extension about the tension centre and of shear and twist about the shear centre.
+/// Extension at (y, z) is Gamma_x + z kappa_y - y kappa_z; shear there is Gamma_y - z kappa_x, Gamma_z + y
+/// kappa_x.
+std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns) {
+  const Column EA = columns.required("EA", "N", Range::positive);
+  const Column GJ = columns.required("GJ", "N m^2", Range::positive);
+  const Column flap = columns.required("EI_flap", "N m^2", Range::positive);
+  const Column lag = columns.required("EI_lag", "N m^2", Range::positive);
+  const auto shear = [&](const std::string& key) {
+    if (columns.has(key)) return columns.required(key, "N", Range::positive);
+    Column usual;
+    for (const Expression& e : EA) usual.push_back(usual_shear * e);
+    return usual;
+  };
+  const Column shear_lag = shear("GA_lag");
+  const Column shear_flap = shear("GA_flap");
+  const Column ty = columns.optional("tension_y", "m");
+  const Column tz = columns.optional("tension_z", "m");
+  const Column sy = columns.optional("shear_y", "m");
+  const Column sz = columns.optional("shear_z", "m");
+  std::vector<BeamTable::Stiffness> stiffness(columns.stations());
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const Expression none(0.0);
+    add_product(stiffness[i], EA[i], {1.0, none, none, none, tz[i], -ty[i]});
+    add_product(stiffness[i], shear_lag[i], {none, 1.0, none, -sz[i], none, none});
+    add_product(stiffness[i], shear_flap[i], {none, none, 1.0, sy[i], none, none});
+    add_product(stiffness[i], GJ[i], strain_unit(3));
+    add_product(stiffness[i], flap[i], strain_unit(4));
+    add_product(stiffness[i], lag[i], strain_unit(5));
+  }
+  return stiffness;
+}
+
+/// A 6 x 6 matrix, the same for all stations. It must be symmetric and positive definite.
+std::vector<BeamTable::Stiffness> full_stiffness(Draft& draft, TableReader& table, std::size_t stations) {
+  const auto rows = table.matrix("stiffness");
+  const bool square =
+      rows.size() == 6 && std::all_of(rows.begin(), rows.end(), [](const auto& r) { return r.size() == 6; });
+  if (!square) table.fail("stiffness", "expected a 6 x 6 matrix");
+  for (const auto& row : rows) {
+    for (const Expression& e : row) draft.check_range(table, "stiffness", e, Range::any);
+  }
+  for (std::size_t p = 0; p < draft.check_at.size(); ++p) {
+    Eigen::Matrix<double, 6, 6> S;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j)
+        S(static_cast<int>(i), static_cast<int>(j)) = draft.check_values(rows[i][j])[p];
+    }
+    if ((S - S.transpose()).norm() > 1e-12 * S.norm())
+      table.fail("stiffness", "must be symmetric; it is not" + Draft::where_on_trace(p));
+    if (S.llt().info() != Eigen::Success)
+      table.fail("stiffness", "must be positive definite; it is not" + Draft::where_on_trace(p));
+  }
+  BeamTable::Stiffness S;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) S[section_entry(i, j)] = rows[i][j];
+  }
+  return std::vector<BeamTable::Stiffness>(stations, S);
+}
+
+/// Moments of the mass about the axis. Without inertias the mass is spread as the stiffness is: m EI/EA.
+std::vector<BeamTable::Mass> read_mass(ColumnReader& columns,
+                                       const std::vector<BeamTable::Stiffness>& stiffness) {
+  const Column mass = columns.required("mass", "kg/m", Range::positive);
+  const Column y = columns.optional("centre_y", "m");
+  const Column z = columns.optional("centre_z", "m");
+  const auto inertia = [&](const std::string& key, std::size_t bending) {
+    if (columns.has(key)) return columns.required(key, "kg m", Range::non_negative);
+    Column usual;
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      const BeamTable::Stiffness& S = stiffness[i];
+      usual.push_back(mass[i] * S[section_entry(bending, bending)] / S[0]);
+    }
+    return usual;
+  };
+  const Column flap = inertia("inertia_flap", 4);
+  const Column lag = inertia("inertia_lag", 5);
+  std::vector<BeamTable::Mass> moments;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    moments.push_back({mass[i], mass[i] * y[i], mass[i] * z[i], lag[i] + mass[i] * y[i] * y[i],
+                       flap[i] + mass[i] * z[i] * z[i], mass[i] * y[i] * z[i]});
+  }
+  return moments;
+}
+
+}  // namespace
+
+std::vector<BeamTable::Share> BeamTable::shares(double s) const {
+  if (span.size() == 1) return {{0, 1.0}};
+  const auto above = std::upper_bound(span.begin() + 1, span.end() - 1, s);
+  const auto right = static_cast<std::size_t>(above - span.begin());
+  const double weight = (s - span[right - 1]) / (span[right] - span[right - 1]);
+  return {{right - 1, 1.0 - weight}, {right, weight}};
+}
+
+BeamTable read_beam_table(Draft& draft, TableReader& table) {
+  ColumnReader columns(draft, table);
+  BeamTable result;
+  result.span = columns.span();
+  result.stiffness = table.has("stiffness") ? full_stiffness(draft, table, columns.stations())
+                                            : engineering_stiffness(columns);
+  result.mass = read_mass(columns, result.stiffness);
+  for (const char* key : {"sweep", "prebend"}) {
+    if (columns.has(key) && columns.stations() < 2) table.fail(key, "needs stations; give span as well");
+    result.straight = result.straight && !columns.has(key);
+  }
+  result.twisted = columns.has("twist");
+  result.twist = columns.optional("twist", "rad");
+  result.sweep = columns.optional("sweep", "m");
+  result.prebend = columns.optional("prebend", "m");
+  return result;
+}
+
+std::vector<FieldHelp> beam_table_fields() {
+  return {{"span", "list",
+           "where the stations are, from the first at `from` to the last at `to`, in any unit; keys "
+           "below then may be lists of a number per station, linear in between",
+           "uniform beam"},
+          {"mass", "kg/m", "mass per length"},
+          {"EA", "N", "extensional stiffness"},
+          {"EI_flap", "N m^2", "stiffness of bending that moves along the z axis of the section"},
+          {"EI_lag", "N m^2", "stiffness of bending that moves along its y axis"},
+          {"GJ", "N m^2", "torsional stiffness"},
+          {"GA_flap", "N", "shear stiffness along z, shear factor included", "0.32 EA"},
+          {"GA_lag", "N", "shear stiffness along y", "0.32 EA"},
+          {"stiffness", "6 x 6",
+           "in place of all stiffnesses: of extension, shear along y and z, twist, bending about y and z",
+           "none"},
+          {"inertia_flap", "kg m", "mass moment of inertia per length about y, at the mass centre",
+           "mass EI_flap/EA"},
+          {"inertia_lag", "kg m", "likewise about z", "mass EI_lag/EA"},
+          {"centre_y", "m", "mass centre of the section", "0"},
+          {"centre_z", "m", "likewise", "0"},
+          {"tension_y", "m", "tension centre: an axial force there does not bend", "0"},
+          {"tension_z", "m", "likewise", "0"},
+          {"shear_y", "m", "shear centre: a transverse force there does not twist", "0"},
+          {"shear_z", "m", "likewise", "0"},
+          {"twist", "rad", "of the section about the axis of the beam, y towards z", "0"},
+          {"sweep", "m", "distance of the axis of the beam from the line between the ends, along y", "0"},
+          {"prebend", "m", "likewise along z", "0"}};
+}
+
+}  // namespace eigentrail

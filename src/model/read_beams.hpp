@@ -1,0 +1,22 @@
+// Reads [[beam]]: makes the nodes of a beam, which are bodies, and its elements.
+#pragma once
+
+#include "model/draft.hpp"
+
+namespace eigentrail {
+
+/// Adds the nodes of all [[beam]] tables to the bodies, with their masses and the constraints that hold the
+/// ends, and the elements to Draft::beam_sections. Bodies must have been read.
+void read_beams(Draft& draft);
+
+/// The quadrature points of all [[beam_damping]] tables, with their labels.
+std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft);
+
+/// The elements of all beams, with their labels.
+std::vector<std::pair<BeamSection, std::string>> labelled_sections(const Draft& draft);
+
+/// Keys of both tables.
+std::vector<FieldHelp> beam_fields();
+std::vector<FieldHelp> beam_damping_fields();
+
+}  // namespace eigentrail
