@@ -179,8 +179,8 @@ int run_plot(const PlotArguments& arguments) {
     return *code;
   }
   throw InputError(
-      "plot draws with Python: expected an interpreter with numpy, xarray, h5netcdf, h5py and matplotlib "
-      "(apt install python3-matplotlib python3-xarray python3-h5netcdf); EIGENTRAIL_PYTHON=/path/to/python3 "
+      "plot draws with Python: expected Python 3.11 or later with numpy, pandas, xarray, h5py and matplotlib "
+      "(apt install python3-matplotlib python3-xarray python3-h5py); EIGENTRAIL_PYTHON=/path/to/python3 "
       "names one; eigentrail report draws without it");
 }
 
