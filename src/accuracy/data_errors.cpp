@@ -28,6 +28,13 @@ double distance_to_others(const ComplexVector& s, Eigen::Index i) {
   return least;
 }
 
+/// The errors of the model's data; null if they belong to another parameter than the traced one.
+const SampleErrors* errors_along(const Model& model, const TraceOptions& options) {
+  const SampleErrors* errors = model.sample_errors();
+  const auto traced = model.description().parameters.index(options.parameter);
+  return errors != nullptr && traced && errors->parameter() == *traced ? errors : nullptr;
+}
+
 /// The errors of all modes at one place.
 struct ErrorsAt {
   double p = 0.0;
@@ -249,8 +256,8 @@ class IntervalWalk {
 
 std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& options,
                                       const RecordedPath& path, const std::vector<Event>& events) {
-  if (model.sample_errors() == nullptr || model.sample_errors()->values().size() < 2 || path.steps.empty())
-    return std::nullopt;
+  const SampleErrors* of_model = errors_along(model, options);
+  if (of_model == nullptr || of_model->values().size() < 2 || path.steps.empty()) return std::nullopt;
   const ErrorSampler sampler(model, options);
   const std::vector<double> values = sampler.values();
   const auto samples = errors_between(sampler, path);
@@ -288,7 +295,7 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
 
 std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options, double p,
                                      const ComplexVector& s) {
-  if (model.sample_errors() == nullptr) return std::nullopt;
+  if (errors_along(model, options) == nullptr) return std::nullopt;
   const ErrorSampler sampler(model, options);
   const ErrorsAt errors = sampler.at(p, s, sampler.shape(p));
   Matrix result(s.size(), 2);

@@ -100,6 +100,7 @@ std::vector<EigenTriple> eigen_triples(const Matrix& M, const Matrix& C, const M
     }
   }
   make_biorthogonal(all, M, C);
+  for (EigenTriple& one : all) one.right /= one.left.dot(2.0 * one.s * (M * one.right) + C * one.right);
   return all;
 }
 

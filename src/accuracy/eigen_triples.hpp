@@ -8,7 +8,8 @@
 namespace eigentrail {
 
 /// The finite eigenvalues of s^2 M + s C + K, both members of complex pairs, by LAPACK's QZ algorithm on the
-/// companion form, or on s C + K if M is zero. Eigenvectors of equal eigenvalues are made biorthogonal. Empty
+/// companion form, or on s C + K if M is zero. Eigenvectors of equal eigenvalues are made biorthogonal, and
+/// all are scaled to y^H P'(s) z = 1. Empty
 /// if the algorithm does not converge. Cost: about 100 m^3, m = 2n or n.
 std::vector<EigenTriple> eigen_triples(const Matrix& M, const Matrix& C, const Matrix& K);
 

@@ -53,7 +53,7 @@ double short_number(double x, double length) {
 
 std::vector<Suggestion> suggest_samples(const TraceSetup& setup) {
   const SampleErrors* errors = setup.model->sample_errors();
-  if (errors == nullptr)
+  if (errors == nullptr || errors->parameter() != setup.traced())
     throw InputError(setup.scene.path + ": suggestions are made for samples; expected a [sampled_family]");
   if (errors->values().size() < 2)
     throw InputError(setup.scene.path +

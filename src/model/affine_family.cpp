@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/transposition.hpp"
+#include "model/rotor/table_errors.hpp"
 #include "model/rotor/tabulated_factor.hpp"
 
 namespace eigentrail {
@@ -107,7 +108,9 @@ AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<S
         description.effects = effects_of(pencil);
         return std::move(description);
       }()),
-      pencil_(std::move(pencil)) {}
+      pencil_(std::move(pencil)) {
+  if constexpr (std::is_same_v<Storage, Matrix>) errors_ = table_errors(pencil_, n_coordinates());
+}
 
 template <class Storage>
 AffinePencil<Storage> AffineFamily<Storage>::at(const Vector& parameters) const {

@@ -234,20 +234,18 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   return result;
 }
 
-/// The eigenvectors as matrices, with y^H P'(s) z = 1.
+/// The eigenvectors as matrices.
 struct Triples {
   ComplexMatrix right, left;  ///< n x k
   ComplexVector s;
 };
 
-Triples normalized(std::span<const EigenTriple> list, const std::array<ComplexMatrix, 3>& coefficients) {
-  const Eigen::Index n = coefficients[2].rows();
+Triples as_matrices(std::span<const EigenTriple> list, Eigen::Index n) {
   const auto count = static_cast<Eigen::Index>(list.size());
   Triples all{ComplexMatrix(n, count), ComplexMatrix(n, count), ComplexVector(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     const EigenTriple& one = list[static_cast<std::size_t>(i)];
-    const ComplexVector slope = 2.0 * one.s * (coefficients[0] * one.right) + coefficients[1] * one.right;
-    all.right.col(i) = one.right / one.left.dot(slope);
+    all.right.col(i) = one.right;
     all.left.col(i) = one.left;
     all.s[i] = one.s;
   }
@@ -270,9 +268,10 @@ Vector magnitudes_through(const Matrix& B, const Triples& triples, int power) {
 
 }  // namespace
 
-SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<PencilSamples, 3>& samples,
-                           const std::vector<SamplePiece>& pieces, SampleErrorOptions options)
-    : values_(values), samples_(samples), pieces_(pieces), options_(options) {
+InterpolationErrors::InterpolationErrors(int parameter, const std::vector<double>& values,
+                                         const std::array<PencilSamples, 3>& samples,
+                                         const std::vector<SamplePiece>& pieces, SampleErrorOptions options)
+    : parameter_(parameter), values_(values), samples_(samples), pieces_(pieces), options_(options) {
   for (const SamplePiece& piece : pieces_) {
     std::array<Matrix, 3>& all = variances_.emplace_back();
     if (piece.size() < fewest_for_noise || piece.reduced.rows() == 0) continue;
@@ -285,7 +284,7 @@ SampleErrors::SampleErrors(const std::vector<double>& values, const std::array<P
   }
 }
 
-double SampleErrors::place_of_largest_error(std::size_t gap, double from, double to) const {
+double InterpolationErrors::place_of_largest_error(std::size_t gap, double from, double to) const {
   const double low = std::max(from, values_[gap]), high = std::min(to, values_[gap + 1]);
   const RationalInterpolant& interpolant = piece_at(pieces_, 0.5 * (low + high)).interpolant;
   constexpr int places_in_gap = 50;
@@ -300,7 +299,7 @@ double SampleErrors::place_of_largest_error(std::size_t gap, double from, double
   return best;
 }
 
-double SampleErrors::shape(double x) const {
+double InterpolationErrors::shape(double x) const {
   if (values_.size() < 2) return 1.0;
   const RationalInterpolant& interpolant = piece_at(pieces_, x).interpolant;
   const auto above = std::upper_bound(values_.begin() + 1, values_.end() - 1, x);
@@ -310,7 +309,7 @@ double SampleErrors::shape(double x) const {
   return std::min(1.0, interpolant.error_factor(x) / largest);
 }
 
-SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
+SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
   const double middle = 0.5 * (values_[gap] + values_[std::min(gap + 1, values_.size() - 1)]);
   const SamplePiece& piece = piece_at(pieces_, middle);
   const auto& variances = variances_[static_cast<std::size_t>(&piece - pieces_.data())];
@@ -330,7 +329,7 @@ SampleBounds SampleErrors::between(std::size_t gap, std::span<const EigenTriple>
     for (Eigen::Index j = 0; j < n_samples; ++j)
       coefficients[c] += weights[j] * one.at(window.first + static_cast<std::size_t>(j));
   }
-  const Triples all = normalized(triples, coefficients);
+  const Triples all = as_matrices(triples, samples_[0].at(0).rows());
 
   ComplexMatrix shares = ComplexMatrix::Zero(n_triples, n_samples);
   Vector variance = Vector::Zero(n_triples), floor = variance, digits = variance;

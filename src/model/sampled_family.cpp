@@ -95,7 +95,7 @@ SampledFamily::SampledFamily(ModelDescription description, int variable, const S
       values_(data.values),
       pieces_(std::move(pieces)),
       samples_(std::move(samples)),
-      errors_(values_, samples_, pieces_) {}
+      errors_(variable, values_, samples_, pieces_) {}
 
 Vector SampledFamily::initial_guess(const Vector&) const {
   return Vector::Zero(n_coordinates());

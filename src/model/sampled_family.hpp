@@ -45,7 +45,7 @@ class SampledFamily final : public Model {
   std::vector<double> values_;
   std::vector<SamplePiece> pieces_;
   std::array<PencilSamples, 3> samples_;  ///< of s^2 M + s C + K
-  SampleErrors errors_;
+  InterpolationErrors errors_;
 };
 
 /// Reads samples as read_samples does with a path.

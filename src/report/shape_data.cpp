@@ -9,8 +9,70 @@ namespace {
 
 constexpr double whole = 32767.0;  ///< the integer of 16 bits that represents the largest component
 
-std::size_t bytes_per_node(const LociFile& loci) {
-  const std::size_t n = loci.coordinates.size();
+/// Displacements of the nodes of shafts, x, y and z each, from the coordinates of a rotor.
+class ShaftNodes {
+ public:
+  /// Empty if the file has no shafts.
+  explicit ShaftNodes(const Hdf5File& file) {
+    if (!file.has("shaft_node")) return;
+    names_ = file.read_texts("shaft_node");
+    places_ = file.read_real("shaft_place");
+    numbers_ = file.read_integers("shaft_number");
+    coordinates_ = file.read_integers("shaft_coordinate");
+    if (places_.size() != names_.size() || numbers_.size() != names_.size() ||
+        coordinates_.size() != 2 * names_.size())
+      throw InputError("the datasets of shafts do not fit each other");
+    if (file.has("projection_basis")) basis_ = file.read_real("projection_basis");
+  }
+
+  bool empty() const { return names_.empty(); }
+  std::size_t size() const { return 3 * names_.size(); }
+
+  /// `shape`: n coordinates of one mode.
+  std::vector<Complex> displacements(const Complex* shape, std::size_t n) const {
+    std::vector<Complex> result;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      for (const std::size_t axis : {0U, 1U})
+        result.push_back(component(shape, n, coordinates_[2 * i + axis]));
+      result.emplace_back(0.0);
+    }
+    return result;
+  }
+
+  std::vector<float> at_rest() const {
+    std::vector<float> result;
+    for (const double place : places_) result.insert(result.end(), {0.0F, 0.0F, static_cast<float>(place)});
+    return result;
+  }
+
+  /// As geometry_data: the nodes, and lines between neighbours of one shaft.
+  Json geometry() const {
+    Json carriers = Json::array(), places = Json::array(), lines = Json::array();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      carriers.push_back({{"name", names_[i]}, {"first", 3 * i}, {"body", false}});
+      places.push_back({{"carrier", i}, {"at", Json::array({Json::array({0, 0, 0})})}});
+      if (i > 0 && numbers_[i] == numbers_[i - 1])
+        lines.push_back({{"kind", "shaft"}, {"from", i - 1}, {"to", i}});
+    }
+    return {{"carriers", carriers}, {"places", places}, {"lines", lines}};
+  }
+
+ private:
+  Complex component(const Complex* shape, std::size_t n, std::int64_t coordinate) const {
+    if (coordinate < 0) return 0.0;
+    const auto row = static_cast<std::size_t>(coordinate);
+    if (basis_.empty()) return row < n ? shape[row] : 0.0;
+    Complex sum = 0.0;
+    for (std::size_t k = 0; k < n && row * n + k < basis_.size(); ++k) sum += basis_[row * n + k] * shape[k];
+    return sum;
+  }
+
+  std::vector<std::string> names_;
+  std::vector<double> places_, basis_;
+  std::vector<std::int64_t> numbers_, coordinates_;
+};
+
+std::size_t bytes_per_node(const LociFile& loci, std::size_t n) {
   return loci.modes.size() * (2 * n * sizeof(std::int16_t)) + n * sizeof(float);
 }
 
@@ -50,7 +112,9 @@ void append_shape(const Complex* shape, std::size_t n, std::vector<std::int16_t>
 
 Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget) {
   const std::size_t n = loci.coordinates.size();
-  const std::size_t room = budget.shapes / std::max<std::size_t>(bytes_per_node(loci), 1);
+  const ShaftNodes shafts(file);
+  const std::size_t shown = shafts.empty() ? n : shafts.size();
+  const std::size_t room = budget.shapes / std::max<std::size_t>(bytes_per_node(loci, shown), 1);
   if (room < 2 || n == 0) return nullptr;
   const std::vector<std::size_t> nodes = chosen_nodes(loci, file, room);
   std::vector<std::int16_t> numbers;
@@ -59,15 +123,26 @@ Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget&
     const std::vector<Complex> shapes = file.read_complex_row("mode_shape", node);
     if (shapes.size() != loci.modes.size() * n)
       throw InputError(loci.path + ": mode_shape does not fit the other datasets");
-    for (std::size_t mode = 0; mode < loci.modes.size(); ++mode)
-      append_shape(shapes.data() + mode * n, n, numbers);
+    for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
+      if (shafts.empty()) {
+        append_shape(shapes.data() + mode * n, n, numbers);
+      } else {
+        append_shape(shafts.displacements(shapes.data() + mode * n, n).data(), shown, numbers);
+      }
+    }
+    if (!shafts.empty()) {
+      const std::vector<float> rest = shafts.at_rest();
+      equilibrium.insert(equilibrium.end(), rest.begin(), rest.end());
+      continue;
+    }
     for (const double x : loci.equilibrium.row(static_cast<Eigen::Index>(node)))
       equilibrium.push_back(static_cast<float>(x));
   }
   return {{"nodes", nodes},
           {"shapes", base64(numbers)},
           {"equilibrium", base64(equilibrium)},
-          {"geometry", geometry_data(loci, nodes)}};
+          {"coordinates", shown},
+          {"geometry", shafts.empty() ? geometry_data(loci, nodes) : shafts.geometry()}};
 }
 
 }  // namespace eigentrail

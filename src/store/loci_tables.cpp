@@ -7,6 +7,7 @@
 #include "store/labelled_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/projection_datasets.hpp"
+#include "store/shaft_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -52,6 +53,7 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
       modes_(modes),
       functions_(modes) {
   create_dimensions(model.description(), order, modes);
+  write_shafts(file_, model.description());
   if (const Projection* projection = model.projection()) write_projection(file_, *projection);
   if (!motions.empty()) create_dimension(file_, "motion", ElementType::text, motions, "motion of a mass");
   const auto datasets = growing_datasets(model, options);

@@ -20,6 +20,7 @@
 #include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
 #include "store/saved_state.hpp"
+#include "store/shaft_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -38,7 +39,7 @@ double seconds_since(Clock::time_point begin) {
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
   if (!is_loci_dataset(parameter) && !is_range_dataset(parameter) && !is_data_error_dataset(parameter) &&
-      !is_projection_dataset(parameter))
+      !is_projection_dataset(parameter) && !is_shaft_dataset(parameter))
     return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {

@@ -18,6 +18,37 @@ from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, TIME_LI
 LONG = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02")
 
 
+# A rotor, whose modes have a whirl and names from where the shaft first turns.
+ROTOR = """
+[parameters]
+speed = { value = 3000, unit = "rpm" }
+[trace]
+parameter = "speed"
+from = 0
+to = 9000
+order = 1
+tolerance = 1e-9
+max_step = 4
+[[shaft]]
+stations = { length = 1, outer = 0.05 }
+elements = 2
+E = 2.1e11
+nu = 0.3
+density = 7850
+speed = "speed"
+[[disc]]
+node = 2
+mass = 20
+Id = 0.2
+Ip = 0.3
+[[bearing]]
+node = [1, 3]
+kxx = 1e7
+kyy = 2e7
+cxx = 100
+"""
+
+
 class Interrupted(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -43,6 +74,19 @@ class Interrupted(ProgramTest):
         self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet", "--resume")
         self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
         self.assertEqual({path.name for path in self.folder.iterdir()}, {"scene.toml", "out.h5", "whole.h5"})
+
+    def test_a_rotor_goes_on_with_its_whirl_and_names(self):
+        self.write("scene.toml", ROTOR)
+        run = self.start()
+        self.wait_for("out.h5")
+        time.sleep(0.1)
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(run.returncode, 130)
+        self.assert_resumes_to_whole()
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertIn("1st forward bending", [name.decode() for name in file["mode_name"][:]])
+            self.assertTrue(np.isfinite(file["whirl"][-1]).all())
 
     def test_signals_save_and_say_how_to_go_on(self):
         for number in (signal.SIGINT, signal.SIGTERM):

@@ -30,7 +30,7 @@ class Trace(CommandTest):
                 evaluations = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
                 counted = [entry.split()[0] for entry in evaluations.split(", ")]
                 explained = self.run_well("explain", scene)
-                effects, absent = explained[:explained.index("structure of")].split("absent, never evaluated: ")
+                effects, _, absent = explained[:explained.index("structure of")].partition("absent, never evaluated: ")
                 active = re.findall(r"^ +(\w+) +\d+  ", effects[effects.index("effects"):], re.MULTILINE)
                 self.assertEqual(counted, active)
                 self.assertFalse(set(counted) & set(absent.strip().split(", ")))

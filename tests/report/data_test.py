@@ -95,6 +95,51 @@ class ReportData(CommandTest):
         self.assertEqual((line["kind"], geometry["places"][line["from"]]["at"], geometry["places"][line["to"]]["carrier"]),
                          ("rod", [[1.0, 0.0, 0.0]], 0))
 
+    ROTOR = """
+[parameters]
+speed = { value = 3000, unit = "rpm" }
+[trace]
+parameter = "speed"
+from = 100
+to = 9000
+modes = 4
+[[shaft]]
+stations = { length = [0.4, 0.6], outer = 0.05 }
+elements = ELEMENTS
+position = 0.1
+E = 2.1e11
+nu = 0.3
+density = 7850
+speed = "speed"
+[[bearing]]
+node = 2
+kxx = 1e7
+cxx = 100
+[[support]]
+node = 1
+"""
+
+    def test_figure_of_a_rotor_is_its_shaft(self):
+        """Nodes along z, joined by lines, with displacements x and y; the same of a rotor that was projected."""
+        for elements in (2, 25):
+            self.trace(self.ROTOR.replace("ELEMENTS", str(elements)), "--force")
+            shapes = self.report("loci.h5", output=f"{elements}.html")[0]["shapes"]
+            nodes = 2 * elements + 1
+            geometry, n = shapes["geometry"], shapes["coordinates"]
+            self.assertEqual(([carrier["name"] for carrier in geometry["carriers"]][-1], n), (f"node {nodes}", 3 * nodes))
+            self.assertEqual([(line["from"], line["to"]) for line in geometry["lines"]], [(i, i + 1) for i in range(nodes - 1)])
+            rest = numbers(shapes["equilibrium"], "<f4").reshape(-1, nodes, 3)
+            np.testing.assert_allclose(rest[0, [0, elements, -1]], [[0, 0, 0.1], [0, 0, 0.5], [0, 0, 1.1]], rtol=1e-6)
+            parts = numbers(shapes["shapes"], "<i2").reshape(len(rest), 4, nodes, 3, 2) / 32767.0
+            np.testing.assert_array_equal(parts[:, :, 0], 0.0)  # the pin
+            with h5py.File(self.folder / "loci.h5") as loci:
+                shape = loci["mode_shape"][-1, 0]
+                if "projection_basis" in loci:
+                    shape = loci["projection_basis"][:] @ shape
+                where = loci["shaft_coordinate"][:]
+                moved = np.where(where < 0, 0.0, shape[where])
+            np.testing.assert_allclose(parts[-1, 0, :, :2, 0] + 1j * parts[-1, 0, :, :2, 1], moved / np.abs(moved).max(), atol=1e-4)
+
     def test_page_of_a_large_file_is_small_and_exact(self):
         self.trace(BIRTH)
         enlarge(self.folder / "loci.h5")

@@ -57,6 +57,8 @@ class AffineFamily : public Model {
   /// None for sparse matrices: looking for common structure takes work and memory of dense ones.
   CoefficientMatrices coefficient_matrices() const override;
   std::vector<Expression> expressions() const override;
+  /// Of tables whose argument is a parameter; none for sparse matrices.
+  const SampleErrors* sample_errors() const override { return errors_.get(); }
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
@@ -68,6 +70,7 @@ class AffineFamily : public Model {
                                BasicLinearization<Real>& result) const;
 
   AffinePencil<Storage> pencil_;
+  std::shared_ptr<const SampleErrors> errors_;
 };
 
 using SparseFamily = AffineFamily<SparseMatrix>;

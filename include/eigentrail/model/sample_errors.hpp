@@ -31,7 +31,7 @@ struct PencilSamples {
   const Matrix& errors_at(std::size_t i) const { return entry_errors[is_constant() ? 0 : i]; }
 };
 
-/// An eigenvalue with its right and left eigenvector (P(s) z = 0, y^H P(s) = 0), of any length.
+/// An eigenvalue with its right and left eigenvector, P(s) z = 0 and y^H P(s) = 0, scaled to y^H P'(s) z = 1.
 struct EigenTriple {
   Complex s;
   ComplexVector right, left;
@@ -63,28 +63,48 @@ struct SampleErrorOptions {
   double deviations_nearby = 4.0;
 };
 
-/// Refers to samples and pieces, which must outlive it.
+/// Errors of eigenvalues on the range of samples of one parameter.
 class SampleErrors {
  public:
-  SampleErrors(const std::vector<double>& values, const std::array<PencilSamples, 3>& samples,
-               const std::vector<SamplePiece>& pieces, SampleErrorOptions options = {});
+  SampleErrors() = default;
+  virtual ~SampleErrors() = default;
+  SampleErrors(const SampleErrors&) = delete;
+  SampleErrors& operator=(const SampleErrors&) = delete;
+
+  /// Index of the parameter; while another one is traced, nothing is known.
+  virtual int parameter() const = 0;
 
   /// Values of the samples, ascending, in the SI unit of the parameter.
-  const std::vector<double>& values() const { return values_; }
+  virtual const std::vector<double>& values() const = 0;
 
   /// Bounds that hold between the samples `gap` and `gap` + 1, or at the only sample, for eigenvalues with
   /// the given eigenvectors. Cost: a product of n x n and n x k per sample, k the number of eigenvalues.
-  SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const;
+  virtual SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const = 0;
 
   /// The smooth error at x (SI unit) as a share of its largest value between the two samples beside it, if
   /// the derivatives of the function vary little there: zero at a sample.
-  double shape(double x) const;
+  virtual double shape(double x) const = 0;
 
   /// The place between the samples `gap` and `gap` + 1, cut to `from` ... `to`, where the error of the
   /// interpolant is largest for a function whose derivatives vary little.
-  double place_of_largest_error(std::size_t gap, double from, double to) const;
+  virtual double place_of_largest_error(std::size_t gap, double from, double to) const = 0;
+};
+
+/// Those of samples of all matrices at the same values. Refers to samples and pieces, which must outlive it.
+class InterpolationErrors final : public SampleErrors {
+ public:
+  InterpolationErrors(int parameter, const std::vector<double>& values,
+                      const std::array<PencilSamples, 3>& samples, const std::vector<SamplePiece>& pieces,
+                      SampleErrorOptions options = {});
+
+  int parameter() const override { return parameter_; }
+  const std::vector<double>& values() const override { return values_; }
+  SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const override;
+  double shape(double x) const override;
+  double place_of_largest_error(std::size_t gap, double from, double to) const override;
 
  private:
+  int parameter_;
   const std::vector<double>& values_;
   const std::array<PencilSamples, 3>& samples_;
   const std::vector<SamplePiece>& pieces_;

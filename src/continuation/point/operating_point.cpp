@@ -11,6 +11,7 @@
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
 #include "eigentrail/modes/participation.hpp"
+#include "eigentrail/modes/rotor_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 
@@ -68,6 +69,19 @@ void name_by_energy(const ModelDescription& description, const PathPoint& point,
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
 }
 
+/// Names the modes of a rotor by the motion of its shafts.
+void name_by_shafts(const TraceSetup& setup, double p, std::vector<OperatingMode>& modes) {
+  const std::vector<SpinningShaft>& shafts = setup.model->description().shafts;
+  if (shafts.empty()) return;
+  Vector parameters = setup.scene.parameters.declared_values();
+  parameters[setup.traced()] = p;
+  std::vector<RotorMode> described;
+  for (const OperatingMode& mode : modes)
+    described.push_back(rotor_mode(*setup.model, parameters, mode.s, mode.shape));
+  const std::vector<std::string> names = rotor_mode_names(described, shafts);
+  for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
+}
+
 /// The freedoms of the large model that move most, if they have names.
 std::string name_by_freedoms(const Projection& projection, const ComplexVector& reduced) {
   if (!has_own_names(projection.names)) return {};
@@ -109,13 +123,14 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     }
   }
   name_by_energy(description, point, result.modes);
+  name_by_shafts(setup, p, result.modes);
   return result;
 }
 
 /// Throws InputError for a value outside the samples of the model, if it has such.
 void check_within_samples(const TraceSetup& setup, const std::vector<double>& values) {
   const SampleErrors* errors = setup.model->sample_errors();
-  if (errors == nullptr) return;
+  if (errors == nullptr || errors->parameter() != setup.traced()) return;
   const std::string& name = setup.options.parameter;
   std::vector<double> samples = errors->values();
   for (double& sample : samples) sample /= setup.model->description().parameters.at(name).factor;

@@ -54,13 +54,15 @@ SampledData samples_of(const std::vector<double>& nodes, const std::vector<std::
 }
 
 /// What the interpolant of all other rows misses at a row, over all inner rows, relative to the column.
-double error_left_out(const RationalInterpolant& interpolant, const std::vector<double>& column) {
+double error_left_out(const SamplePiece& piece, const std::vector<double>& column) {
+  const RationalInterpolant& interpolant = piece.interpolant;
   const std::vector<double>& nodes = interpolant.nodes();
   if (nodes.size() < 4) return std::nan("");
   double largest = 0.0, worst = 0.0;
   for (const double value : column) largest = std::max(largest, std::abs(value));
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
-    const Vector missed = leave_one_out(nodes, interpolant.degree(), i, interpolant.denominator());
+    const Vector missed = leave_one_out(nodes, interpolant.degree(), i,
+                                        piece.without_one.empty() ? Denominator{} : piece.without_one[i]);
     double error = 0.0;
     for (std::size_t j = 0; j < nodes.size(); ++j) error += missed[static_cast<Eigen::Index>(j)] * column[j];
     worst = std::max(worst, std::abs(error));
@@ -124,7 +126,7 @@ std::shared_ptr<const TabulatedFactor> BearingTable::find(const std::string& key
 }
 
 std::string BearingTable::outside(double at) const {
-  const std::vector<double>& nodes = interpolant->nodes();
+  const std::vector<double>& nodes = piece->interpolant.nodes();
   const double slack = 1e-12 * (nodes.back() - nodes.front());
   if (at >= nodes.front() - slack && at <= nodes.back() + slack) return "";
   const std::string unit = first_unit.empty() ? "" : " " + first_unit;
@@ -134,11 +136,11 @@ std::string BearingTable::outside(double at) const {
 }
 
 std::string BearingTable::in_words() const {
-  const std::vector<double>& nodes = interpolant->nodes();
+  const std::vector<double>& nodes = piece->interpolant.nodes();
   std::string text = "table of " + std::to_string(nodes.size()) + " rows, " + first_name + " = " +
                      short_number(nodes.front() / factor) + " to " + short_number(nodes.back() / factor) +
                      (first_unit.empty() ? "" : " " + first_unit) + ", interpolant of degree " +
-                     std::to_string(interpolant->degree());
+                     std::to_string(piece->interpolant.degree());
   if (std::isnan(error)) return text + "; too few rows to tell its error";
   return text + "; a row that is left out is missed by " + short_number(error) + " of the largest " + worst +
          " at most";
@@ -157,16 +159,16 @@ BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std
   check_ascending(csv, nodes);
   const std::vector<std::vector<double>> columns = coefficients_of(csv);
   std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, std::nullopt);
-  table.interpolant = std::make_shared<const RationalInterpolant>(std::move(pieces.front().interpolant));
+  table.piece = std::make_shared<const SamplePiece>(std::move(pieces.front()));
   table.error = std::nan("");
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double error = error_left_out(*table.interpolant, columns[i]);
+    const double error = error_left_out(*table.piece, columns[i]);
     if (!(error <= table.error)) {
       table.error = error;
       table.worst = csv.columns[i + 1].name;
     }
     table.columns.emplace_back(csv.columns[i + 1].name,
-                               std::make_shared<const TabulatedFactor>(table.interpolant, columns[i]));
+                               std::make_shared<const TabulatedFactor>(table.piece, columns[i]));
   }
   return table;
 }

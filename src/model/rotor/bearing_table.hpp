@@ -20,7 +20,7 @@ class TableFault : public std::runtime_error {
 
 struct BearingTable {
   Expression argument;  ///< SI
-  std::shared_ptr<const RationalInterpolant> interpolant;
+  std::shared_ptr<const SamplePiece> piece;
   std::string first_name;  ///< of the argument's column
   std::string first_unit;
   double factor = 1.0;  ///< SI value = factor * value of the argument's column

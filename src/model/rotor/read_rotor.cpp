@@ -62,7 +62,7 @@ void number_freedoms(RotorDraft& rotor) {
 
 /// The nodes of a shaft and its rotation, for orbits.
 SpinningShaft spinning_shaft(const RotorDraft& rotor, const ShaftDraft& shaft) {
-  SpinningShaft result{shaft.name, shaft.speed, {0.0}, {}};
+  SpinningShaft result{shaft.name, shaft.speed, {rotor.first_value(shaft.position)}, {}};
   for (const ShaftSegment& segment : shaft.segments) {
     const double step = rotor.first_value(segment.length) / segment.elements;
     for (int i = 0; i < segment.elements; ++i) result.places.push_back(result.places.back() + step);

@@ -210,6 +210,7 @@ void read_shafts(RotorDraft& rotor) {
     shaft.name = read_shaft_name(rotor, table, all.size() > 1);
     read_segments(rotor, table, shaft);
     read_material(rotor, table, shaft);
+    shaft.position = draft.read_number(table, "position", "m", Range::any, 0.0);
     shaft.speed = draft.read_number(table, "speed", "rad/s", Range::any, 0.0);
     shaft.alpha = draft.read_number(table, "alpha", "1/s", Range::any, 0.0);
     shaft.beta = draft.read_number(table, "beta", "s", Range::any, 0.0);

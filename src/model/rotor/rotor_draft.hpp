@@ -32,6 +32,7 @@ struct ShaftSegment {
 struct ShaftDraft {
   std::string name;  ///< empty if the scene has one shaft without a name
   std::vector<ShaftSegment> segments;
+  Expression position;  ///< of the first node along z, m
   Expression E, G, density, speed;
   Expression nu;                    ///< for the shear coefficient
   std::optional<Expression> shear;  ///< given shear coefficient

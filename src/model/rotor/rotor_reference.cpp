@@ -24,6 +24,7 @@ std::vector<EffectHelp> rotor_reference() {
        {"G", "Pa", "shear modulus; this or nu", "E / (2 (1 + nu))"},
        {"nu", "", "Poisson's ratio; this or G", "E / (2 G) - 1"},
        {"density", "kg/m^3", "of the material; 0: without mass"},
+       {"position", "m", "of node 1 along the z axis; for pictures of several shafts", "0"},
        {"speed", "rad/s", "its rotation about the z axis", "0"},
        {"shear_coefficient", "", "of all sections", "Cowper's, of each section"},
        {"alpha", "1/s", "damping that does not rotate: alpha times the shaft's mass matrix", "0"},

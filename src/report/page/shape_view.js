@@ -6,7 +6,7 @@ const PERIOD = 2400;  // of the animation, ms
 
 class ShapeView {
   constructor(files) {
-    this.decoded = files.map((file) => (file.data.shapes ? new Shapes(file.data.shapes, file.data.modes.length, file.data.coordinates.length) : null));
+    this.decoded = files.map((file) => (file.data.shapes ? new Shapes(file.data.shapes, file.data.modes.length) : null));
     this.files = files;
     this.turn = [...VIEWS["3D"]];
     this.amplitude = 1;

@@ -2,8 +2,8 @@
 
 /** Mode shapes and equilibria of a file. The largest component of a shape is one. */
 class Shapes {
-  constructor(data, modes, coordinates) {
-    Object.assign(this, { nodes: data.nodes, geometry: data.geometry, modes, n: coordinates });
+  constructor(data, modes) {
+    Object.assign(this, { nodes: data.nodes, geometry: data.geometry, modes, n: data.coordinates });
     this.numbers = int16(data.shapes);
     this.equilibrium = float32(data.equilibrium);
   }

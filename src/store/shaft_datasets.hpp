@@ -1,0 +1,15 @@
+// The nodes of shafts in a loci file: names, places, and their coordinates.
+#pragma once
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/model/model.hpp"
+
+namespace eigentrail {
+
+/// Whether a loci file has such a dataset of this name.
+bool is_shaft_dataset(const std::string& name);
+
+/// Writes the nodes of a model with shafts; nothing for others.
+void write_shafts(Hdf5File& file, const ModelDescription& description);
+
+}  // namespace eigentrail
