@@ -31,7 +31,6 @@ namespace eigentrail::app {
 namespace {
 
 constexpr int leader = 0;
-constexpr std::chrono::microseconds pause_between_looks{200};
 constexpr std::int64_t no_piece = -1;
 
 enum Tag : int { request_tag = 1, answer_tag = 2, result_tag = 3 };
@@ -54,6 +53,21 @@ Outcome outcome_of(Work&& work) {
   }
 }
 
+/// Sleeps between looks for messages: first briefly, then longer, because each look costs some 20 us of
+/// computing time. The longest sleep is short compared with pieces that are worth sharing.
+class Patience {
+ public:
+  void sleep() {
+    std::this_thread::sleep_for(pause_);
+    pause_ = std::min(2 * pause_, longest);
+  }
+  void restart() { pause_ = shortest; }
+
+ private:
+  static constexpr std::chrono::microseconds shortest{50}, longest{3200};
+  std::chrono::microseconds pause_ = shortest;
+};
+
 [[noreturn]] void throw_error(const Outcome& outcome) {
   if (outcome.code == bad_input) throw InputError(outcome.bytes);
   throw std::runtime_error(outcome.bytes);
@@ -66,8 +80,15 @@ struct OtherProcessFailed {
 
 void wait_for(MPI_Request request) {
   int complete = 0;
-  while (MPI_Test(&request, &complete, MPI_STATUS_IGNORE), complete == 0)
-    std::this_thread::sleep_for(pause_between_looks);
+  Patience patience;
+  while (MPI_Test(&request, &complete, MPI_STATUS_IGNORE), complete == 0) patience.sleep();
+}
+
+/// Sends a message. Long ones wait until they are received, so MPI_Send would keep the core busy.
+void send(const void* data, std::size_t size, int to, Tag tag) {
+  MPI_Request request{};
+  MPI_Isend(data, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 /// Sends bytes of one process to all. MPI counts with int, so long texts go in slices.
@@ -263,9 +284,13 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
     }
     if (outcome.code != done && failure.code == done) failure = std::move(outcome);
   };
+  Patience patience;
   while (others > 0 || !own.ended()) {
     bool idle = true;
-    for (std::size_t i = own.idle(); i > 0; --i) own.give(next_piece());
+    for (std::size_t i = own.idle(); i > 0; --i) {
+      idle = false;
+      own.give(next_piece());
+    }
     while (auto result = own.finished()) take(result->first, std::move(result->second));
     int there = 0;
     MPI_Status status{};
@@ -279,14 +304,14 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
       if (status.MPI_TAG == request_tag) {
         const std::int64_t answer = next_piece();
         others -= answer == no_piece ? 1 : 0;
-        MPI_Send(&answer, 1, MPI_INT64_T, status.MPI_SOURCE, answer_tag, MPI_COMM_WORLD);
+        send(&answer, sizeof answer, status.MPI_SOURCE, answer_tag);
       } else {
         std::array<std::int64_t, 2> head{};
         std::memcpy(head.data(), bytes.data(), sizeof head);
         take(head[0], {head[1], bytes.substr(sizeof head)});
       }
     }
-    if (idle) std::this_thread::sleep_for(pause_between_looks);
+    idle ? patience.sleep() : patience.restart();
   }
   return failure;
 }
@@ -294,26 +319,28 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
 void MpiWorkers::assist(const Piece& piece) const {
   ComputingThreads own(threads_, piece);
   std::size_t requested = 0;
+  Patience patience;
   while (!own.ended()) {
     bool idle = true;
     // Results first: the answer "no piece" then tells the first process that it has all results of a thread.
     while (auto result = own.finished()) {
       idle = false;
       const std::string message = message_of(result->first, result->second);
-      MPI_Send(message.data(), static_cast<int>(message.size()), MPI_BYTE, leader, result_tag,
-               MPI_COMM_WORLD);
+      send(message.data(), message.size(), leader, result_tag);
     }
-    for (; requested < own.idle(); ++requested)
-      MPI_Send(nullptr, 0, MPI_BYTE, leader, request_tag, MPI_COMM_WORLD);
+    for (; requested < own.idle(); ++requested) {
+      idle = false;
+      send(nullptr, 0, leader, request_tag);
+    }
     int there = 0;
     while (MPI_Iprobe(leader, answer_tag, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE), there != 0) {
       idle = false;
       std::int64_t answer = no_piece;
-      MPI_Recv(&answer, 1, MPI_INT64_T, leader, answer_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+      MPI_Recv(&answer, sizeof answer, MPI_BYTE, leader, answer_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
       own.give(answer);
       --requested;
     }
-    if (idle) std::this_thread::sleep_for(pause_between_looks);
+    idle ? patience.sleep() : patience.restart();
   }
 }
 

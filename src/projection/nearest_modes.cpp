@@ -271,9 +271,20 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
   const int per_mode = form == Inverse::Form::undamped ? 1 : 2;
   Shift shift = request.shift;
   int count = request.count;
-  bool moved = false;
+  bool moved = false;  ///< away from the requested shift, on which an eigenvalue lies here
+  bool remembered = moved_ && moved_->requested == request.shift;
+  if (remembered) shift = moved_->used;
+  const auto forget = [&] {
+    moved_.reset();
+    remembered = false;
+    shift = request.shift;
+  };
   while (true) {
     if (!factor(pencil, shift)) {
+      if (remembered) {
+        forget();
+        continue;
+      }
       if (moved) return std::nullopt;
       shift = beside_zero(pencil);
       moved = true;
@@ -283,12 +294,20 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     Inverse inverse(pencil, factors_, shift, false, scale, solutions_);
     std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
     if (!right || right->s.empty()) return std::nullopt;
-    if (const double gap = moved ? 0.0 : gap_beside(*right, shift)) {
+    const bool beside_singular = remembered && moved_->beside_singular;
+    if (const double gap = moved || beside_singular ? 0.0 : gap_beside(*right, shift)) {
+      if (remembered) {
+        forget();
+        continue;
+      }
       shift = shift.frequency > 0.0 ? Shift{0.0, shift.frequency - 0.3 * gap}
                                     : Shift{shift.real + 0.3 * gap, 0.0};
       moved = true;
+      moved_ = MovedShift{request.shift, shift, false};
       continue;
     }
+    // A matrix that cannot be factored stays so where rigid-body motions are the cause.
+    if (moved && !moved_) moved_ = MovedShift{request.shift, shift, true};
     while (complete_radius(shift, form, right->least) < request.cover && count < request.most) {
       count = std::min(request.most, count + std::max(2, count / 2));
       right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);

@@ -32,6 +32,7 @@ struct Shift {
   double frequency = 0.0;  ///< rad/s, >= 0; if positive, `real` is zero
 
   Complex value() const { return {real, frequency}; }
+  bool operator==(const Shift&) const = default;
 };
 
 /// Which modes are looked for.
@@ -74,7 +75,15 @@ class ModeFinder {
  private:
   bool factor(const SparsePencil& pencil, const Shift& shift);
 
+  /// A shift that lay on an eigenvalue, and the one that was used instead. The next place of the path begins
+  /// with that one: rigid-body motions, for example, are there everywhere.
+  struct MovedShift {
+    Shift requested, used;
+    bool beside_singular = false;  ///< the matrix could not be factored at the requested shift
+  };
+
   double tolerance_;
+  std::optional<MovedShift> moved_;
   SparseFactors factors_;
   int factorizations_ = 0;
   long solutions_ = 0;

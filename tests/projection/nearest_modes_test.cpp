@@ -113,6 +113,60 @@ TEST(NearestModes, AboutAFrequencyInFirstOrder) {
                  0.2 * stiffness(size) + 10.0 * skew(size, 6), {0.0, 3.0}, 5);
 }
 
+/// A chain of equal masses and springs without a support, and its frequencies.
+Matrix free_chain(double stiffness) {
+  Matrix K = Matrix::Zero(size, size);
+  for (Eigen::Index i = 1; i < size; ++i) {
+    K(i, i) += stiffness;
+    K(i - 1, i - 1) += stiffness;
+    K(i, i - 1) = K(i - 1, i) = -stiffness;
+  }
+  return K;
+}
+double free_chain_frequency(double stiffness, Eigen::Index mode) {
+  return 2.0 * std::sqrt(stiffness) * std::sin(0.5 * M_PI * static_cast<double>(mode) / size);
+}
+
+void expect_frequencies(const NearestModes& modes, double stiffness, Eigen::Index first, Eigen::Index last) {
+  for (Eigen::Index j = first; j <= last; ++j) {
+    const Complex s(0.0, free_chain_frequency(stiffness, j));
+    EXPECT_LT((modes.s.array() - s).abs().minCoeff(), 1e-8) << stiffness << ", mode " << j;
+  }
+}
+
+/// The chain has a mode at zero, on which the shift lies: the first place needs two factorizations, and each
+/// further one a single one.
+TEST(NearestModes, ShiftThatWasMovedOffARigidBodyMotionIsRemembered) {
+  const Matrix M = Matrix::Identity(size, size), C = Matrix::Zero(size, size);
+  ModeFinder finder(accuracy);
+  int before = 0;
+  for (const double k : {1.0, 1.2, 1.5, 2.0}) {
+    const auto modes = finder.find(pencil_of(M, C, free_chain(k)), {{}, 5});
+    ASSERT_TRUE(modes);
+    expect_frequencies(*modes, k, 1, 4);
+    EXPECT_EQ(finder.factorizations() - before, before == 0 ? 2 : 1);
+    before = finder.factorizations();
+  }
+}
+
+/// The shift lies on the third frequency of the first chain. At places where a frequency comes upon the moved
+/// shift, it is given up.
+TEST(NearestModes, RememberedShiftThatMeetsAnotherEigenvalueIsGivenUp) {
+  const Matrix M = Matrix::Identity(size, size), C = Matrix::Zero(size, size);
+  const Shift shift{0.0, free_chain_frequency(1.0, 3)};
+  const double gap = shift.frequency - free_chain_frequency(1.0, 2);
+  const double upon = std::pow(1.0 - 0.3 * gap / shift.frequency, 2);  // brings the third frequency there
+  ModeFinder finder(accuracy);
+  int before = 0;
+  for (const double k : {1.0, 1.01, 0.9, upon, 0.8, 1.0}) {
+    const auto modes = finder.find(pencil_of(M, C, free_chain(k)), {shift, 5});
+    ASSERT_TRUE(modes);
+    expect_frequencies(*modes, k, 2, 4);
+    EXPECT_LE(finder.factorizations() - before, 3) << k;
+    before = finder.factorizations();
+  }
+}
+
 /// Free chains have a mode at zero, on which the shift lies.
 TEST(NearestModes, RigidBodyMotion) {
   Matrix K = Matrix::Zero(size, size);

@@ -1,6 +1,8 @@
 // Projected families against their large ones, by solvers that know nothing of projections.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
 #include <random>
 
 #include "eigentrail/projection/project.hpp"
@@ -68,6 +70,86 @@ TEST(Projection, ErrorsAreWithinTheToleranceOfTheLargeModel) {
     EXPECT_LE(traced.model->projection()->factorizations, 12) << tolerance;
     EXPECT_LT(traced.model->n_coordinates(), 100);
   }
+}
+
+/// n = 5000 freedoms without coupling but for a sparse transformation x = T z: eigenvalues are known exactly.
+/// s^2 = -k of the first two, k = 4 + 0.2 (omega - 0.3) and 4 - 0.2 (omega - 0.3), cross at omega = 0.3.
+/// Modes 3 and 4, of k near 9, are coupled by 1e-6 of the slope of their k: they veer at omega = 0.6 with a
+/// half-width of 1e-6. Mode 5 has the damping 0.05 (0.45 - omega), and flutters at omega = 0.45.
+AffinePencil<SparseMatrix> planted_meetings(Eigen::Index n) {
+  using Entries = std::vector<Eigen::Triplet<double>>;
+  const auto matrix = [n](const Entries& entries) {
+    SparseMatrix A(n, n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+  };
+  Entries transformation, K0, K1, C0{{4, 4, 0.05 * 0.45}}, C1{{4, 4, -0.05}};
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> entry(-0.3, 0.3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    transformation.emplace_back(i, i, 1.0);
+    for (const Eigen::Index beside : {Eigen::Index{1}, Eigen::Index{7}})
+      transformation.emplace_back(i, (i + beside) % n, entry(engine));
+    if (i < 5) continue;
+    K0.emplace_back(i, i, 30.0 + 0.1 * static_cast<double>(i));
+    C0.emplace_back(i, i, 0.01);
+  }
+  const std::array<double, 5> k{4.0, 4.0, 9.0, 9.0, 16.0}, slope{0.2, -0.2, 1.0, -1.0, 0.0},
+      meeting{0.3, 0.3, 0.6, 0.6, 0.0};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    K0.emplace_back(at, at, k[i] - slope[i] * meeting[i]);
+    K1.emplace_back(at, at, slope[i]);
+  }
+  K0.emplace_back(2, 3, 1e-6);
+  K0.emplace_back(3, 2, 1e-6);
+  const SparseMatrix T = matrix(transformation);
+  const auto transformed = [&T](const SparseMatrix& A) {
+    const SparseMatrix product = T.transpose() * A * T;
+    return SparseMatrix(0.5 * (product + SparseMatrix(product.transpose())));
+  };
+  SparseMatrix identity(n, n);
+  identity.setIdentity();
+  const Expression omega = Expression::of_parameter(0);
+  return {{{1.0, transformed(identity)}},
+          {{1.0, transformed(matrix(C0))}, {omega, transformed(matrix(C1))}},
+          {{1.0, transformed(matrix(K0))}, {omega, transformed(matrix(K1))}}};
+}
+
+TEST(Projection, CrossingNarrowVeeringAndFlutterOfALargeModelAreToldApart) {
+  const TraceSetup setup = large_setup(planted_meetings(5000), 0.0, 1.0, 5, 1e-10);
+  const std::unique_ptr<ProjectedFamily> model = project(family_of(setup), setup.options);
+  const TraceResult result = trace(*model, setup.options, TraceObserver{});
+  EXPECT_EQ(result.status, TraceStatus::completed);
+  std::map<EventKind, std::vector<Event>> found;
+  for (const Event& event : result.events) found[event.kind].push_back(event);
+  ASSERT_EQ(found[EventKind::crossing].size(), 1U);
+  EXPECT_NEAR(found[EventKind::crossing].front().p, 0.3, 1e-9);
+  ASSERT_EQ(found[EventKind::veering].size(), 1U);
+  EXPECT_NEAR(found[EventKind::veering].front().p, 0.6, 1e-9);
+  EXPECT_NEAR(found[EventKind::veering].front().half_width, 1e-6, 1e-9);
+  ASSERT_EQ(found[EventKind::flutter].size(), 1U);
+  EXPECT_NEAR(found[EventKind::flutter].front().p, 0.45, 1e-9);
+}
+
+/// x' = A x, as a chain of first order: infinite eigenvalues are a matter of the form with velocities, and
+/// nobody misses them.
+TEST(Projection, FirstOrderFamiliesHaveNoInfiniteEigenvalues) {
+  constexpr Eigen::Index n = 300;
+  SparseMatrix E(n, n), A(n, n), B(n, n);
+  E.setIdentity();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    A.insert(i, i) = 2.0 + 0.01 * static_cast<double>(i);
+    B.insert(i, i) = 1.0;
+    if (i > 0) A.insert(i, i - 1) = -1.2;
+    if (i + 1 < n) A.insert(i, i + 1) = -0.8;
+  }
+  const TraceSetup setup =
+      large_setup({{}, {{1.0, E}}, {{1.0, A}, {Expression::of_parameter(0), B}}}, 0.0, 1.0, 4, 1e-6);
+  const Traced traced = run(setup, 5);
+  EXPECT_EQ(traced.result.status, TraceStatus::completed);
+  EXPECT_EQ(traced.result.n_infinite, 0);
+  EXPECT_LT(error(setup, traced), 1e-6);
 }
 
 TEST(Projection, UndampedModelsNeedNoLeftVectors) {

@@ -3,8 +3,8 @@
 // The state is everything that changes from one point to the next. Models and options are not part of it.
 // The functions `fields` below list the members that are saved. They decompose each struct by a structured
 // binding: if a member is added to a struct and not listed here, the code does not compile.
-#include "continuation/trace/trace_state.hpp"
 #include "continuation/archived_parts.hpp"
+#include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"

@@ -226,11 +226,11 @@ int Start::structural_infinities() const {
     });
   };
   int count = 0;
-  if (all.M.empty()) {
+  if (all.K.empty()) {  // the matrices are not known
     for (const Effect& effect : problem_.model.description().effects) count += effect.states;
     return count;
   }
-  for (Eigen::Index j = 0; j < all.M[0].cols(); ++j) {
+  for (Eigen::Index j = 0; j < all.K[0].cols(); ++j) {
     if (is_zero(all.M, j)) count += is_zero(all.C, j) ? 2 : 1;
   }
   return count;
