@@ -10,14 +10,13 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 46> loci_names = {"node",
+const std::array<std::string, 45> loci_names = {"node",
                                                 "step",
                                                 "mode",
                                                 "function",
                                                 "end",
                                                 "coordinate",
                                                 "coordinate_unit",
-                                                "coordinate_place",
                                                 "motion",
                                                 "kinetic_energy_share",
                                                 "mode_name",

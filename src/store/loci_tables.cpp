@@ -80,23 +80,6 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
       steps_(file_.shape("step").at(0)),
       extensible_(by_dimension(growing_datasets(model, options))) {}
 
-namespace {
-
-/// Per coordinate the place of its node along the axis, for displacements across it; NaN for others.
-std::vector<double> places_on_shafts(const ModelDescription& description) {
-  std::vector<double> places(description.coordinate_names.size(), std::numeric_limits<double>::quiet_NaN());
-  for (const SpinningShaft& shaft : description.shafts) {
-    for (std::size_t node = 0; node < shaft.nodes.size(); ++node) {
-      for (const Eigen::Index coordinate : shaft.nodes[node]) {
-        if (coordinate >= 0) places[static_cast<std::size_t>(coordinate)] = shaft.places[node];
-      }
-    }
-  }
-  return places;
-}
-
-}  // namespace
-
 void LociTables::create_dimensions(const ModelDescription& description, int order, std::size_t modes) {
   create_dimension(file_, "node", ElementType::integer, count_from(0, 0), "path point", true);
   create_dimension(file_, "step", ElementType::integer, count_from(0, 0),
@@ -109,9 +92,6 @@ void LociTables::create_dimensions(const ModelDescription& description, int orde
   create_dimension(file_, "coordinate", ElementType::text, description.coordinate_names, "coordinate");
   write_dataset(file_, {"coordinate_unit", "1", "unit of the coordinate"}, {"coordinate"},
                 description.coordinate_units);
-  if (!description.shafts.empty())
-    write_dataset(file_, {"coordinate_place", "m", "place along the axis of the shaft"}, {"coordinate"},
-                  places_on_shafts(description));
   create_dimension(file_, "order", ElementType::integer, count_from(0, static_cast<std::size_t>(order) + 1),
                    "power of the distance from the end of the step");
   if (has_constraints_)

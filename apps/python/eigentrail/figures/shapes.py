@@ -35,7 +35,7 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     if not np.isfinite(shape).all() or not np.abs(shape).any():
         raise ValueError(f"{title}: the mode does not exist there")
     shape = shape / shape[np.abs(shape).argmax()]
-    if "coordinate_place" in loci:
+    if "shaft_coordinate" in loci:
         return _bent_shafts(loci, shape, title, size)
     figure = _Carriers.of(loci, node)
     if figure is None:
@@ -237,16 +237,18 @@ def _bent_axis(figure, shape, title, size):
 
 
 def _bent_shafts(loci, shape, title, size):
-    """The same for the shafts of a rotor, whose coordinates "node 3: x" have places along the axis."""
-    places = loci.coordinate_place.values
-    parts = {}
-    for name, place, value in zip(loci.coordinate.values, places, shape):
-        if np.isfinite(place):
-            before, direction = str(name).rsplit(": ", 1)
-            shaft = before.rsplit("node", 1)[0].strip()
-            parts.setdefault(f"{shaft} {direction}".strip(), []).append((place, value))
-    return _over_the_axis([(name, *np.transpose(sorted(points, key=lambda one: one[0]))) for name, points in parts.items()],
-                          title, size)
+    """The same for the shafts of a rotor."""
+    if "projection_basis" in loci:
+        shape = loci.projection_basis.values @ shape
+        shape = shape / shape[np.abs(shape).argmax()]
+    moved = np.append(shape, 0.0)[loci.shaft_coordinate.values]  # a freedom that is held has the index -1: zero
+    parts = []
+    for number in np.unique(loci.shaft_number.values):
+        nodes = np.flatnonzero(loci.shaft_number.values == number)
+        shaft = str(loci.shaft_node.values[nodes[0]]).rsplit("node", 1)[0].strip()
+        for axis, name in enumerate(loci.shaft_axis.values):
+            parts.append((f"{shaft} {name}".strip(), loci.shaft_place.values[nodes], moved[nodes, axis]))
+    return _over_the_axis(parts, title, size)
 
 
 def _over_the_axis(parts, title, size):
