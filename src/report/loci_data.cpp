@@ -120,7 +120,8 @@ Json operating_data(const OperatingRanges& operating) {
 Json frequency_unit(const LociFile& loci) {
   const auto unit = parse_unit(loci.parameter_unit);
   const auto hertz = parse_unit("Hz");
-  if (unit && unit->dimension == hertz->dimension) return {{"name", loci.parameter_unit}, {"factor", unit->factor}};
+  if (unit && unit->dimension == hertz->dimension)
+    return {{"name", loci.parameter_unit}, {"factor", unit->factor}};
   return {{"name", "Hz"}, {"factor", hertz->factor}};
 }
 

@@ -109,6 +109,10 @@ class Campbell(PageTest):
         ticks, texts = self.layout("[layout.yaxis.tickvals, layout.yaxis.ticktext]")
         np.testing.assert_allclose(10.0 ** np.array(ticks), list(map(float, texts)), rtol=1e-3)
         self.assertGreater(len(texts), 3)
+        x, y = self.driver.execute_script("const ray = document.querySelector('.campbell').data.find((t) => t.meta && t.meta.harmonic === 2); return [ray.x, ray.y]")
+        np.testing.assert_allclose(10.0 ** np.array(y[1:]), 2.0 * np.array(x[1:]), rtol=1e-9)
+        place = 3.0  # rad/s, where the ray has come to the picture's bottom
+        self.assertAlmostEqual(np.interp(place, x, y), np.log10(2.0 * place), 2)
 
     def test_damping_is_that_of_oscillations_unless_real_roots_are_asked_for(self):
         self.trace(WING, output="wing.h5")
