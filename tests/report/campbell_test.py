@@ -160,6 +160,11 @@ class Campbell(PageTest):
         strips = self.layout("layout.shapes.filter((s) => s.fillcolor.startsWith('rgba(196')).map((s) => [s.x0, s.x1])")
         np.testing.assert_allclose(strips, [[400 * (1 - 0.16), 400], [520, 520 * 1.26]])
 
+    def test_margins_are_those_of_the_standard(self):
+        self.disc()
+        margins = self.driver.execute_script("return [2.4, 2.5, 5, 1e9].map((factor) => [apiMargin(factor, true), apiMargin(factor, false)])")
+        np.testing.assert_allclose(margins, [[0.0, 0.0], [0.0, 0.10], [0.17 * (1 - 1 / 3.5), 0.10 + 0.17 * (1 - 1 / 3.5)], [0.16, 0.26]], atol=1e-12)
+
     def test_backward_whirl_is_dashed_and_told_apart_from_what_is_not_certified(self):
         self.trace(DISC, "--no-certify")
         add_whirl(self.folder / "loci.h5")

@@ -68,7 +68,8 @@ class ModeTable {
     this.frequencyHead.textContent = `${settings.frequency === "abs" ? "natural" : "damped"} frequency, ${settings.unit}`;
     for (const { file, mode, button, values, row } of this.entries) {
       const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
-      const texts = s ? [file.eigenvalueText(...s, 6), number(file.frequency(s, settings), 7), number(dampingRatio(...s), 4)] : ["–", "–", "–"];
+      const isReal = at !== null && file.isReal(mode, at);
+      const texts = s ? [file.eigenvalueText(...s, 6), isReal ? "real root" : number(file.frequency(s, settings), 7), isReal ? "–" : number(dampingRatio(...s), 4)] : ["–", "–", "–"];
       values.forEach((node, i) => { node.textContent = texts[i]; });
       values[1].dataset.head = this.frequencyHead.textContent;
       button.setAttribute("aria-pressed", String(isIsolated(file, mode)));
