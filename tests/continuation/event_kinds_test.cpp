@@ -44,6 +44,10 @@ TEST(EventKinds, RemarksSayWhatAnEventIs) {
   EXPECT_EQ(event_kind(EventKind::veering).remark(facts), "half-width 0.0015");
   facts.puiseux = {0.5, -0.25};
   EXPECT_EQ(event_kind(EventKind::collision).remark(facts), "Puiseux coefficient 0.5 - 0.25j");
+  facts.puiseux = {7.0, -2e-18};
+  EXPECT_EQ(event_kind(EventKind::collision).remark(facts), "Puiseux coefficient 7 + 0j");
+  facts.puiseux = {1e-17, 0.5};
+  EXPECT_EQ(event_kind(EventKind::collision).remark(facts), "Puiseux coefficient 0 + 0.5j");
 }
 
 }  // namespace

@@ -109,6 +109,10 @@ class Campbell(PageTest):
         ticks, texts = self.layout("[layout.yaxis.tickvals, layout.yaxis.ticktext]")
         np.testing.assert_allclose(10.0 ** np.array(ticks), list(map(float, texts)), rtol=1e-3)
         self.assertGreater(len(texts), 3)
+        x, y = self.driver.execute_script("const ray = document.querySelector('.campbell').data.find((t) => t.meta && t.meta.harmonic === 2); return [ray.x, ray.y]")
+        np.testing.assert_allclose(10.0 ** np.array(y[1:]), 2.0 * np.array(x[1:]), rtol=1e-9)
+        place = 3.0  # rad/s, where the ray has come to the picture's bottom
+        self.assertAlmostEqual(np.interp(place, x, y), np.log10(2.0 * place), 2)
 
     def test_damping_is_that_of_oscillations_unless_real_roots_are_asked_for(self):
         self.trace(WING, output="wing.h5")
@@ -155,6 +159,11 @@ class Campbell(PageTest):
         self.assertIn("1 too close to an operating range", self.driver.page_source)
         strips = self.layout("layout.shapes.filter((s) => s.fillcolor.startsWith('rgba(196')).map((s) => [s.x0, s.x1])")
         np.testing.assert_allclose(strips, [[400 * (1 - 0.16), 400], [520, 520 * 1.26]])
+
+    def test_margins_are_those_of_the_standard(self):
+        self.disc()
+        margins = self.driver.execute_script("return [2.4, 2.5, 5, 1e9].map((factor) => [apiMargin(factor, true), apiMargin(factor, false)])")
+        np.testing.assert_allclose(margins, [[0.0, 0.0], [0.0, 0.10], [0.17 * (1 - 1 / 3.5), 0.10 + 0.17 * (1 - 1 / 3.5)], [0.16, 0.26]], atol=1e-12)
 
     def test_backward_whirl_is_dashed_and_told_apart_from_what_is_not_certified(self):
         self.trace(DISC, "--no-certify")

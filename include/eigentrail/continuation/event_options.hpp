@@ -22,7 +22,7 @@ struct EventOptions {
   /// The excitation frequency in rad/s as a function of the parameters' SI values; present if a multiple of
   /// it is requested.
   std::optional<Expression> excitation = {};
-  bool extrema = false;  ///< whether extrema of the damping ratio are searched for
+  bool extrema = false;            ///< whether extrema of the damping ratio are searched for
   OperatingRanges operating = {};  ///< from which critical speeds must stay away
 
   /// The values requested of one kind.

@@ -53,8 +53,8 @@ std::vector<OperatingRange> read_ranges(TableReader& table) {
     if (row.size() != 2) table.fail(key, "expected [from, to], or a list of such pairs");
     const OperatingRange range{constant(table, key, row[0]), constant(table, key, row[1])};
     if (!(range.from >= 0.0 && range.from <= range.to && std::isfinite(range.to)))
-      table.fail(key, "expected 0 <= from <= to; found " + exact_text(range.from) + " and " +
-                          exact_text(range.to));
+      table.fail(
+          key, "expected 0 <= from <= to; found " + exact_text(range.from) + " and " + exact_text(range.to));
     ranges.push_back(range);
   }
   return ranges;

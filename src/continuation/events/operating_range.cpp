@@ -17,7 +17,7 @@ double fraction_of(double end, double speed) {
 Separation separation_from(const OperatingRange& range, const std::optional<double>& margin, double speed,
                            double amplification) {
   Separation result{range};
-  const bool below = speed < range.from, above = speed > range.to;
+  const bool below = speed<range.from, above = speed> range.to;
   result.inside = !below && !above;
   if (below) result.distance = fraction_of(range.from, speed);
   if (above) result.distance = fraction_of(range.to, speed);

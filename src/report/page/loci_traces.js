@@ -187,10 +187,13 @@ function rangeShapes(files) {
 function rayTraces(files, settings) {
   const source = files.find((file) => file.data.excitation);
   if (!source) return [];
-  const { parameter, frequency } = source.data.excitation;
-  return settings.harmonics.map((n) => ({
-    x: parameter, y: frequency.map((value) => onFrequencyAxis(n * value * settings.unitFactor, settings)), type: "scatter", mode: "lines",
-    hoverinfo: "skip", showlegend: false, line: { color: "#666", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic: n },
+  const { excitation } = source.data, [from, to] = [excitation.parameter[0], excitation.parameter[excitation.parameter.length - 1]];
+  // Rays from rest are curved on a logarithmic axis, most near their beginnings.
+  const n = settings.logarithmic ? 240 : 64, power = settings.logarithmic ? 3 : 1;
+  const x = Array.from({ length: n + 1 }, (_, i) => from + (to - from) * (i / n) ** power), frequency = x.map((p) => excitationAt(excitation, p));
+  return settings.harmonics.map((harmonic) => ({
+    x, y: frequency.map((value) => onFrequencyAxis(harmonic * value * settings.unitFactor, settings)), type: "scatter", mode: "lines",
+    hoverinfo: "skip", showlegend: false, line: { color: "#666", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic },
   }));
 }
 

@@ -15,18 +15,18 @@ const intervalText = ({ interval }) => (interval && interval[0] < interval[1] ? 
 
 /** Table of the events of all files; selecting one moves the view to it. */
 function eventTable(files, choose) {
-  const several = files.length > 1;
-  const rows = files.flatMap((file) => file.data.events.map((event, i) => {
+  const several = files.length > 1, resonates = files.some((file) => file.data.events.some((event) => event.kind === "resonance"));
+  const rows = files.flatMap((file) => file.data.events.map((event) => {
     const modes = event.modes.map((mode) => file.modeText(mode)).join(", ");
     return element("tr", {},
       cell(element("button", { type: "button", text: file.eventNumber(event), click: () => choose(file, event), title: "show it" })),
       ...(several ? [cell(file.data.name)] : []),
-      cell(event.kind), cell(event.kind === "resonance" ? `${number(event.value)}×` : "–"), cell(number(file.parameterValue(event.parameter), 12), "value"),
+      cell(event.kind), ...(resonates ? [cell(event.kind === "resonance" ? `${number(event.value)}×` : "–")] : []), cell(number(file.parameterValue(event.parameter), 12), "value"),
       cell(event.real === null ? "–" : file.eigenvalueText(event.real, event.imag, 9), "value"), cell(modes, "words"), cell([event.remark, intervalText(event)].filter(Boolean).join(", "), "words"));
   }));
   if (!rows.length) return element("p", { class: "note", text: "No special points on the traced range." });
   const { name, unit } = files[0].data.parameter;
-  return table(["", ...(several ? ["file"] : []), "kind", "harmonic", withUnit(name, unit === "1" ? "" : `(${unit})`), "s, 1/s", "modes", "remark"], rows, "Events");
+  return table(["", ...(several ? ["file"] : []), "kind", ...(resonates ? ["harmonic"] : []), withUnit(name, unit === "1" ? "" : `(${unit})`), "s, 1/s", "modes", "remark"], rows, "Events");
 }
 
 function rangeEnd(file, end, kind) {
@@ -68,7 +68,8 @@ class ModeTable {
     this.frequencyHead.textContent = `${settings.frequency === "abs" ? "natural" : "damped"} frequency, ${settings.unit}`;
     for (const { file, mode, button, values, row } of this.entries) {
       const at = place(file), s = at === null ? null : file.path.eigenvalue(mode, at);
-      const texts = s ? [file.eigenvalueText(...s, 6), number(file.frequency(s, settings), 7), number(dampingRatio(...s), 4)] : ["–", "–", "–"];
+      const isReal = at !== null && file.isReal(mode, at);
+      const texts = s ? [file.eigenvalueText(...s, 6), isReal ? "real root" : number(file.frequency(s, settings), 7), isReal ? "–" : number(dampingRatio(...s), 4)] : ["–", "–", "–"];
       values.forEach((node, i) => { node.textContent = texts[i]; });
       values[1].dataset.head = this.frequencyHead.textContent;
       button.setAttribute("aria-pressed", String(isIsolated(file, mode)));
