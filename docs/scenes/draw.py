@@ -236,7 +236,7 @@ def draw(program, name, settings):
             boundary_picture(program, scene, settings, folder)
     result_picture(name, settings, traced)
     text = scene.read_text(encoding="utf-8")
-    if "matrix_family" not in text:
+    if "matrix_family" not in text and settings.get("sketch", True):
         sketch_picture(name, settings, traced[settings.get("sketch_run", 0)][0], text)
 
 

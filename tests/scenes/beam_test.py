@@ -95,8 +95,8 @@ class Wright(BeamTest):
     def test_published_frequencies(self):
         for speed, expected in self.published.items():
             found = self.limit(float(speed))
-            np.testing.assert_allclose(found, expected, rtol=1e-4, err_msg=f"speed {speed}")
-            self.assertAlmostEqual(found[0], expected[0], delta=1.5e-4)
+            np.testing.assert_allclose(found[:2], expected[:2], rtol=2e-5, err_msg=f"speed {speed}")
+            np.testing.assert_allclose(found[2], expected[2], rtol=1e-4, err_msg=f"speed {speed}")
 
     def test_southwell(self):
         """Frequencies exceed those of the two systems with bending alone and with the centrifugal force alone:
