@@ -17,7 +17,7 @@ def beam(elements=4, degree=2, slender=SLENDER, lag=20.0, trace="", rest="", **c
     """A uniform cantilever of length 1 along x with m = EI_flap = 1. `slender`: see SLENDER."""
     keys = {"name": '"beam"', "from": "[0, 0, 0]", "to": "[1, 0, 0]", "elements": elements, "degree": degree, "mass": 1.0,
             "EA": 1.0 / slender, "GA_flap": 1.0 / slender, "GA_lag": 1.0 / slender, "EI_flap": 1.0, "EI_lag": lag, "GJ": 0.8,
-            "inertia_flap": slender, "inertia_lag": slender} | changes
+            "inertia_flap": slender, "inertia_lag": slender} | changes  # None: left out
     table = "\n".join(f"{key} = {value}" for key, value in keys.items() if value is not None)
     return f"[trace]\n{trace or USUAL_TRACE}\n[[beam]]\n{table}\n{rest}\n"
 
@@ -74,6 +74,32 @@ class Frequencies(BeamTest):
         for degree in (1, 2):
             thick, thin = (self.errors(degree, (4,), slender)[0][0] for slender in (1e-4, 1e-8))
             self.assertLess(abs(thin / thick - 1.0), 0.1)
+
+
+class Names(BeamTest):
+    def test_modes_have_the_names_of_the_field(self):
+        text = beam(3, GJ=0.1, inertia_flap=1e-3, inertia_lag=1e-3)
+        self.assertEqual([name for name, _ in self.spectrum(text, modes=6)],
+                         ["1st flap", "1st torsion", "1st lag", "2nd flap", "2nd torsion", "3rd torsion"])
+
+    def test_a_beam_among_other_bodies(self):
+        hub = """
+[[body]]
+name = "hub"
+mass = 50
+inertia = [9, 9, 9]
+position = [0, 0, 0]
+[[ball]]
+from = [0, 0, 0]
+to = "hub"
+[[revolute]]
+from = [0, 0, 0]
+to = "hub"
+axis = [0, 0, 1]
+angle = 0
+"""
+        names = [name for name, _ in self.spectrum(beam(3, rest=hub, **{"from": '"hub"'}), modes=2)]
+        self.assertEqual(names, ["beam 1st flap", "beam 1st lag"])
 
 
 class Wright(BeamTest):
@@ -224,6 +250,35 @@ class Stability(BeamTest):
             a, b = (self.spectrum(text, at, modes=1)[0][1].imag ** 2 for at in (2.44, 2.46))
             found.append(2.46 + 0.02 * b / (a - b))
         self.assertAlmostEqual(2.0 * found[0] - found[1], math.pi**2 / 4.0, delta=2e-4)
+
+
+class Stations(BeamTest):
+    properties = {"span": [0.0, 20.0, 50.0], "mass": [2.0, 1.5, 1.0], "EA": [3e4, 2e4, 1e4], "EI_flap": [3.0, 2.0, 1.0],
+                  "EI_lag": [30.0, 25.0, 20.0], "GJ": [2.0, 1.0, 1.0], "twist": [0.3, 0.1, 0.0], "prebend": [0.0, 0.01, 0.05]}
+    kept = {"GA_flap": None, "GA_lag": None, "inertia_flap": None, "inertia_lag": None}
+
+    def eigenvalues(self, **changes):
+        return np.array([s for _, s in self.spectrum(beam(3, **(self.kept | changes)), at=1.0)])
+
+    def test_a_file_of_stations_is_the_same_as_lists(self):
+        table = self.properties | {"twist": np.degrees(self.properties["twist"]).tolist()}
+        rows = [",".join(map(repr, row)) for row in zip(*table.values())]
+        header = ", ".join("twist [deg]" if key == "twist" else key for key in table)
+        self.write("stations.csv", "\n".join(["# a blade", header, *rows]) + "\n")
+        by_file = self.eigenvalues(**dict.fromkeys(self.properties), file='"stations.csv"')
+        np.testing.assert_allclose(by_file.imag, self.eigenvalues(**self.properties).imag, rtol=1e-9)
+
+    def test_equal_stations_are_a_uniform_beam(self):
+        uniform = {key: values[-1] for key, values in self.properties.items() if key not in ("span", "twist", "prebend")}
+        stations = {key: [value] * 3 for key, value in uniform.items()} | {"span": self.properties["span"]}
+        np.testing.assert_allclose(self.eigenvalues(**stations).imag, self.eigenvalues(**uniform).imag, rtol=1e-9)
+
+    def test_a_section_matrix_is_the_same_as_its_stiffnesses(self):
+        plain = {"EA": 1e4, "GA_lag": 5e3, "GA_flap": 4e3, "GJ": 0.8, "EI_flap": 1.0, "EI_lag": 20.0, "inertia_flap": 1e-3,
+                 "inertia_lag": 1e-3}
+        matrix = np.diag([1e4, 5e3, 4e3, 0.8, 1.0, 20.0]).tolist()
+        full = dict.fromkeys(plain) | {"stiffness": matrix, "inertia_flap": 1e-3, "inertia_lag": 1e-3}
+        np.testing.assert_allclose(self.eigenvalues(**full).imag, self.eigenvalues(**plain).imag, rtol=1e-9)
 
 
 class Damping(BeamTest):
