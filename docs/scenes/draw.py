@@ -236,7 +236,7 @@ def draw(program, name, settings):
             boundary_picture(program, scene, settings, folder)
     result_picture(name, settings, traced)
     text = scene.read_text(encoding="utf-8")
-    if not any(table in text for table in ("[matrix_family]", "[[shaft]]")):
+    if not any(table in text for table in ("[matrix_family]", "[[shaft]]")) and settings.get("sketch", True):
         sketch_picture(name, settings, traced[settings.get("sketch_run", 0)][0], text)
 
 

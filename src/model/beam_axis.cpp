@@ -68,32 +68,34 @@ Expression BeamAxis::stretch(int element, const ShapeFunctions& shape) const {
   if (straight) return Expression(1.0 / elements) * length;
   ExpressionVector tangent;
   for (std::size_t a = 0; a < shape.slope.size(); ++a)
-    tangent = tangent + Expression(shape.slope[a]) * position[node(element, a)];
+    tangent = tangent + Expression(shape.slope[a]) * local_position[node(element, a)];
   return sqrt(dot(tangent, tangent));
 }
 
 BeamAxis beam_axis(const BeamTable& table, int elements, int degree, const ExpressionVector& from,
                    const ExpressionVector& to, const ExpressionVector& y) {
-  BeamAxis axis{elements, degree, table.straight, table.twisted, {}, {}, {}};
+  BeamAxis axis{elements, degree, table.straight, table.twisted, {}, {}, {}, {}, {}};
   const ExpressionVector chord = to - from;
   axis.length = sqrt(dot(chord, chord));
   const ExpressionRotation base = section_axes(chord, y, 0.0);
   for (int i = 0; i < axis.nodes(); ++i) {
     const double s = static_cast<double>(i) / (axis.nodes() - 1);
-    ExpressionVector position = from + Expression(s) * chord;
-    ExpressionVector tangent = chord;
+    ExpressionVector position = {Expression(s) * axis.length, 0.0, 0.0};
+    ExpressionVector tangent = unit_vector(0);
     if (!table.straight) {
       const SmoothWeights w = smooth_weights(table.span, s);
-      position =
-          position + weighted(w.value, table.sweep) * base[1] + weighted(w.value, table.prebend) * base[2];
-      tangent =
-          tangent + weighted(w.slope, table.sweep) * base[1] + weighted(w.slope, table.prebend) * base[2];
+      position[1] = weighted(w.value, table.sweep);
+      position[2] = weighted(w.value, table.prebend);
+      tangent = {axis.length, weighted(w.slope, table.sweep), weighted(w.slope, table.prebend)};
     }
     Expression twist(0.0);
     for (const BeamTable::Share& share : table.shares(s))
       twist = twist + Expression(share.weight) * table.twist[share.station];
-    axis.position.push_back(position);
-    axis.rotation.push_back(section_axes(tangent, y, twist));
+    const ExpressionRotation local = section_axes(tangent, unit_vector(1), twist);
+    axis.local_position.push_back(position);
+    axis.local_rotation.push_back(local);
+    axis.position.push_back(table.straight ? from + Expression(s) * chord : from + turned(base, position));
+    axis.rotation.push_back({turned(base, local[0]), turned(base, local[1]), turned(base, local[2])});
   }
   return axis;
 }

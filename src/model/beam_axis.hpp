@@ -28,6 +28,10 @@ struct BeamAxis {
   Expression length;                         ///< from end to end along a straight line
   std::vector<ExpressionVector> position;    ///< of every node, in the frame
   std::vector<ExpressionRotation> rotation;  ///< axes of its section; x along the beam
+  /// The same seen along the chord: x from end to end, origin at the first. Shorter expressions if the ends
+  /// depend on parameters.
+  std::vector<ExpressionVector> local_position;
+  std::vector<ExpressionRotation> local_rotation;
 
   int nodes() const { return elements * degree + 1; }
   /// Node with local index a of an element.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "model/station_file.hpp"
 
 namespace eigentrail {
 namespace {
@@ -19,18 +20,23 @@ using StrainVector = std::array<Expression, 6>;
 /// Reads keys that may be one number for all stations or a list of one per station.
 class ColumnReader {
  public:
-  ColumnReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) { read_span(); }
+  ColumnReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {
+    if (table.has("file")) file_ = read_station_file(draft.scene, table, beam_table_fields());
+    read_span();
+  }
 
   const std::vector<double>& span() const { return span_; }
   std::size_t stations() const { return span_.size(); }
-  bool has(const std::string& key) { return table_.has(key); }
+  bool has(const std::string& key) { return table_.has(key) || file_.contains(key); }
 
   Column required(const std::string& key, std::string_view unit, Range range) {
-    Column column = table_.list(key, unit);
+    Column column = list(key, unit);
     if (column.size() == 1) column.assign(stations(), Expression(column[0]));
     if (column.size() != stations()) {
-      table_.fail(key, "expected one number, or one for each of the " + std::to_string(stations()) +
-                           " stations of span; found " + std::to_string(column.size()));
+      table_.fail(key, stations() == 1
+                           ? "a list needs the places of its stations; give span as well"
+                           : "expected one number, or one for each of the " + std::to_string(stations()) +
+                                 " stations of span; found " + std::to_string(column.size()));
     }
     for (const Expression& e : column) draft_.check_range(table_, key, e, range);
     return column;
@@ -41,10 +47,17 @@ class ColumnReader {
   }
 
  private:
+  /// From the scene, or else from the file.
+  Column list(const std::string& key, WantedUnit unit) {
+    if (table_.has(key) || !file_.contains(key)) return table_.list(key, unit);
+    const std::vector<double>& values = file_.at(key);
+    return {values.begin(), values.end()};
+  }
+
   void read_span() {
-    if (!table_.has("span")) return;
+    if (!has("span")) return;
     span_.clear();
-    for (const Expression& e : table_.list("span")) {
+    for (const Expression& e : list("span", {})) {
       if (!e.is_constant()) table_.fail("span", "expected numbers, found an expression of parameters");
       span_.push_back(e.evaluate(std::span<const double>()));
       const std::size_t n = span_.size();
@@ -59,6 +72,7 @@ class ColumnReader {
 
   Draft& draft_;
   TableReader& table_;
+  std::map<std::string, std::vector<double>> file_;
   std::vector<double> span_ = {0.0};
 };
 
@@ -189,32 +203,36 @@ BeamTable read_beam_table(Draft& draft, TableReader& table) {
 }
 
 std::vector<FieldHelp> beam_table_fields() {
-  return {{"span", "list",
-           "where the stations are, from the first at `from` to the last at `to`, in any unit; keys "
-           "below then may be lists of a number per station, linear in between",
-           "uniform beam"},
-          {"mass", "kg/m", "mass per length"},
-          {"EA", "N", "extensional stiffness"},
-          {"EI_flap", "N m^2", "stiffness of bending that moves along the z axis of the section"},
-          {"EI_lag", "N m^2", "stiffness of bending that moves along its y axis"},
-          {"GJ", "N m^2", "torsional stiffness"},
-          {"GA_flap", "N", "shear stiffness along z, shear factor included", "0.32 EA"},
-          {"GA_lag", "N", "shear stiffness along y", "0.32 EA"},
-          {"stiffness", "6 x 6",
-           "in place of all stiffnesses: of extension, shear along y and z, twist, bending about y and z",
-           "none"},
-          {"inertia_flap", "kg m", "mass moment of inertia per length about y, at the mass centre",
-           "mass EI_flap/EA"},
-          {"inertia_lag", "kg m", "likewise about z", "mass EI_lag/EA"},
-          {"centre_y", "m", "mass centre of the section", "0"},
-          {"centre_z", "m", "likewise", "0"},
-          {"tension_y", "m", "tension centre: an axial force there does not bend", "0"},
-          {"tension_z", "m", "likewise", "0"},
-          {"shear_y", "m", "shear centre: a transverse force there does not twist", "0"},
-          {"shear_z", "m", "likewise", "0"},
-          {"twist", "rad", "of the section about the axis of the beam, y towards z", "0"},
-          {"sweep", "m", "distance of the axis of the beam from the line between the ends, along y", "0"},
-          {"prebend", "m", "likewise along z", "0"}};
+  return {
+      {"span", "list",
+       "where the stations are, from the first at `from` to the last at `to`, in any unit; keys "
+       "below then may be lists of a number per station, linear in between",
+       "uniform beam"},
+      {"file", "text",
+       "CSV file with columns span and any keys below, beside the scene; units in brackets: `twist [deg]`",
+       "none"},
+      {"mass", "kg/m", "mass per length"},
+      {"EA", "N", "extensional stiffness"},
+      {"EI_flap", "N m^2", "stiffness of bending that moves along the z axis of the section"},
+      {"EI_lag", "N m^2", "stiffness of bending that moves along its y axis"},
+      {"GJ", "N m^2", "torsional stiffness"},
+      {"GA_flap", "N", "shear stiffness along z, shear factor included", "0.32 EA"},
+      {"GA_lag", "N", "shear stiffness along y", "0.32 EA"},
+      {"stiffness", "6 x 6",
+       "in place of all stiffnesses: of extension, shear along y and z, twist, bending about y and z",
+       "none"},
+      {"inertia_flap", "kg m", "mass moment of inertia per length about y, at the mass centre",
+       "mass EI_flap/EA"},
+      {"inertia_lag", "kg m", "likewise about z", "mass EI_lag/EA"},
+      {"centre_y", "m", "mass centre of the section", "0"},
+      {"centre_z", "m", "likewise", "0"},
+      {"tension_y", "m", "tension centre: an axial force there does not bend", "0"},
+      {"tension_z", "m", "likewise", "0"},
+      {"shear_y", "m", "shear centre: a transverse force there does not twist", "0"},
+      {"shear_z", "m", "likewise", "0"},
+      {"twist", "rad", "of the section about the axis of the beam, y towards z", "0"},
+      {"sweep", "m", "distance of the axis of the beam from the line between the ends, along y", "0"},
+      {"prebend", "m", "likewise along z", "0"}};
 }
 
 }  // namespace eigentrail

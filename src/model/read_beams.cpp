@@ -51,7 +51,7 @@ class BeamReader {
   void read() {
     std::array<End, 2> ends = {read_end("from"), read_end("to")};
     read_holds(ends);
-    draft_.check_range(table_, "to", ends[1].position - ends[0].position, Range::positive);
+    check_apart(ends);
     const int elements = whole_number("elements", 10, most_elements);
     const int degree = whole_number("degree", 2, 2);
     const ExpressionVector y =
@@ -99,6 +99,13 @@ class BeamReader {
     return static_cast<int>(n);
   }
 
+  void check_apart(const std::array<End, 2>& ends) {
+    for (std::size_t i = 0; i < draft_.check_at.size(); ++i) {
+      if (draft_.vector_at(ends[1].position - ends[0].position, i).norm() > 0.0) continue;
+      table_.fail("to", "must be apart from `from`; both are at the same place" + Draft::where_on_trace(i));
+    }
+  }
+
   void check_across(const std::array<End, 2>& ends, const ExpressionVector& y) {
     const ExpressionVector chord = ends[1].position - ends[0].position;
     for (std::size_t i = 0; i < draft_.check_at.size(); ++i) {
@@ -119,6 +126,10 @@ class BeamReader {
     const std::vector<BeamTable::Mass> mass = nodal_masses();
     for (int i = 0; i < axis_.nodes(); ++i) {
       const auto index = static_cast<std::size_t>(i);
+      const auto& taken = draft_.mass_names;
+      if (std::find(taken.begin(), taken.end(), node_name(i)) != taken.end())
+        table_.fail("name",
+                    "a body or point is called '" + node_name(i) + "' already, like a node of this beam");
       const int triple = static_cast<int>(draft_.guess.size()) / 3;
       for (const Expression& e : axis_.position[index]) draft_.guess.push_back(e);
       for (const ExpressionVector& director : axis_.rotation[index]) {
@@ -261,10 +272,10 @@ class BeamReader {
     ExpressionVector along;
     ExpressionRotation directors, rates;
     for (std::size_t a = 0; a < values.size(); ++a) {
-      along = along + slopes[a] * axis_.position[axis_.node(e, a)];
+      along = along + slopes[a] * axis_.local_position[axis_.node(e, a)];
       for (std::size_t i = 0; i < 3; ++i) {
-        directors[i] = directors[i] + values[a] * axis_.rotation[axis_.node(e, a)][i];
-        rates[i] = rates[i] + slopes[a] * axis_.rotation[axis_.node(e, a)][i];
+        directors[i] = directors[i] + values[a] * axis_.local_rotation[axis_.node(e, a)][i];
+        rates[i] = rates[i] + slopes[a] * axis_.local_rotation[axis_.node(e, a)][i];
       }
     }
     for (std::size_t i = 0; i < 3; ++i) {

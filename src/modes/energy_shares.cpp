@@ -81,11 +81,49 @@ Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector&
 
 }  // namespace
 
+namespace {
+
+/// Rows: directions along a beam, of flap and of lag. Along is from its first node to its last one, and flap
+/// the mean of the z axes of its sections, as far as it is normal to that.
+Eigen::Matrix3d beam_axes(const std::vector<const MassCarrier*>& nodes, const Vector& x) {
+  const Eigen::Vector3d s =
+      (triple(x, nodes.back()->first_triple) - triple(x, nodes.front()->first_triple)).normalized();
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();
+  for (const MassCarrier* node : nodes) z += triple(x, node->first_triple + 3);
+  const Eigen::Vector3d a = (z - s.dot(z) * s).normalized();
+  Eigen::Matrix3d axes;
+  axes << s.transpose(), a.transpose(), a.cross(s).transpose();
+  return axes;
+}
+
+/// Masses by name. Those of one name are the nodes of a beam, in their order.
+std::map<std::string, std::vector<const MassCarrier*>> by_name(const std::vector<MassCarrier>& masses) {
+  std::map<std::string, std::vector<const MassCarrier*>> groups;
+  for (const MassCarrier& mass : masses) groups[mass.name].push_back(&mass);
+  return groups;
+}
+
+/// "1st", "2nd", "3rd", "4th", ...
+std::string ordinal(int i) {
+  const bool teens = i % 100 >= 11 && i % 100 <= 13;
+  const char* ending = teens || i % 10 > 3 || i % 10 == 0 ? "th"
+                       : i % 10 == 1                      ? "st"
+                       : i % 10 == 2                      ? "nd"
+                                                          : "rd";
+  return std::to_string(i) + ending;
+}
+
+}  // namespace
+
 EnergyShares::EnergyShares(const ModelDescription& description, const SystemMatrix& M, const Vector& x) {
+  const auto groups = by_name(description.masses);
   for (const MassCarrier& mass : description.masses) {
     Carrier carrier{mass, false, {}, Eigen::Matrix3d::Identity()};
     const Eigen::Vector3d at = centre(mass, moments(M, mass), x);
-    if (description.rotation_axis) {
+    if (const auto& nodes = groups.at(mass.name); nodes.size() > 1) {
+      carrier.blade = true;
+      carrier.axes = beam_axes(nodes, x);
+    } else if (description.rotation_axis) {
       const Eigen::Vector3d a = *description.rotation_axis;
       const Eigen::Vector3d radius = at - a.dot(at) * a;
       carrier.blade = radius.norm() > on_axis * (1.0 + at.norm());
@@ -150,7 +188,10 @@ Matrix EnergyShares::of(const SystemMatrix& M, const Vector& x, const ComplexMat
 std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
   // share of the energy from which one kind of motion, or one mass, alone gives the name
   constexpr double dominant = 0.7;
+  std::map<std::string, int> nodes;  // of a beam: more than one
+  for (const Carrier& carrier : carriers_) ++nodes[carrier.mass.name];
   std::vector<std::string> names;
+  std::map<std::string, int> beam_modes;
   for (Index mode = 0; mode < shares.cols(); ++mode) {
     std::map<std::string, double> by_kind, by_mass;
     for (std::size_t i = 0; i < motions_.size(); ++i) {
@@ -171,10 +212,13 @@ std::vector<std::string> EnergyShares::names(const Matrix& shares) const {
     }
     std::string name = kinds[0].first;
     if (kinds[0].second < dominant && kinds.size() > 1) name = both(name, kinds[1].first);
-    if (masses.size() > 1 && masses[0].second > dominant) name = masses[0].first + " " + name;
+    const bool of_one = masses.size() == 1 || masses[0].second > dominant;
+    const std::string owner = masses.size() > 1 && of_one ? masses[0].first + " " : "";
+    if (of_one && nodes[masses[0].first] > 1) name = ordinal(++beam_modes[owner + name]) + " " + name;
+    name = owner + name;
     names.push_back(std::move(name));
   }
-  // Equal names are numbered.
+  // Equal names are numbered; those of beams differ already.
   std::map<std::string, int> total, seen;
   for (const std::string& name : names) ++total[name];
   for (std::string& name : names) {

@@ -21,6 +21,25 @@ mass = 1
 position = [1, 0, 0]
 """
 
+BEAM = """
+[[beam]]
+name = "wing"
+from = [0, 0, 0]
+to = [1, 0, 0]
+elements = 2
+span = [0, 1]
+mass = 1
+EA = 1e4
+EI_flap = [2, 1]
+EI_lag = 1
+GJ = 1
+"""
+
+
+def beam(old, new):
+    """The text of a beam with a mistake, in place of the drag of the scene."""
+    return ("[[drag]]", edited(BEAM, old, new) + "\n[[drag]]")
+
 ROTOR = """
 [parameters]
 speed = { value = 3000, unit = "rpm" }
@@ -115,6 +134,23 @@ ROTOR_FILES = [
 ]
 
 SCENES = [
+    # Beams.
+    ("beam without length", beam("to = [1, 0, 0]", "§to = [0, 0, 0]"), "to: must be apart from `from`"),
+    ("beam along the y axis of its sections", beam("elements = 2", '§y_axis = [2, 0, 0]'), "y_axis: must not be parallel to the beam"),
+    ("beam without a stiffness", beam("GJ = 1", ""), "GJ: is missing"),
+    ("negative stiffness of a beam", beam("GJ = 1", "§GJ = -1"), "GJ: must be positive; found -1"),
+    ("beam with a station too many", beam("EI_flap = [2, 1]", "§EI_flap = [2, 1, 1]"), "one for each of the 2 stations of span; found 3"),
+    ("beam with a list and no stations", beam("span = [0, 1]", ""), "EI_flap: a list needs the places of its stations; give span as well"),
+    ("stations of a beam in disorder", beam("span = [0, 1]", "§span = [1, 0]"), "span: expected numbers that increase"),
+    ("half an element", beam("elements = 2", "§elements = 2.5"), "elements: expected a whole number from 1 to 200"),
+    ("cubic element", beam("elements = 2", "§degree = 3"), "degree: expected a whole number from 1 to 2"),
+    ("pinned end of a beam", beam("elements = 2", '§ends = ["pinned", "free"]'), 'expected "clamped" or "free", found "pinned"'),
+    ("beam at a point", beam("to = [1, 0, 0]", '§to = "blade"'), "to: a point has no orientation"),
+    ("beam with the name of a point", beam('name = "wing"', '§name = "blade"'), "name: another beam, body or point is called 'blade' already"),
+    ("small section matrix", beam("GJ = 1", "§stiffness = [[1, 0], [0, 1]]"), "stiffness: expected a 6 x 6 matrix"),
+    ("stations in a file that is not there", beam("span = [0, 1]", '§file = "stations.csv"'), "file: cannot open"),
+    ("damping of no beam", ("[[drag]]", BEAM + '[[beam_damping]]\n§beam = "wind"\ntime = 0.1\n[[drag]]'),
+     "beam: no beam is called 'wind'; did you mean 'wing'?"),
     # Expressions and texts.
     ("expression without quotes", ('mass = "mass"', "mass = 2§*mass"), 'put expressions and names in quotes: mass = "2*mass"'),
     ("name without quotes", ('mass = "mass"', "mass = §mass"), 'put expressions and names in quotes: mass = "mass"'),

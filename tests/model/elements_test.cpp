@@ -87,12 +87,14 @@ const std::vector<ElementCase> cases = {
      "[[beam]]\nname = \"arm\"\nfrom = [0, 0, \"p\"]\nto = \"d\"\nelements = 2\ndegree = 1\nspan = [0, 0.4, "
      "1]\n"
      "mass = [1, \"p\", 0.5]\nEA = [9, 8, 7]\nEI_flap = 2\nEI_lag = \"3*p\"\nGJ = 1.5\ntension_y = 0.1\n"
-     "shear_z = \"0.1*p\"\ncentre_y = -0.05\ntwist = [0.2, \"0.1*p\", -0.1]\nprebend = [0, 0.05, 0.2]\n"
-     "# it ends at a body: [[body]]\n"},
+     "shear_z = \"0.1*p\"\ncentre_y = -0.05\ntwist = [0.2, 0.1, -0.1]\n# it ends at a body: [[body]]\n"},
+    {"curved_beam",
+     "[[beam]]\nname = \"arm\"\nfrom = [0, 0, 0.3]\nto = [0.9, 0.2, 0]\nelements = 1\nmass = 1\nEA = 9\n"
+     "EI_flap = 2\nEI_lag = 3\nGJ = \"p\"\nspan = [0, 1, 2]\nsweep = [0, 0.1, 0]\nprebend = [0, 0.05, 0.2]\n"
+     "twist = [0.2, 0.1, \"p\"]\n"},
     {"beam_damping",
      "[[beam]]\nname = \"arm\"\nfrom = [0, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 1\nmass = 1\nEA = 9\n"
-     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\nsweep = [0, 0.1, 0]\nspan = [0, 1, 2]\n"
-     "[[beam_damping]]\nbeam = \"arm\"\ntime = \"0.1*p\"\n"},
+     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\n[[beam_damping]]\nbeam = \"arm\"\ntime = \"0.1*p\"\n"},
     {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
     {"revolute_held",
      "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "
