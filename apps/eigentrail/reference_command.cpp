@@ -19,7 +19,7 @@ struct ReferenceArguments {
 
 /// The heading of a table in TOML: [name] for tables that a scene may have only once, otherwise [[name]].
 std::string heading(const std::string& name) {
-  static const std::set<std::string> single = {"trace",   "events",        "frame",
+  static const std::set<std::string> single = {"trace",   "events",        "modes",         "frame",
                                                "gravity", "matrix_family", "sampled_family"};
   return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
 }
@@ -66,6 +66,16 @@ EffectHelp events_help() {
   return help;
 }
 
+EffectHelp modes_help() {
+  return {
+      "modes",
+      "names of modes in place of those that the program finds",
+      {{"names", "table",
+        "per name a frequency (\"1.2 Hz\"), a part of a mode's own name (\"blade lag\"), or coordinates and "
+        "amounts of a shape",
+        "none"}}};
+}
+
 /// A scene has one of the families, and no elements beside it.
 EffectHelp matrix_family_help() {
   const std::string powers = "list of matrices";
@@ -97,7 +107,8 @@ EffectHelp sampled_family_help() {
 }
 
 std::vector<EffectHelp> whole_reference() {
-  std::vector<EffectHelp> all = {trace_help(), events_help(), matrix_family_help(), sampled_family_help()};
+  std::vector<EffectHelp> all = {trace_help(), events_help(), modes_help(), matrix_family_help(),
+                                 sampled_family_help()};
   for (EffectHelp& table : rotor_reference()) all.push_back(std::move(table));
   for (EffectHelp& effect : effect_reference()) all.push_back(std::move(effect));
   return all;

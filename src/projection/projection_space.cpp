@@ -30,7 +30,8 @@ AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Stora
         reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
         break;
       }
-      result.emplace_back(term.factor, std::move(reduced), term.name).table = term.table;
+      result.emplace_back(term.factor, std::move(reduced), term.name);
+      result.back().table = term.table;
     }
     return result;
   };

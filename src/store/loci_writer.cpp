@@ -64,8 +64,8 @@ struct LociWriter::Implementation {
   std::size_t events = 0;                       ///< number of events written so far
   bool is_saved = false;                        ///< whether this run has saved the file
   Clock::time_point last_saved = Clock::now();
-  double cost = 0.0;  ///< seconds that the last save took
-  std::string bytes = {};  ///< what was saved, of a file that stays in memory
+  double cost = 0.0;                         ///< seconds that the last save took
+  std::string bytes = {};                    ///< what was saved, of a file that stays in memory
   std::vector<GivenName> wanted_names = {};  ///< of the scene, until the first point has come
   std::string scene_path = {};
 

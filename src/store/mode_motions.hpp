@@ -40,7 +40,8 @@ class ModeMotions {
   std::vector<std::string> labels() const;
 
   /// A name for each of `n_modes` modes, from its shares at the first point where it exists; empty where
-  /// unknown. Names that the scene gives come first. Rotors: from the shapes of their shafts there, and from the first point with a clear whirl.
+  /// unknown. Names that the scene gives come first. Rotors: from the shapes of their shafts there, and from
+  /// the first point with a clear whirl.
   std::vector<std::string> names(std::size_t n_modes) const;
 
   /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses, or only names for one

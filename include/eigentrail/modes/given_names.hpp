@@ -12,8 +12,9 @@ namespace eigentrail {
 /// A name and the mode that gets it, where the trace begins. One of the three members says which.
 struct GivenName {
   std::string name;
-  double frequency = -1.0;  ///< the oscillating mode with the nearest damped frequency, rad/s; negative: not given
-  std::string moves = {};   ///< the first mode whose own name holds this text, such as "blade lag"
+  double frequency =
+      -1.0;  ///< the oscillating mode with the nearest damped frequency, rad/s; negative: not given
+  std::string moves = {};  ///< the first mode whose own name holds this text, such as "blade lag"
   /// The mode whose shape is most like this one by modal assurance: coordinates and amounts.
   std::vector<std::pair<std::string, double>> shape = {};
 };

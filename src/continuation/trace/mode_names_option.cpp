@@ -21,14 +21,16 @@ GivenName read_name(TableReader& names, const std::string& name) {
       given.shape.emplace_back(coordinate, amount(shape, coordinate));
       moves = moves || given.shape.back().second != 0.0;
     }
-    if (!moves) names.fail(name, "expected coordinates and amounts, such as { \"node 3: x\" = 1 }; all are zero");
+    if (!moves)
+      names.fail(name, "expected coordinates and amounts, such as { \"node 3: x\" = 1 }; all are zero");
     return given;
   }
   const std::vector<std::string> texts = names.texts(name);
   const std::string text = texts.size() == 1 ? texts.front() : "";
   if (text.empty())
-    names.fail(name, "expected a frequency (\"1.2 Hz\"), a part of a mode's own name (\"blade lag\"), or "
-                     "coordinates and amounts");
+    names.fail(name,
+               "expected a frequency (\"1.2 Hz\"), a part of a mode's own name (\"blade lag\"), or "
+               "coordinates and amounts");
   const auto frequency = angular_frequency(text);
   if (!frequency) {
     given.moves = text;
@@ -45,12 +47,14 @@ GivenName read_name(TableReader& names, const std::string& name) {
 std::vector<GivenName> read_mode_names(const Scene& scene, std::set<int>& used) {
   const auto found = tables(scene, "modes");
   if (found.empty()) return {};
-  if (found.size() > 1) throw scene_error(scene, found[1]->where, "[modes]: a scene has one of these at most");
+  if (found.size() > 1)
+    throw scene_error(scene, found[1]->where, "[modes]: a scene has one of these at most");
   TableReader table(scene, *found.front(), "[modes]", used);
   std::vector<GivenName> given;
   if (table.has("names")) {
     if (!table.is_table("names"))
-      table.fail("names", "expected names and what they stand for: { surge = \"0.01 Hz\", lag = \"blade lag\" }");
+      table.fail("names",
+                 "expected names and what they stand for: { surge = \"0.01 Hz\", lag = \"blade lag\" }");
     TableReader names = table.table("names");
     for (const std::string& name : names.keys()) given.push_back(read_name(names, name));
     names.finish();

@@ -9,7 +9,8 @@
 
 namespace eigentrail {
 
-/// The names that the scene gives to modes; none without [modes]. Throws InputError with the place of a fault.
+/// The names that the scene gives to modes; none without [modes]. Throws InputError with the place of a
+/// fault.
 std::vector<GivenName> read_mode_names(const Scene& scene, std::set<int>& used);
 
 }  // namespace eigentrail

@@ -46,7 +46,8 @@ std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
     }
     SparseMatrix matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    result.emplace_back(one.factor, std::move(matrix)).table = one.table;
+    result.emplace_back(one.factor, std::move(matrix));
+    result.back().table = one.table;
   }
   return result;
 }
