@@ -246,6 +246,7 @@ int run_explain(const ExplainArguments& arguments) {
   if (!scene.title.empty()) std::printf("%s\n", printable(scene.title).c_str());
   if (const SparseFamily* large = large_family(*model, options)) {
     print_parameters(*model, traced);
+    print_data(*model);
     print_effects(*model);
     print_route(estimate_projection(*large, options), options);
     return done;

@@ -23,7 +23,7 @@ struct AffineTerm {
   Storage matrix;
   std::string name = {};  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
   /// If there is one, the factor is the tabulated function at `factor`.
-  std::shared_ptr<const TabulatedFactor> table = nullptr;
+  std::shared_ptr<const TabulatedFactor> table{};  // GCC 12 fails on "= {}" here
 };
 
 /// The summands of M, C and K; an empty list is a zero matrix.
