@@ -238,6 +238,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   if (!scene.title.empty()) std::fprintf(to, "%s\n", printable(scene.title).c_str());
   if (const SparseFamily* large = large_family(*model, options)) {
     print_parameters(to, *model, traced);
+    print_data(to, *model);
     print_effects(to, *model);
     print_route(estimate_projection(*large, options), options, to);
     return;
