@@ -3,6 +3,7 @@
 import io
 import csv
 import math
+import pathlib
 import unittest
 
 import numpy as np
@@ -279,6 +280,30 @@ class Stations(BeamTest):
         matrix = np.diag([1e4, 5e3, 4e3, 0.8, 1.0, 20.0]).tolist()
         full = dict.fromkeys(plain) | {"stiffness": matrix, "inertia_flap": 1e-3, "inertia_lag": 1e-3}
         np.testing.assert_allclose(self.eigenvalues(**full).imag, self.eigenvalues(**plain).imag, rtol=1e-9)
+
+
+class Turbine(BeamTest):
+    """The blade of the NREL 5 MW turbine from its table of 49 stations. Jonkman et al. (2009, Table 9-1) have, for the turbine
+    at rest and with two programs, 0.63 to 0.70 Hz for the modes of first flap, 1.07 to 1.09 Hz for those of first edge and 1.65
+    to 2.02 Hz for those of second flap. The table has no EA and GJ: here they follow mass and EI_flap."""
+
+    def frequencies_at(self, elements, rpm):
+        table = (pathlib.Path(__file__).parent / "nrel5mw_blade.csv").read_text(encoding="utf-8")
+        rows = [[float(cell) for cell in line.split(",")] for line in table.splitlines()[3:]]
+        self.write("blade.csv", table)
+        text = beam(elements, trace='parameter = "rpm"\nfrom = 0\nto = 14\n[parameters]\nrpm = { value = 0, unit = "rpm" }\n'
+                                    '[frame]\nangular_velocity = [0, 0, "rpm"]',
+                    file='"blade.csv"', **{"from": "[1.5, 0, 0]", "to": "[63, 0, 0]"}, GA_flap=None, GA_lag=None,
+                    inertia_flap=None, inertia_lag=None, EI_flap=None, EI_lag=None, mass=[1.04536 * row[2] for row in rows],
+                    EA=[1e10 * row[2] / rows[0][2] for row in rows], GJ=[5.56e9 * row[3] / rows[0][3] for row in rows])
+        found = dict(self.spectrum(text, rpm, modes=3))
+        return np.array([found[name].imag for name in ("1st flap", "1st lag", "2nd flap")]) / (2.0 * math.pi)
+
+    def test_at_rest_and_at_rated_speed(self):
+        at_rest = self.frequencies_at(12, 0.0)
+        np.testing.assert_allclose(at_rest, [0.676, 1.082, 1.945], atol=4e-3)
+        np.testing.assert_allclose(self.frequencies_at(12, 12.1), [0.728, 1.090, 2.004], atol=4e-3)
+        np.testing.assert_allclose(self.frequencies_at(8, 0.0), at_rest, rtol=1e-2)
 
 
 class Damping(BeamTest):
