@@ -93,6 +93,8 @@ StrainVector strain_unit(std::size_t i) {
 /// Extension at (y, z) is Gamma_x + z kappa_y - y kappa_z; shear there is Gamma_y - z kappa_x, Gamma_z + y
 /// kappa_x.
 std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns) {
+  // Keys that have been asked for are no misprints of one that is missing.
+  for (const char* key : {"EA", "GJ", "EI_flap", "EI_lag", "GA_flap", "GA_lag"}) (void)columns.has(key);
   const Column EA = columns.required("EA", "N", Range::positive);
   const Column GJ = columns.required("GJ", "N m^2", Range::positive);
   const Column flap = columns.required("EI_flap", "N m^2", Range::positive);

@@ -3,8 +3,9 @@
 // In a rotating frame, the directions of a mass are those of a blade: s along its radius, a along the axis of
 // rotation, and a x s. Motion along a and rotation about a x s are flap; motion along a x s and rotation
 // about a are lag; rotation about s is torsion; motion along s is axial. If the frame does not rotate, or if
-// the mass is on the axis, the directions are x, y, z of the frame. Masses of one name are the nodes of a beam;
-// their directions are those of the beam as a whole: s from end to end, a the mean z axis of its sections.
+// the mass is on the axis, the directions are x, y, z of the frame. Masses of one name are the nodes of a
+// beam; their directions are those of the beam as a whole: s from end to end, a the mean z axis of its
+// sections.
 #pragma once
 
 #include <array>
