@@ -54,7 +54,7 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
     if both:
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")
     places = list(itertools.product(*values.values()))
-    runs = _run_all(scene, names, places, how, jobs or os.cpu_count() or 1, progress)
+    runs = _run_all(scene, names, places, how, points, jobs or os.cpu_count() or 1, progress)
     for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
         warnings.warn(remark, stacklevel=2)
     return _together(names, values, places, runs, points)
@@ -63,15 +63,26 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
 class _Traced:
     """A trace of a sweep, or the error that kept it from beginning."""
 
-    def __init__(self, run: Any, like: Optional[xarray.Dataset]):
+    def __init__(self, run: Any, like: Optional["_Traced"], points: Any):
         self.run = run
         self.remarks: list[str] = run.remarks if isinstance(run, Run) else []
-        self.loci = part_from_bytes(run.image, like) if isinstance(run, Run) else None
+        self.loci: Optional[xarray.Dataset] = (
+            part_from_bytes(run.image, None if like is None else like.loci) if isinstance(run, Run) else None)
+        self._values: Any = None  # at which the loci were evaluated: for most sweeps those of the first trace are common
+        self._part: Optional[xarray.Dataset] = None
+        if self.loci is not None:
+            self.at(like._values if like is not None else _common_values([self.loci], self.loci.attrs["parameter"], points))
+
+    def at(self, values: Any) -> Optional[xarray.Dataset]:
+        """The loci at values of the traced parameter; None if nothing was traced."""
+        if self.loci is not None and (self._part is None or not np.array_equal(values, self._values)):
+            self._values, self._part = values, _at(self.loci, self.loci.attrs["parameter"], values)
+        return self._part
 
 
-def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any], jobs: int,
-             progress: Progress) -> list[_Traced]:
-    """Per place its trace. The first ones are read while others run."""
+def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any], points: Any,
+             jobs: int, progress: Progress) -> list[_Traced]:
+    """Per place its trace. The first ones are read and evaluated while others run."""
     stopped = False
 
     def go_on(share: float, count: int) -> None:
@@ -90,8 +101,8 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
         try:
             found: list[_Traced] = []
             for done, future in enumerate(futures):
-                first = next((one.loci for one in found if one.loci is not None), None)
-                found.append(_Traced(future.result(), first))
+                first = next((one for one in found if one.loci is not None), None)
+                found.append(_Traced(future.result(), first, points))
                 if show is not None:
                     show((done + 1) / len(futures), done + 1)
             return found
@@ -126,7 +137,7 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
         raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].run}")
     parameter = loci[0].attrs["parameter"]
     at = _common_values(loci, parameter, points)
-    parts = [None if run.loci is None else _at(run.loci, parameter, at) for run in runs]
+    parts = [run.at(at) for run in runs]
     n_modes = max(part.sizes["mode"] for part in parts if part is not None)
     shape = tuple(len(values[name]) for name in names)
     order = _orders(shape, runs, parts, n_modes)
