@@ -71,7 +71,8 @@ def whirl(loci: xarray.Dataset) -> xarray.DataArray:
                          np.where(ahead.any(-1), "forward", np.where(against.any(-1), "backward", "")))
     return xarray.DataArray(
         ratio, dims=("node", "mode", "shaft_node"),
-        coords={loci.attrs["parameter"]: loci[loci.attrs["parameter"]], "mode": loci.mode, "shaft_node": nodes,
+        coords={loci.attrs["parameter"]: loci[loci.attrs["parameter"]], "mode": loci.mode,
+                "shaft_node": [node.rstrip(":") for node in nodes],
                 "direction": (("node", "mode"), direction.astype(object))},
         name="whirl", attrs={"long_name": "ratio of the axes of the orbit, positive forward", "units": "1"})
 
