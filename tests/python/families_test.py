@@ -147,6 +147,8 @@ class Mistakes(unittest.TestCase):
                             (lambda: et.Family(quadratic, M=M), "expected matrices"),
                             (lambda: et.Family(3), "expected a function"),
                             (lambda: et.Samples([0, 1], K=np.ones((3, 2, 2)), M=np.eye(2)), "expected 2 square matrices"),
+                            (lambda: et.Family(M=np.eye(2), K=1j * np.eye(2)), "K: expected real numbers"),
+                            (lambda: et.Family(M=np.eye(2), K=[["a"]]), "K"),
                             (lambda: et.Samples([0, 1]), "expected samples")):
             with self.subTest(text), self.assertRaisesRegex((TypeError, ValueError), text):
                 build()

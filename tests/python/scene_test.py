@@ -87,6 +87,10 @@ class Faults(unittest.TestCase):
         self.assert_fails(et.SceneError, "did you mean 'drag'", et.trace, BLADE, drug=3)
         self.assert_fails(TypeError, "expected a scene", et.trace, 3)
         self.assert_fails(et.SceneError, "tolerance", et.trace, BLADE, tolerance=2)
+        self.assert_fails(TypeError, "drag: expected a number", et.trace, BLADE, drag=None)
+        self.assert_fails(et.SceneError, "at: expected values", et.spectrum, BLADE, at="x")
+        self.assert_fails(ValueError, "is no HDF5 file", et.open, __file__)
+        self.assert_fails(FileNotFoundError, "no such folder", et.trace(FAMILY).eigentrail.save, "/nowhere/at/all.h5")
 
     def test_ranges(self):
         self.assert_fails(et.SceneError, "expected a range of two values", et.trace, BLADE, omega=(1, 2, 3))

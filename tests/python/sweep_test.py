@@ -54,7 +54,7 @@ class Sweeps(unittest.TestCase):
 
     def test_mistakes(self):
         for over, how, text in (({}, {}, "at least one parameter"), ({"drag": []}, {}, "at least one parameter"),
-                                ({"drag": [1]}, {"drag": 2}, "swept"), ({"drog": [1]}, {}, "did you mean 'drag'")):
+                                ({"drag": [1]}, {"drag": 2}, "swept"), ({"omega": [1, 2]}, {}, "is the traced parameter"), ({"drog": [1]}, {}, "did you mean 'drag'")):
             with self.subTest(text), self.assertRaisesRegex(et.SceneError, text):
                 et.sweep(BLADE, over, **how)
 

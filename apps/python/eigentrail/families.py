@@ -190,20 +190,29 @@ def _by_name(key: str, value: Matrices) -> dict[str, Any]:
 def _matrix(label: str, value: Any) -> Any:
     if _is_sparse(value):
         return value.tocsr()
-    matrix = np.asarray(value, float)
+    matrix = _real(label, value)
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
         raise ValueError(f"{label}: expected a square matrix, found an array of shape {matrix.shape}")
     return matrix
 
 
 def _samples(key: str, value: Any, count: int) -> Any:
-    array = np.asarray(value, float)
+    array = _real(key, value)
     if array.ndim == 2:
         array = np.broadcast_to(array, (count, *array.shape))
     if array.ndim != 3 or array.shape[0] != count or array.shape[1] != array.shape[2]:
         raise ValueError(f"{key}: expected {count} square matrices, an array of shape ({count}, n, n); found the shape "
                          f"{array.shape}")
     return array
+
+
+def _real(label: str, value: Any) -> Any:
+    if np.iscomplexobj(value):
+        raise ValueError(f"{label}: expected real numbers, found complex ones")
+    try:
+        return np.asarray(value, float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{label}: expected a matrix of numbers: {error}") from None
 
 
 def _is_sparse(value: Any) -> bool:

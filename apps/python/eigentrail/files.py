@@ -41,6 +41,8 @@ def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
             return _labelled(file, path, image)
     except BlockingIOError as error:
         raise BlockingIOError(f"{path}: is still being written; wait until its trace has ended") from error
+    except OSError as error:
+        raise ValueError(f"{path}: is no HDF5 file; expected a file of eigentrail trace, boundary, map or accuracy") from error
 
 
 def from_bytes(image: bytes) -> xarray.Dataset:
@@ -82,6 +84,8 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool
 
 def replace(path, image):
     """Writes bytes to a file, which is then either the complete new one or the old one."""
+    if not os.path.isdir(os.path.dirname(path) or "."):
+        raise FileNotFoundError(f"{path}: there is no such folder")
     handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", prefix=os.path.basename(path) + ".partial.")
     try:
         with os.fdopen(handle, "wb") as file:

@@ -43,7 +43,7 @@ def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] =
         raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
                          "for one range; give its matrices as a Family of powers and names, or as Samples")
     ranges = {name: _range(name, value) for name, value in values.items() if _is_range(value)}
-    settings = [f"{name}={_setting(value)}" for name, value in values.items() if name not in ranges]
+    settings = [f"{name}={_setting(value, name)}" for name, value in values.items() if name not in ranges]
     function, attached = None, Attached()
     if isinstance(source, Imported):
         attached = Attached({"model.h5": source.image})
@@ -132,9 +132,13 @@ def _range(name: str, value: Any) -> tuple[Any, Any]:
     return value[0], value[1]
 
 
-def _setting(value: Any) -> str:
+def _setting(value: Any, name: str = "option") -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, (int, np.integer)):
         return str(int(value))
-    return repr(float(value))
+    try:
+        return repr(float(value))
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: expected a number, a text with a unit, an expression, or a pair: a range; found "
+                        f"{value!r}") from None

@@ -189,7 +189,10 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     """
     given = give(scene, {**(settings or {}), **parameters})
     chosen = _trace_options(given, modes=modes, **(options or {}))
-    values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
+    try:
+        values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
+    except ValueError:
+        raise SceneError(f"at: expected values of the traced parameter, in its unit; found {at!r}") from None
     found = engine().spectrum(given.scene, chosen, values)
     _tell(given.warnings + [f"{value:g}: {fault}" for value, fault in found["faults"]])
     table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])

@@ -136,6 +136,8 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
     if not loci:
         raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].run}")
     parameter = loci[0].attrs["parameter"]
+    if parameter in names:
+        raise SceneError(f"{parameter}: is the traced parameter; give it a range, {parameter}=(from, to), and sweep others")
     at = _common_values(loci, parameter, points)
     parts = [run.at(at) for run in runs]
     n_modes = max(part.sizes["mode"] for part in parts if part is not None)
