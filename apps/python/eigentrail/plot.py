@@ -30,22 +30,13 @@ def main(arguments=None):
     try:
         options = _parser().parse_args(arguments)
         kind = _suffix(options.output)
-        picture = picture_of([_opened(path) for path in options.files], options)
+        picture = picture_of([files.open(path) for path in options.files], options)
         files.replace(options.output, with_matplotlib.image(picture, kind, __version__))
     except (ValueError, OSError) as error:
         known = isinstance(error, OSError) and error.filename and error.strerror
         print(f"eigentrail: {f'{error.filename}: {error.strerror}' if known else error}", file=sys.stderr)
         return 2
     return 0
-
-
-def _opened(path):
-    try:
-        return files.open(path)
-    except OSError as error:
-        if isinstance(error, (FileNotFoundError, PermissionError, IsADirectoryError, BlockingIOError)):
-            raise
-        raise BadInput(f"{path}: is no readable file of eigentrail trace, boundary, map or accuracy") from error
 
 
 def picture_of(data, options):
