@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/stability/boundary.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
@@ -38,7 +39,7 @@ void read_ranges(const Scene& scene, BoundaryArguments& arguments) {
   };
   request.from = number("--from", arguments.from, request.second);
   request.to = number("--to", arguments.to, request.second);
-  const std::string first = request.parameter.value_or(traced_name(scene));
+  const std::string first = request.parameter.value_or(traced_parameter(scene));
   if (arguments.first_from) request.first_from = number("--first-from", *arguments.first_from, first);
   if (arguments.first_to) request.first_to = number("--first-to", *arguments.first_to, first);
 }

@@ -44,13 +44,6 @@ void warn_of_unused(const Scene& scene, const Model& model) {
     warn(unused_error(scene, parameter).what());
 }
 
-std::string traced_name(const Scene& scene) {
-  const std::vector<const Table*> found = tables(scene, "trace");
-  const Value* traced = found.empty() ? nullptr : found.front()->find("parameter");
-  const auto* name = traced == nullptr ? nullptr : std::get_if<std::string>(&traced->data);
-  return name == nullptr ? "" : *name;
-}
-
 std::string beside(const std::string& scene, const std::string& ending) {
   return std::filesystem::path(scene).stem().string() + ending;
 }

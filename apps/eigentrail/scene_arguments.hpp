@@ -27,9 +27,6 @@ Scene with_settings_of(const SceneArguments& arguments, Scene scene);
 /// Prints a warning, on stderr, for each parameter on which nothing in the scene depends.
 void warn_of_unused(const Scene& scene, const Model& model);
 
-/// The parameter that [trace] of the scene names; empty if it names none.
-std::string traced_name(const Scene& scene);
-
 /// The name of an output file that was not given: that of the scene, with another ending, in the folder in
 /// which the program runs.
 std::string beside(const std::string& scene, const std::string& ending);

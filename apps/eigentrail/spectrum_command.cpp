@@ -55,11 +55,8 @@ struct ShownPoint : OperatingPoint {
 std::vector<ShownPoint> with_errors(const TraceSetup& setup, std::vector<OperatingPoint> points) {
   std::vector<ShownPoint> result;
   for (OperatingPoint& point : points) {
-    ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
-    for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
-    ShownPoint shown{std::move(point), {}};
-    shown.errors = data_errors_at(*setup.model, setup.options, shown.p, s);
-    result.push_back(std::move(shown));
+    std::optional<Matrix> errors = data_errors_at(*setup.model, setup.options, point);
+    result.push_back({std::move(point), std::move(errors)});
   }
   return result;
 }
@@ -173,8 +170,7 @@ int run_spectrum(const SpectrumArguments& arguments) {
       arguments.at.empty()
           ? std::vector{setup.options.from}
           : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
-  if (const SparseFamily* large = large_family(*setup.model, setup.options))
-    setup.model = project_at(*large, setup.options, values);
+  project_at_if_large(setup.model, setup.options, values);
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   if (arguments.csv) {
     print_csv(points);

@@ -7,6 +7,7 @@
 #include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "parts.hpp"
 #include "progress_bar.hpp"
@@ -32,7 +33,7 @@ struct SweepArguments : SceneArguments {
 Combinations read_combinations(const SweepArguments& arguments, const Scene& scene) {
   std::vector<Varied> varied;
   const auto given = arguments.options.find("parameter");
-  const std::string traced = given == arguments.options.end() ? traced_name(scene) : given->second;
+  const std::string traced = given == arguments.options.end() ? traced_parameter(scene) : given->second;
   double runs = 1.0;
   for (const std::string& text : arguments.vary) {
     const std::size_t equals = text.find('=');

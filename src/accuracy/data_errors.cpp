@@ -303,4 +303,11 @@ std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& opt
   return result;
 }
 
+std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options,
+                                     const OperatingPoint& point) {
+  ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
+  for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
+  return data_errors_at(model, options, point.p, s);
+}
+
 }  // namespace eigentrail

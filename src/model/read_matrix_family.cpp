@@ -5,6 +5,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "model/beside_scene.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_sparse_family.hpp"
@@ -174,12 +175,7 @@ struct FamilyReader {
 
 /// Index of the parameter whose powers multiply the coefficients: the one that [trace] of the scene names.
 int variable_index(const Scene& scene) {
-  for (const Table* trace : tables(scene, "trace")) {
-    const Value* name = trace->find("parameter");
-    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
-    if (text == nullptr) break;
-    if (const auto index = scene.parameters.index(*text)) return *index;
-  }
+  if (const auto index = scene.parameters.index(traced_parameter(scene))) return *index;
   throw InputError(scene.path +
                    ": [trace] parameter: a scene with [matrix_family] names here the parameter whose powers "
                    "multiply the matrices, also when another one is traced");

@@ -5,6 +5,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"
 #include "model/sampled_family.hpp"
@@ -14,12 +15,7 @@ namespace {
 
 /// Index of the parameter of the samples: the one that [trace] of the scene names.
 int variable_index(const Scene& scene) {
-  for (const Table* trace : tables(scene, "trace")) {
-    const Value* name = trace->find("parameter");
-    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
-    if (text == nullptr) break;
-    if (const auto index = scene.parameters.index(*text)) return *index;
-  }
+  if (const auto index = scene.parameters.index(traced_parameter(scene))) return *index;
   throw InputError(
       scene.path +
       ": [trace] parameter: a scene with [sampled_family] names here the parameter of the samples");

@@ -56,4 +56,9 @@ void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
   if (const SparseFamily* family = large_family(*model, trace)) model = project(*family, trace, lines);
 }
 
+void project_at_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
+                         const std::vector<double>& values) {
+  if (const SparseFamily* family = large_family(*model, trace)) model = project_at(*family, trace, values);
+}
+
 }  // namespace eigentrail

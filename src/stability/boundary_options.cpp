@@ -5,6 +5,7 @@
 
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "stability/second_parameter.hpp"
 
 namespace eigentrail {
@@ -20,9 +21,7 @@ void require_first_range(const Scene& scene, const BoundaryRequest& request) {
   const std::vector<const Table*> found = tables(scene, "trace");
   const Table none;
   const Table& trace = found.empty() ? none : *found.front();
-  const Value* traced = trace.find("parameter");
-  const std::string* name = traced == nullptr ? nullptr : std::get_if<std::string>(&traced->data);
-  const bool another = request.parameter && (name == nullptr || *name != *request.parameter);
+  const bool another = request.parameter && traced_parameter(scene) != *request.parameter;
   for (const auto& [key, given] :
        {std::pair("from", request.first_from), std::pair("to", request.first_to)}) {
     if (given) continue;

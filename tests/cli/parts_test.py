@@ -10,28 +10,11 @@ import h5py
 import numpy as np
 
 from loci_comparison import differences
-from program import (BLADE, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest, each_case,
+from program import (BLADE, CURVES, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest, each_case,
                      edited)
 
 MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "7x9")
 BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--from", "-1", "--to", "1")
-
-# Two circles of flutter that intersect, of two freedoms, and a line of divergence.
-CURVES = """\
-[parameters]
-p = 0.0
-q = 0.0
-
-[trace]
-parameter = "p"
-from = -1
-to = 1
-
-[matrix_family]
-M = [[["1", "0"], ["0", "1"]]]
-C = [[["(p - 0.13)^2 + (q + 0.21)^2 - 0.16", "0"], ["0", "(p - 0.3)^2 + q^2 - 0.3"]]]
-K = [[["1.3 - p - q", "0"], ["0", "4"]]]
-"""
 
 # Many points a line: a line takes a tenth of a second and more.
 SLOW = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.05")

@@ -99,6 +99,23 @@ M = [[[1, 0], [0, 1]]]
 K = [[[1, 0.25], [0.25, 2]], [[1, -1], [-1, -1]], [[0, 1], [1, 0]]]
 """
 
+# Two circles of flutter that intersect, of two freedoms, and a line of divergence.
+CURVES = """\
+[parameters]
+p = 0.0
+q = 0.0
+
+[trace]
+parameter = "p"
+from = -1
+to = 1
+
+[matrix_family]
+M = [[["1", "0"], ["0", "1"]]]
+C = [[["(p - 0.13)^2 + (q + 0.21)^2 - 0.16", "0"], ["0", "(p - 0.3)^2 + q^2 - 0.3"]]]
+K = [[["1.3 - p - q", "0"], ["0", "4"]]]
+"""
+
 # A pendulum pushed sideways by p times its weight, sin(angle) = p: hanging up to p = 1, standing on the way back.
 PUSHED_PENDULUM = """
 [parameters]

@@ -5,7 +5,7 @@ import subprocess
 import unittest
 
 from loci_comparison import differences
-from program import BLADE, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, TIME_LIMIT, ProgramTest, edited
+from program import BLADE, CURVES, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, TIME_LIMIT, ProgramTest, edited
 
 MPIRUN = os.environ["EIGENTRAIL_MPIRUN"]
 # Tests may run as root in a container, and with more processes than cores.
@@ -15,22 +15,6 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "13x9")
 BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--from", "-1", "--to", "1")
 SWEEP = ("sweep", "scene.toml", "--vary", "drag=1,2,5", "--vary", "length=4:0.5:5")
-
-CURVES = """\
-[parameters]
-p = 0.0
-q = 0.0
-
-[trace]
-parameter = "p"
-from = -1
-to = 1
-
-[matrix_family]
-M = [[["1", "0"], ["0", "1"]]]
-C = [[["(p - 0.13)^2 + (q + 0.21)^2 - 0.16", "0"], ["0", "(p - 0.3)^2 + q^2 - 0.3"]]]
-K = [[["1.3 - p - q", "0"], ["0", "4"]]]
-"""
 
 
 class Processes(ProgramTest):

@@ -82,7 +82,7 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     path = np.unique(loci[parameter].values)
     share = np.linspace(0.0, 1.0, SAMPLES_PER_STEP, endpoint=False)
     places = np.append((path[:-1, np.newaxis] + np.diff(path)[:, np.newaxis] * share).ravel(), path[-1])
-    low, high, best = path[0], path[-1], None
+    best: Optional[Least] = None
     labels = [str(label) for label in loci.mode.values]
     for _ in range(6):  # each time sixteen times closer: the minimum is flat, so its value is then exact to rounding
         ratio = loci.eigentrail.sel(**{parameter: places}).damping_ratio
@@ -101,7 +101,7 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
 
 
 def _label(loci: xarray.Dataset, mode: Any) -> str:
-    chosen = loci.isel(node=0).eigentrail._modes(loci[["mode"]], mode)
+    chosen = loci.eigentrail._modes(loci[["mode"]], mode)
     return str(chosen.mode.values)
 
 
@@ -126,10 +126,11 @@ def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pa
     nearest = int(np.argmin(np.abs(found["eigenvalue"] - s)))
     ds = found["derivative"][nearest]
     size = abs(s)
-    # zeta = -Re s / |s|, so d zeta = -Im s Im(conj(s) ds) ... written with the parts of ds.
-    results: dict[str, tuple[Any, Any]] = {"eigenvalue": (ds, s), "frequency": (ds.imag * np.sign(s.imag or 1.0), abs(s.imag)),
-               "damping_ratio": (-ds.real / size + s.real * (s.real * ds.real + s.imag * ds.imag) / size ** 3,
-                                 -s.real / size)}
+    # zeta = -Re s / |s| and d|s| = (Re s Re ds + Im s Im ds) / |s|.
+    results: dict[str, tuple[Any, Any]] = {
+        "eigenvalue": (ds, s),
+        "frequency": (ds.imag * np.sign(s.imag or 1.0), abs(s.imag)),
+        "damping_ratio": (-ds.real / size + s.real * (s.real * ds.real + s.imag * ds.imag) / size ** 3, -s.real / size)}
     derivative, result = results[quantity]
     return _series(found["parameter"], derivative, result, value, label)
 

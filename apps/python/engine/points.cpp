@@ -22,8 +22,7 @@ namespace {
 /// The model of single values; a large one is projected so that it is exact at each of them.
 TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vector<double>& values) {
   TraceSetup setup = prepare_trace(scene, options, Purpose::operating_point);
-  if (const SparseFamily* large = large_family(*setup.model, setup.options))
-    setup.model = project_at(*large, setup.options, values);
+  project_at_if_large(setup.model, setup.options, values);
   return setup;
 }
 
@@ -36,11 +35,8 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
     const TraceSetup setup = prepare_at(scene, options, values);
     points = operating_points(setup, values);
     coordinates = setup.model->description().coordinate_names;
-    for (const OperatingPoint& point : points) {
-      ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
-      for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
-      errors.push_back(data_errors_at(*setup.model, setup.options, point.p, s));
-    }
+    for (const OperatingPoint& point : points)
+      errors.push_back(data_errors_at(*setup.model, setup.options, point));
   });
   py::list rows, faults;
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "eigentrail/scene/settings.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "engine.hpp"
 
 namespace py = pybind11;
@@ -52,16 +53,6 @@ std::vector<std::tuple<std::string, std::string, double>> parameters(const Scene
   return result;
 }
 
-/// The parameter that [trace] names; empty if it names none.
-std::string traced(const Scene& scene) {
-  for (const Table* trace : tables(scene, "trace")) {
-    const Value* name = trace->find("parameter");
-    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
-    if (text != nullptr) return *text;
-  }
-  return "";
-}
-
 }  // namespace
 
 void add_scenes(py::module_& module) {
@@ -70,7 +61,7 @@ void add_scenes(py::module_& module) {
       .def_readonly("path", &Scene::path)
       .def_readonly("title", &Scene::title)
       .def_property_readonly("parameters", &parameters)
-      .def_property_readonly("traced", &traced)
+      .def_property_readonly("traced", &traced_parameter)
       .def(
           "with_settings",
           [](const Scene& scene, const std::vector<std::string>& settings) {

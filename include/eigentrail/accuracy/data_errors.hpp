@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "eigentrail/continuation/data_errors.hpp"
+#include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
@@ -19,5 +20,8 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
 /// interpolation and digits. Empty likewise.
 std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options, double p,
                                      const ComplexVector& s);
+/// The same for the modes at an operating point.
+std::optional<Matrix> data_errors_at(const Model& model, const TraceOptions& options,
+                                     const OperatingPoint& point);
 
 }  // namespace eigentrail

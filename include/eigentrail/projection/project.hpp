@@ -90,5 +90,8 @@ ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOp
 /// Replaces a large model by its projection; leaves others as they are.
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                       const std::vector<ParameterValues>& lines = {});
+/// The same for single values of the traced parameter: as project_at.
+void project_at_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
+                         const std::vector<double>& values);
 
 }  // namespace eigentrail
