@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/scene/scene.hpp"
+
 namespace eigentrail {
 
 /// A column; "outer [mm]" is the heading of the column "outer" in the unit mm.
@@ -26,6 +28,8 @@ struct CsvTable {
 
 /// Reads such a file. Throws InputError with path and line.
 CsvTable read_csv(const std::string& path);
+/// The file that a key of a scene's table names. Throws InputError with the place in the scene, too.
+CsvTable read_csv(const Scene& scene, TableReader& table, const std::string& key);
 
 /// Values of a column in the SI unit of a quantity in `wanted`. Throws InputError if the column has another
 /// dimension or a unit that is not known.

@@ -94,7 +94,7 @@ std::optional<BearingTable> read_columns(RotorDraft& rotor, TableReader& table, 
   const Expression argument = table.has("over")
                                   ? rotor.draft.read_number(table, "over", std::nullopt, Range::any)
                                   : rotor.shafts[place.shaft].speed;
-  const CsvTable csv = rotor.read_table(table, "table");
+  const CsvTable csv = read_csv(rotor.draft.scene, table, "table");
   try {
     BearingTable columns = tabulate(csv, argument, table.has("over") ? "" : "rad/s");
     for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {

@@ -32,7 +32,7 @@ std::vector<Expression> differences(const std::vector<Expression>& positions) {
 /// A CSV file: a row per segment with its length, or per end of a segment with its position; the last of
 /// these closes the shaft and has no segment.
 Stations stations_of_file(const RotorDraft& rotor, TableReader& shaft) {
-  const CsvTable table = rotor.read_table(shaft, "stations");
+  const CsvTable table = read_csv(rotor.draft.scene, shaft, "stations");
   const std::vector<std::string> known = {"length", "position", "outer", "inner", "elements"};
   for (const CsvColumn& column : table.columns) {
     if (std::find(known.begin(), known.end(), column.name) == known.end())

@@ -3,8 +3,6 @@
 #include <charconv>
 #include <sstream>
 
-#include "model/beside_scene.hpp"
-
 namespace eigentrail {
 namespace {
 
@@ -66,15 +64,6 @@ std::string six_digits(double x) {
   text.precision(6);
   text << x;
   return text.str();
-}
-
-CsvTable RotorDraft::read_table(TableReader& table, const std::string& key) const {
-  const std::string path = beside_scene(draft.scene, table, key);
-  try {
-    return read_csv(path);
-  } catch (const InputError& error) {
-    table.fail(key, error.what());
-  }
 }
 
 double RotorDraft::first_value(const Expression& expression) const {

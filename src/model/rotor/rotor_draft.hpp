@@ -69,9 +69,6 @@ struct RotorDraft {
   /// Reads a key with one node or a list of nodes: 3, "node 3" or "inner node 3", counted from 1.
   std::vector<NodePlace> read_nodes(TableReader& table, const std::string& key) const;
 
-  /// A CSV file beside the scene that a key names.
-  CsvTable read_table(TableReader& table, const std::string& key) const;
-
   /// The first of the values at which the scene is checked.
   double first_value(const Expression& expression) const;
 };
