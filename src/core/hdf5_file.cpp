@@ -44,6 +44,17 @@ void silence_error_stack() {
 
 }  // namespace
 
+namespace {
+
+std::recursive_mutex& turn() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+Hdf5Turn::Hdf5Turn() : lock_(turn()) {}
+
 Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;

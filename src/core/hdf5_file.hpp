@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,6 +20,17 @@ namespace eigentrail {
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Lets one thread after the other use HDF5 for a whole task. HDF5 has one lock for all files and passes it
+/// on at every call: threads that write at the same time without turns wait for each other thousands of
+/// times.
+class Hdf5Turn {
+ public:
+  Hdf5Turn();
+
+ private:
+  std::unique_lock<std::recursive_mutex> lock_;
 };
 
 /// Complex numbers are stored as the compound {r, i}, which h5py reads as complex128.
@@ -86,6 +98,8 @@ class Hdf5File {
   /// Names of the members of a group in alphabetical order; "/" is the root group.
   std::vector<std::string> members(const std::string& group) const;
   Shape shape(const std::string& dataset) const;
+  /// Throws Hdf5Error for a type that eigentrail does not write.
+  ElementType element_type(const std::string& dataset) const;
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
   /// Reads one row (first index).
@@ -94,6 +108,7 @@ class Hdf5File {
   std::vector<std::string> read_texts(const std::string& dataset) const;
 
   bool has_attribute(const std::string& name) const;
+  bool is_text_attribute(const std::string& name) const;
   std::string text_attribute(const std::string& name) const;
   double real_attribute(const std::string& name) const;
   std::int64_t integer_attribute(const std::string& name) const;

@@ -149,6 +149,23 @@ Shape Hdf5File::shape(const std::string& dataset) const {
   return implementation_->shape(dataset);
 }
 
+ElementType Hdf5File::element_type(const std::string& dataset) const {
+  const Handle set = implementation_->dataset(dataset);
+  const Handle type(H5Dget_type(set), H5Tclose, "read the type of " + dataset);
+  switch (H5Tget_class(type)) {
+    case H5T_FLOAT:
+      return ElementType::real;
+    case H5T_COMPOUND:
+      return ElementType::complex;
+    case H5T_INTEGER:
+      return ElementType::integer;
+    case H5T_STRING:
+      return ElementType::text;
+    default:
+      throw Hdf5Error("dataset " + dataset + ": expected real or complex numbers, integers or texts");
+  }
+}
+
 bool Hdf5File::has(const std::string& dataset) const {
   // A path exists if all its leading parts exist.
   for (std::size_t slash = dataset.find('/', 1);; slash = dataset.find('/', slash + 1)) {
@@ -201,6 +218,12 @@ std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const 
 
 bool Hdf5File::has_attribute(const std::string& name) const {
   return H5Aexists(implementation_->file, name.c_str()) > 0;
+}
+bool Hdf5File::is_text_attribute(const std::string& name) const {
+  const Handle attribute(H5Aopen(implementation_->file, name.c_str(), H5P_DEFAULT), H5Aclose,
+                         "open attribute " + name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, "read the type of attribute " + name);
+  return H5Tget_class(stored) == H5T_STRING;
 }
 std::string Hdf5File::text_attribute(const std::string& name) const {
   return read_text_attribute(implementation_->file, name);

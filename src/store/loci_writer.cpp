@@ -108,6 +108,7 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
 LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
                        const TraceStart& start, const TracePoint& first) {
   ModeMotions motions(model, first);
+  const Hdf5Turn turn;
   LociTables tables = new_tables("loci file", scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{{},
                                            nullptr,
@@ -149,7 +150,10 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
     throw InputError(path + ": the state of the trace does not fit the scene: other motions");
 }
 
-LociWriter::~LociWriter() = default;
+LociWriter::~LociWriter() {
+  const Hdf5Turn turn;
+  implementation_.reset();
+}
 
 void LociWriter::Implementation::append_modes(const TracePoint& point) {
   const std::size_t begin = rows.eigenvalue.size();
@@ -254,6 +258,7 @@ void LociWriter::append(const TracePoint& point) {
 }
 
 void LociWriter::Implementation::write_rows() {
+  const Hdf5Turn turn;
   tables.append(rows);
   rows = {};
 }
@@ -302,6 +307,7 @@ bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
 }
 
 void LociWriter::interrupt(const Checkpoint& checkpoint) {
+  const Hdf5Turn turn;
   implementation_->save(checkpoint, "interrupted");
 }
 
@@ -316,6 +322,7 @@ std::vector<std::string> LociWriter::mode_names() const {
 void LociWriter::finish(const TraceResult& result, const std::vector<StableRange>& ranges,
                         const DataErrors* errors) {
   Implementation& self = *implementation_;
+  const Hdf5Turn turn;
   // With errors of the data, events that were written may have been taken back.
   if (errors != nullptr && self.events > 0) {
     clear_events(self.tables.file());

@@ -27,6 +27,15 @@ class Sweeps(unittest.TestCase):
             run = swept.eigentrail.runs[(drag,)]
             self.assertTrue(run.assign_attrs(seconds=0).identical(alone.assign_attrs(seconds=0)))  # seconds: the time it took
 
+    def test_what_the_engine_reads_is_what_the_file_holds(self):
+        files = [et.runs.trace_file(BLADE_SCENE, drag=drag).image for drag in (1, 2)]
+        first, other = (et.files.part_from_bytes(image) for image in files)
+        read = et.files.part_like(first, *et.engine.engine().read_datasets(files[1], et.files.FOR_SELECTION))
+        self.assertEqual(set(read.variables), set(other.variables))
+        for name in read.variables:
+            self.assertTrue(read[name].identical(other[name]), name)
+        self.assertEqual(read.attrs, {name: value for name, value in other.attrs.items() if isinstance(value, str)})
+
     def test_two_parameters_give_two_dimensions(self):
         swept = et.sweep(BLADE, {"drag": [1.0, 2.0], "mass": [40.0, 50.0, 60.0]}, points=11, jobs=2)
         self.assertEqual(dict(swept.sizes), {"drag": 2, "mass": 3, "omega": 11, "mode": 2})

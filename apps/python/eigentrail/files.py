@@ -58,14 +58,24 @@ FOR_SELECTION = ("step", "mode", "mode_name", "eigenvalue", "frequency", "damped
                  "scene_parameter_unit")
 
 
-def part_from_bytes(image: bytes, like: Optional[xarray.Dataset] = None) -> xarray.Dataset:
-    """Of a loci file only what `sel` and a sweep need; `like` is that part of a file of the same scene, which has the same
-    dimensions and attributes."""
+def part_from_bytes(image: bytes) -> xarray.Dataset:
+    """Of a loci file only what `sel` and a sweep need."""
     with h5py.File(io.BytesIO(image), "r") as file:
-        data = _dataset(file, (*FOR_SELECTION, file.attrs["parameter"]), like)
+        data = _dataset(file, (*FOR_SELECTION, file.attrs["parameter"]))
     data["natural_frequency"] = data.frequency
     _add_event_kinds(data)
     return data
+
+
+def part_like(like: xarray.Dataset, arrays: Mapping[str, Any], attributes: Mapping[str, str]) -> xarray.Dataset:
+    """The same from arrays and texts that `read_datasets` of the engine gives for the file; `like` is that part of a file of
+    the same scene, which has the same names of dimensions and attributes of datasets."""
+    values = dict(arrays, natural_frequency=arrays["frequency"])
+    values["event_kind"], values["event_modes"] = _event_fields(values["events"])
+    variables = {name: xarray.Variable(like[name].dims, array, like[name].attrs, fastpath=True)
+                 for name, array in values.items()}
+    return xarray.Dataset({name: one for name, one in variables.items() if name not in like.coords},
+                          {name: one for name, one in variables.items() if name in like.coords}, attributes)
 
 
 def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool = False) -> None:
@@ -110,7 +120,7 @@ def _labelled(file: Any, path: str, image: bytes) -> xarray.Dataset:
     return data
 
 
-def _dataset(file: Any, names: Optional[Iterable[str]] = None, like: Optional[xarray.Dataset] = None) -> xarray.Dataset:
+def _dataset(file: Any, names: Optional[Iterable[str]] = None) -> xarray.Dataset:
     """What xarray.open_dataset gives for the file, in a fraction of its time: all datasets, or those of `names`, with the
     names of their dimensions."""
     variables: dict[str, Any] = {}
@@ -119,10 +129,6 @@ def _dataset(file: Any, names: Optional[Iterable[str]] = None, like: Optional[xa
         dataset = file[name]
         if not isinstance(dataset, h5py.Dataset):
             continue  # the type of complex numbers
-        if like is not None and name in like.variables:
-            variables[name] = (like[name].dims, _values(dataset), like[name].attrs)
-            labels.update({name} & set(like.coords))
-            continue
         attributes = {key: _plain(value) for key, value in dataset.attrs.items() if key not in NOT_ATTRIBUTES}
         variables[name] = (_dimensions(file, name, dataset), _values(dataset), attributes)
         labels.update(dataset.attrs.get("coordinates", "").split())
@@ -183,8 +189,13 @@ def _add_frequencies(data: xarray.Dataset) -> None:
 
 
 def _add_event_kinds(data: xarray.Dataset) -> None:
-    """Adds `event_kind` and `event_modes`, the first and the last field of the lines in `events`."""
-    words = [line.split(",") for line in data.events.values]
-    for name, place, long_name in (("event_kind", 0, "what happens"), ("event_modes", -1, "numbers of the modes")):
-        texts = np.array([line[place] for line in words], object)
-        data[name] = ("event", texts, {"long_name": long_name, "units": "1"})
+    """Adds `event_kind` and `event_modes`."""
+    kinds, modes = _event_fields(data.events.values)
+    data["event_kind"] = ("event", kinds, {"long_name": "what happens", "units": "1"})
+    data["event_modes"] = ("event", modes, {"long_name": "numbers of the modes", "units": "1"})
+
+
+def _event_fields(lines: Any) -> tuple[Any, Any]:
+    """The first and the last field of the lines in `events`."""
+    words = [line.split(",") for line in lines]
+    return np.array([line[0] for line in words], object), np.array([line[-1] for line in words], object)

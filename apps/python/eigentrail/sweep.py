@@ -10,10 +10,10 @@ from typing import Any, Optional
 import numpy as np
 import xarray
 
-from .engine import SceneError, TraceError
+from .engine import SceneError, TraceError, engine
 from .given import Source
 from .progress import Bar, Progress
-from .files import part_from_bytes
+from .files import FOR_SELECTION, part_from_bytes, part_like
 from .runs import Run, trace_file
 
 RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the single traces
@@ -63,11 +63,13 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
 class _Traced:
     """A trace of a sweep, or the error that kept it from beginning."""
 
-    def __init__(self, run: Any, like: Optional["_Traced"], points: Any):
+    def __init__(self, run: Any, datasets: Any, like: Optional["_Traced"], points: Any):
         self.run = run
         self.remarks: list[str] = run.remarks if isinstance(run, Run) else []
-        self.loci: Optional[xarray.Dataset] = (
-            part_from_bytes(run.image, None if like is None else like.loci) if isinstance(run, Run) else None)
+        self.loci: Optional[xarray.Dataset] = None
+        if isinstance(run, Run):
+            known = None if like is None else like.loci
+            self.loci = part_from_bytes(run.image) if known is None else part_like(known, *datasets)
         self._values: Any = None  # at which the loci were evaluated: for most sweeps those of the first trace are common
         self._part: Optional[xarray.Dataset] = None
         if self.loci is not None:
@@ -92,9 +94,10 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
     def run(place: tuple[Any, ...]) -> Any:
         try:
             settings: Any = {**how.get("settings", {}), **dict(zip(names, place))}
-            return trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
+            traced = trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
         except TraceError as error:
-            return error
+            return error, None
+        return traced, engine().read_datasets(traced.image, FOR_SELECTION)
 
     with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
@@ -102,7 +105,8 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             found: list[_Traced] = []
             for done, future in enumerate(futures):
                 first = next((one for one in found if one.loci is not None), None)
-                found.append(_Traced(future.result(), first, points))
+                run_here, datasets = future.result()
+                found.append(_Traced(run_here, datasets, first, points))
                 if show is not None:
                     show((done + 1) / len(futures), done + 1)
             return found
