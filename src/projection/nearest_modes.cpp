@@ -24,7 +24,7 @@ class Inverse {
   using Scalar = double;
   enum class Form { undamped, first_order, quadratic };
 
-  Inverse(const SparsePencil& pencil, const SparseFactors& factors, const Shift& shift, bool transposed,
+  Inverse(const SparsePencil& pencil, const SparseSolver& factors, const Shift& shift, bool transposed,
           double scale, long& solutions)
       : pencil_(pencil),
         factors_(factors),
@@ -91,7 +91,7 @@ class Inverse {
   }
 
   const SparsePencil& pencil_;
-  const SparseFactors& factors_;
+  const SparseSolver& factors_;
   Complex shift_;
   bool transposed_;
   double scale_;
@@ -171,7 +171,7 @@ double complete_radius(const Shift& shift, Inverse::Form form, double least) {
 }
 
 /// Frequency (rad/s) of the lowest modes, roughly: one step of inverse iteration.
-double frequency_scale(const SparsePencil& pencil, const SparseFactors& factors) {
+double frequency_scale(const SparsePencil& pencil, const SparseSolver& factors) {
   const Vector start = Vector::Ones(pencil.size());
   const ComplexVector x = factors.solve(ComplexVector((pencil.M * start).cast<Complex>()));
   const double inertia = std::abs(x.dot(pencil.M * x)), stiffness = std::abs(x.dot(pencil.K * x));
@@ -254,15 +254,15 @@ bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
   bool regular = false;
   if (shift.frequency == 0.0 || Inverse::form_of(pencil) == Inverse::Form::undamped) {
     const ShiftedMatrix shifted = shifted_matrix(pencil, shift);
-    regular = factors_.factor(shifted.matrix, shifted.kind);
+    regular = factors_->factor(shifted.matrix, shifted.kind);
   } else {
     const Complex s = shift.value();
     ComplexSparseMatrix shifted =
         s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() + pencil.K.cast<Complex>();
     shifted.makeCompressed();
-    regular = factors_.factor(shifted);
+    regular = factors_->factor(shifted);
   }
-  peak_bytes_ = std::max(peak_bytes_, factors_.bytes());
+  peak_bytes_ = std::max(peak_bytes_, factors_->bytes());
   return regular;
 }
 
@@ -290,8 +290,8 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
       moved = true;
       continue;
     }
-    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, factors_) : 1.0;
-    Inverse inverse(pencil, factors_, shift, false, scale, solutions_);
+    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, *factors_) : 1.0;
+    Inverse inverse(pencil, *factors_, shift, false, scale, solutions_);
     std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
     if (!right || right->s.empty()) return std::nullopt;
     const bool beside_singular = remembered && moved_->beside_singular;
@@ -316,7 +316,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
     if (pencil.one_sided) return modes;
-    Inverse transposed(pencil, factors_, shift, true, scale, solutions_);
+    Inverse transposed(pencil, *factors_, shift, true, scale, solutions_);
     const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance_);
     if (!left) return std::nullopt;
     modes.left = columns(left->vectors, pencil.size());

@@ -60,8 +60,9 @@ struct NearestModes {
 /// Finds modes near a shift, place by place; the symbolic analysis of the factorization is kept.
 class ModeFinder {
  public:
-  /// `tolerance`: relative accuracy of the eigenvalues of the inverse.
-  explicit ModeFinder(double tolerance) : tolerance_(tolerance) {}
+  /// `tolerance`: relative accuracy of the eigenvalues of the inverse. `maker`: what factors.
+  explicit ModeFinder(double tolerance, const SparseSolverMaker& maker = {})
+      : tolerance_(tolerance), factors_(make_solver(maker)) {}
 
   /// The modes that a request asks for, possibly a few more. Factors the pencil once; a shift on an
   /// eigenvalue is moved, which takes a second factorization. Empty if the iteration does not converge.
@@ -70,7 +71,7 @@ class ModeFinder {
   int factorizations() const { return factorizations_; }
   long solutions() const { return solutions_; }
   std::size_t peak_bytes() const { return peak_bytes_; }  ///< of the factors
-  const char* method() const { return factors_.method(); }
+  std::string method() const { return factors_->method(); }
 
  private:
   bool factor(const SparsePencil& pencil, const Shift& shift);
@@ -84,7 +85,7 @@ class ModeFinder {
 
   double tolerance_;
   std::optional<MovedShift> moved_;
-  SparseFactors factors_;
+  std::unique_ptr<SparseSolver> factors_;
   int factorizations_ = 0;
   long solutions_ = 0;
   std::size_t peak_bytes_ = 0;

@@ -51,7 +51,7 @@ class Projector {
         options_(options),
         space_(family.n_coordinates()),
         target_(options.share_of_tolerance * trace.tolerance),
-        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9)) {
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver) {
     if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
@@ -361,8 +361,8 @@ std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const Trace
 }
 
 std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
-                                            const std::vector<double>& values) {
-  const ProjectionOptions options;
+                                            const std::vector<double>& values,
+                                            const ProjectionOptions& options) {
   return Projector(family, trace, {}, options).at(values);
 }
 
