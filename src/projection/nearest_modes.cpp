@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/transposition.hpp"
-
 namespace eigentrail {
 namespace {
 
@@ -128,7 +126,9 @@ std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const
                              double tolerance) {
   const auto size = static_cast<int>(inverse.rows());
   const int nev = std::min(wanted, size - 2);
-  const int ncv = std::min(size, 2 * nev + 20);
+  // With more vectors between restarts fewer solutions are wasted, but orthogonalizing them takes longer than
+  // the solutions: 2 nev + 20 needed as many solutions and a tenth more time.
+  const int ncv = std::min(size, 3 * nev / 2 + 20);
   Spectra::GenEigsSolver<Inverse> solver(inverse, nev, ncv);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 50, tolerance, Spectra::SortRule::LargestMagn);
@@ -230,16 +230,6 @@ ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) 
   return s * s * (M.transpose() * Z) + s * (C.transpose() * Z) + K.transpose() * Z;
 }
 
-SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters) {
-  const AffinePencil<SparseMatrix> at = family.at(parameters);
-  SparsePencil pencil{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
-  const bool conservative = equals_transpose(pencil.M, 1.0) && equals_transpose(pencil.K, 1.0);
-  const bool symmetric_C = equals_transpose(pencil.C, 1.0);
-  pencil.symmetric = conservative && symmetric_C;
-  pencil.one_sided = pencil.symmetric || (conservative && equals_transpose(pencil.C, -1.0));
-  return pencil;
-}
-
 ShiftedMatrix shifted_matrix(const SparsePencil& pencil, const Shift& shift) {
   const double square = shift.real * shift.real - shift.frequency * shift.frequency;
   // Zero factors keep the pattern of the sum, so that it is analyzed once.
@@ -267,6 +257,7 @@ bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
 }
 
 std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const ModeRequest& request) {
+  const double tolerance = request.tolerance.value_or(tolerance_);
   const Inverse::Form form = Inverse::form_of(pencil);
   const int per_mode = form == Inverse::Form::undamped ? 1 : 2;
   Shift shift = request.shift;
@@ -292,7 +283,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, *factors_) : 1.0;
     Inverse inverse(pencil, *factors_, shift, false, scale, solutions_);
-    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
+    std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance);
     if (!right || right->s.empty()) return std::nullopt;
     const bool beside_singular = remembered && moved_->beside_singular;
     if (const double gap = moved || beside_singular ? 0.0 : gap_beside(*right, shift)) {
@@ -310,14 +301,14 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     if (moved && !moved_) moved_ = MovedShift{request.shift, shift, true};
     while (complete_radius(shift, form, right->least) < request.cover && count < request.most) {
       count = std::min(request.most, count + std::max(2, count / 2));
-      right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance_);
+      right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance);
       if (!right) return std::nullopt;
     }
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
     if (pencil.one_sided) return modes;
     Inverse transposed(pencil, *factors_, shift, true, scale, solutions_);
-    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance_);
+    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance);
     if (!left) return std::nullopt;
     modes.left = columns(left->vectors, pencil.size());
     return modes;

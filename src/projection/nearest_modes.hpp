@@ -23,9 +23,6 @@ struct SparsePencil {
   ComplexMatrix transposed_times(Complex s, const ComplexMatrix& Z) const;
 };
 
-/// The pencil of a family at given parameters (declared units).
-SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters);
-
 /// A shift on the real axis or on the imaginary one.
 struct Shift {
   double real = 0.0;       ///< 1/s
@@ -41,6 +38,7 @@ struct ModeRequest {
   int count = 1;       ///< about that many, nearest to the shift; a conjugate pair is one mode
   double cover = 0.0;  ///< all within this distance of the shift, as far as `most` modes reach
   int most = 0;        ///< a limit for `cover`
+  std::optional<double> tolerance = std::nullopt;  ///< in place of that of the finder
 };
 
 /// The matrix that is factored for a real shift, and whether it is symmetric.

@@ -1,7 +1,7 @@
 #include "eigentrail/projection/project.hpp"
 
 #include "eigentrail/scene/limits.hpp"
-#include "projection/nearest_modes.hpp"
+#include "projection/family_pencils.hpp"
 
 namespace eigentrail {
 
@@ -25,7 +25,7 @@ ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOp
   const Parameters& parameters = family.description().parameters;
   Vector values = parameters.declared_values();
   values[parameters.index(trace.parameter).value()] = 0.5 * (trace.from + trace.to);
-  const SparsePencil pencil = pencil_at(family, values);
+  const SparsePencil pencil = FamilyPencils(family).at(values);
   const ShiftedMatrix shifted = shifted_matrix(pencil, {});
   const FactorEstimate factors = make_solver(solver)->estimate(shifted.matrix, shifted.kind);
   ProjectionEstimate estimate;

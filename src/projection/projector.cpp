@@ -9,6 +9,7 @@
 
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
+#include "projection/family_pencils.hpp"
 #include "projection/newcomers.hpp"
 #include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
@@ -22,6 +23,9 @@ constexpr double share_of_vectors = 0.02;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
+
+/// Accuracy of vectors that are only put into the space, as a share of that to which they are kept.
+constexpr double accuracy_of_added_vectors = 0.1;
 
 /// Tolerance of the traces that only look for the worst place.
 constexpr double scout_tolerance = 1e-3;
@@ -46,6 +50,7 @@ class Projector {
   Projector(const SparseFamily& family, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
             const ProjectionOptions& options)
       : family_(family),
+        pencils_(family),
         trace_(trace),
         lines_(lines),
         options_(options),
@@ -66,7 +71,7 @@ class Projector {
       const Worst worst = find_worst(*model, places);
       if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
       // Exact eigenvalues at the worst place show the true error of the space as it was.
-      const double error = error_at(*worst.place);
+      const double error = error_at(*model, *worst.place);
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
@@ -79,7 +84,7 @@ class Projector {
 
   /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
   std::unique_ptr<ProjectedFamily> at(const std::vector<double>& values) {
-    for (const double p : values) add(find_chosen(pencil_at(family_, parameters_at(p, lines_.front()))), p);
+    for (const double p : values) add(find_chosen(pencils_.at(parameters_at(p, lines_.front()))), p);
     return reduced();
   }
 
@@ -130,10 +135,10 @@ class Projector {
   }
 
   /// As many modes as contain the chosen ones, and spare ones; at the start of the trace.
-  NearestModes find_chosen(const SparsePencil& pencil) {
+  NearestModes find_chosen(const SparsePencil& pencil, std::optional<double> tolerance = std::nullopt) {
     count_ = trace_.modes.count.value_or(8) + options_.spare_modes;
     while (true) {
-      NearestModes modes = find(pencil, {usual_shift(), count_}, trace_.from);
+      NearestModes modes = find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, trace_.from);
       const int missing = missing_modes(modes, usual_shift());
       if (missing == 0 || count_ >= static_cast<int>(pencil.size()) / 2) return modes;
       count_ += missing;
@@ -161,12 +166,16 @@ class Projector {
 
   void first_samples(const ParameterValues& line) {
     const int n = options_.first_samples;
+    // Their vectors are needed, not their eigenvalues.
+    const double tolerance = accuracy_of_added_vectors * accuracy_of_vectors();
     for (int i = 0; i < n; ++i) {
       // Chebyshev places with the ends: dense where interpolation is worst.
       const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
       const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
-      const SparsePencil pencil = pencil_at(family_, parameters_at(p, line));
-      add(count_ == 0 ? find_chosen(pencil) : find(pencil, {usual_shift(), count_}, p), p);
+      const SparsePencil pencil = pencils_.at(parameters_at(p, line));
+      add(count_ == 0 ? find_chosen(pencil, tolerance)
+                      : find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, p),
+          p);
     }
   }
 
@@ -253,7 +262,7 @@ class Projector {
 
   /// The largest indicator of the modes at a place.
   double indicator_at(const ProjectedFamily& model, const ProjectedPlace& place) const {
-    const SparsePencil pencil = pencil_at(family_, place.parameters);
+    const SparsePencil pencil = pencils_.at(place.parameters);
     const AffinePencil<Matrix> at = model.at(place.parameters);
     const Matrix &M = at.M.front().matrix, &C = at.C.front().matrix, &K = at.K.front().matrix;
     double largest = 0.0;
@@ -264,19 +273,20 @@ class Projector {
       } else {
         one.left = pencil.symmetric ? one.right : one.right.conjugate();
       }
-      largest = std::max(largest, error_indicator(pencil, one) / size(mode.s));
+      largest = std::max(largest, eigenvalue_error(pencil, one).relative_to(size(mode.s)));
     }
     return largest;
   }
 
   /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
   /// size; the vectors of these are added to the space.
-  double error_at(const ProjectedPlace& place) {
-    const SparsePencil pencil = pencil_at(family_, place.parameters);
+  double error_at(const ProjectedFamily& model, const ProjectedPlace& place) {
+    const SparsePencil pencil = pencils_.at(place.parameters);
     const Complex centre = usual_shift().value();
+    const std::vector<ModeState> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ModeState& mode : moving_modes(place)) {
+    for (const ModeState& mode : modes) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
@@ -286,11 +296,13 @@ class Projector {
     add(exact, place.p);
     std::vector<Complex> known(exact.s.begin(), exact.s.end());
     for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.p)) known.push_back(s);
+    const AffinePencil<Matrix> small = model.at(place.parameters);
     double largest = 0.0;
-    for (const Complex s : followed) {
-      double distance = std::numeric_limits<double>::infinity();
-      for (const Complex other : known) distance = std::min(distance, std::abs(other - s));
-      largest = std::max(largest, distance / size(s));
+    for (const ModeState& mode : modes) {
+      EigenvalueError error{std::numeric_limits<double>::infinity()};
+      for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
+      error.half_gap = half_gap(small.M.front().matrix, small.C.front().matrix, small.K.front().matrix, mode);
+      largest = std::max(largest, error.relative_to(size(mode.s)));
     }
     return largest;
   }
@@ -316,7 +328,7 @@ class Projector {
   }
 
   void note_newcomers(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) {
-    const Newcomers found = find_newcomers(family_, model, places, usual_shift().value(), reference_);
+    const Newcomers found = find_newcomers(pencils_, model, places, usual_shift().value(), reference_);
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -338,6 +350,7 @@ class Projector {
   }
 
   const SparseFamily& family_;
+  FamilyPencils pencils_;
   const TraceOptions& trace_;
   std::vector<ParameterValues> lines_;
   const ProjectionOptions& options_;

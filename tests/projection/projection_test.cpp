@@ -267,6 +267,54 @@ TEST(Projection, RigidBodyMotionsDoNotCountAsErrors) {
   }
 }
 
+/// A chain of n masses with springs between them, scaled so that the frequencies of a free one are 1, 2, 3
+/// ... rad/s and zero.
+SparseMatrix free_chain(Eigen::Index n) {
+  std::vector<Eigen::Triplet<double>> springs;
+  const double stiffness = std::pow(static_cast<double>(n) / M_PI, 2);
+  for (Eigen::Index i = 1; i < n; ++i) {
+    for (const Eigen::Index at : {i - 1, i}) springs.emplace_back(at, at, stiffness);
+    springs.emplace_back(i, i - 1, -stiffness);
+    springs.emplace_back(i - 1, i, -stiffness);
+  }
+  SparseMatrix K(n, n);
+  K.setFromTriplets(springs.begin(), springs.end());
+  return K;
+}
+
+SparseMatrix diagonal(const Vector& entries) {
+  SparseMatrix A(entries.size(), entries.size());
+  for (Eigen::Index i = 0; i < entries.size(); ++i) A.insert(i, i) = entries[i];
+  A.makeCompressed();
+  return A;
+}
+
+/// The lowest pair meets on the real axis, at -0.025, and one of it becomes unstable soon after. Where it
+/// meets the eigenvalues move by the root of rounding, which no number of factorizations can change.
+TEST(Projection, ACollisionOnTheRealAxisTakesFewFactorizations) {
+  constexpr Eigen::Index n = 2000;
+  const SparseMatrix unit = diagonal(Vector::Ones(n));
+  const SparseMatrix softening = diagonal(-Vector::LinSpaced(n, 1.0, 1.5));
+  AffinePencil<SparseMatrix> chain{{{1.0, unit}},
+                                   {{1.0, 0.05 * unit}},
+                                   {{1.0, free_chain(n) + unit}, {Expression::of_parameter(0), softening}}};
+  for (const double tolerance : {1e-4, 1e-6}) {
+    const TraceSetup setup = large_setup(chain, 0.0, 1.5, 4, tolerance);
+    const Traced traced = run(setup, 10);
+    EXPECT_EQ(traced.result.status, TraceStatus::completed);
+    EXPECT_LE(traced.model->projection()->factorizations, 12) << tolerance;
+    EXPECT_TRUE(traced.model->projection()->notes.empty()) << tolerance;
+    EXPECT_LT(error(setup, traced), tolerance);
+    int collisions = 0, divergences = 0;
+    for (const Event& event : traced.result.events) {
+      collisions += event.kind == EventKind::collision ? 1 : 0;
+      divergences += event.kind == EventKind::divergence ? 1 : 0;
+    }
+    EXPECT_EQ(collisions, 1) << tolerance;
+    EXPECT_EQ(divergences, 1) << tolerance;
+  }
+}
+
 TEST(Projection, SingleValuesAreExact) {
   const TraceSetup setup = large_setup(rotating_plate({16, 0.02, 1.0}), 0.0, 3.0, 4, 1e-6);
   const auto model = project_at(family_of(setup), setup.options, {1.0});

@@ -28,7 +28,7 @@ struct ProjectionOptions {
   /// Largest error of an eigenvalue by the projection, relative to max(|s|, reference), as a share of the
   /// tolerance of the trace: what is left is for the trace itself, and places of events follow from it.
   double share_of_tolerance = 0.01;
-  int first_samples = 4;        ///< values of the parameter before the first trace, ends included; >= 2
+  int first_samples = 2;        ///< values of the parameter before the first trace, ends included; >= 2
   int max_factorizations = 40;  ///< the projection ends there and says what error is left
   int spare_modes = 3;          ///< modes beyond the followed ones whose vectors are kept as well; >= 0
   /// Whether left vectors are kept where the pencil is not symmetric. Without them the error of an eigenvalue
