@@ -2,6 +2,9 @@
 
 #include <Spectra/GenEigsSolver.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -170,20 +173,48 @@ double complete_radius(const Shift& shift, Inverse::Form form, double least) {
   return w + a - std::sqrt(w * w + a * a);
 }
 
-/// Frequency (rad/s) of the lowest modes, roughly: one step of inverse iteration.
-double frequency_scale(const SparsePencil& pencil, const SparseSolver& factors) {
+/// Frequency (rad/s) of the lowest modes, roughly: one step of inverse iteration. That of rigid-body motions
+/// is rounding; then a shift beside them is a better measure.
+double frequency_scale(const SparsePencil& pencil, const SparseSolver& factors, const Shift& shift) {
   const Vector start = Vector::Ones(pencil.size());
   const ComplexVector x = factors.solve(ComplexVector((pencil.M * start).cast<Complex>()));
   const double inertia = std::abs(x.dot(pencil.M * x)), stiffness = std::abs(x.dot(pencil.K * x));
-  const double scale = std::sqrt(stiffness / inertia);
+  const double scale = std::max(std::sqrt(stiffness / inertia), std::abs(shift.value()));
   return std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
-/// A shift beside zero, for a pencil whose K is singular: far below the frequencies, far above rounding.
-Shift beside_zero(const SparsePencil& pencil) {
+/// A shift beside zero, for a pencil whose K is singular: far below the frequencies, far above rounding. With
+/// it the rigid-body motions outweigh all other modes; it serves to find a better one.
+Shift close_to_zero(const SparsePencil& pencil) {
   const double mass = pencil.M.norm();
   const double scale = mass > 0.0 ? std::sqrt(pencil.K.norm() / mass) : pencil.K.norm() / pencil.C.norm();
   return {1e-6 * scale, 0.0};
+}
+
+/// A shift between the rigid-body motions and the lowest other modes, by subspace iteration with factors at a
+/// shift close to zero: 0.3 of the lowest frequency. Damping is left out of it.
+Shift beside_rigid_motions(const SparsePencil& pencil, const SparseSolver& factors, const Shift& close) {
+  constexpr Eigen::Index block = 12;    // six rigid-body motions and a few other modes
+  constexpr int rounds = 3;             // a rough frequency is enough
+  constexpr double rigid_share = 1e-8;  // of the largest eigenvalue of the block
+  const bool first_order = pencil.M.norm() == 0.0;
+  const SparseMatrix& inertia = first_order ? pencil.C : pencil.M;
+  const Eigen::Index n = pencil.size();
+  Matrix Q = Matrix::NullaryExpr(n, std::min(block, n), [](Eigen::Index i, Eigen::Index j) {
+    return std::cos(static_cast<double>((i + 1) * (2 * j + 1)) * 0.7548776662466927);
+  });
+  for (int i = 0; i < rounds; ++i) {
+    const Eigen::HouseholderQR<Matrix> qr(factors.solve(Matrix(inertia * Q)));
+    Q = qr.householderQ() * Matrix::Identity(n, Q.cols());
+  }
+  const Matrix small = (Q.transpose() * (inertia * Q)).partialPivLu().solve(Q.transpose() * (pencil.K * Q));
+  Vector values = Eigen::EigenSolver<Matrix>(small, false).eigenvalues().cwiseAbs();
+  std::sort(values.begin(), values.end());
+  const auto lowest = std::find_if(values.begin(), values.end(), [&](double value) {
+    return value > rigid_share * values[values.size() - 1];
+  });
+  const double frequency = first_order ? *lowest : std::sqrt(*lowest);
+  return {std::max(close.real, 0.3 * frequency), 0.0};
 }
 
 /// If the shift lies on an eigenvalue that was found: the distance of the nearest of the others. Zero if not.
@@ -277,11 +308,13 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
         continue;
       }
       if (moved) return std::nullopt;
-      shift = beside_zero(pencil);
+      const Shift close = close_to_zero(pencil);
+      if (!factor(pencil, close)) return std::nullopt;
+      shift = beside_rigid_motions(pencil, *factors_, close);
       moved = true;
       continue;
     }
-    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, *factors_) : 1.0;
+    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, *factors_, shift) : 1.0;
     Inverse inverse(pencil, *factors_, shift, false, scale, solutions_);
     std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance);
     if (!right || right->s.empty()) return std::nullopt;

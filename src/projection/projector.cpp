@@ -69,16 +69,21 @@ class Projector {
       std::vector<ProjectedPlace> places;
       for (const ParameterValues& line : lines_) scout(*model, line, places);
       const Worst worst = find_worst(*model, places);
-      if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
+      if (projection_.factorizations > options_.max_factorizations)
+        return give_up(worst, worst.indicator * factor_,
+                       "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it was.
       const double error = error_at(*model, *worst.place);
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->p;
-      if (error > target_ || projection_.error > safety * target_) continue;
+      const bool stuck = error > target_ && stays(*worst.place, error);
+      if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
       if (lines_.size() == 1) note_newcomers(*model, places);
-      return reduced();
+      if (!stuck) return reduced();
+      return give_up(worst, error,
+                     "also with the vectors of that place, probably by rounding of the large matrices");
     }
   }
 
@@ -339,13 +344,25 @@ class Projector {
                                 " rad/s; to follow more, ask for more modes");
   }
 
-  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
-    projection_.error = worst.indicator * factor_;
+  /// Whether exact eigenvalues were computed at this place before, and the projected ones, with their vectors
+  /// in the space, are as far from them as before. Notes the place.
+  bool stays(const ProjectedPlace& place, double error) {
+    constexpr double same_place = 1e-9;  // of the range: where events are located again
+    const double close = same_place * std::abs(trace_.to - trace_.from);
+    const auto before = std::find_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
+      return (visit.parameters - place.parameters).cwiseAbs().maxCoeff() <= close;
+    });
+    const bool stayed = before != visits_.end() && error > 0.5 * before->error;
+    visits_.push_back({place.parameters, error});
+    return stayed;
+  }
+
+  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst, double error, const std::string& why) {
+    projection_.error = error;
     projection_.error_at = worst.place->p;
-    projection_.notes.push_back("the projection leaves an error of about " + digits(projection_.error, 2) +
-                                " at " + trace_.parameter + " = " + exact_text(worst.place->p) + " after " +
-                                std::to_string(projection_.factorizations) +
-                                " factorizations; asked for were " + digits(target_, 2));
+    projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
+                                trace_.parameter + " = " + exact_text(worst.place->p) + " " + why +
+                                "; asked for were " + digits(target_, 2));
     return reduced();
   }
 
@@ -362,7 +379,13 @@ class Projector {
   double frequency_ = 0.0;  ///< largest |s| that was found
   double reference_ = 0.0;  ///< of the scout's eigenvalues
   double factor_ = 1.0;     ///< error over indicator, the largest that was seen
-  int count_ = 0;           ///< modes that are looked for at a place
+  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
+  struct Visit {
+    Vector parameters;
+    double error = 0.0;
+  };
+  std::vector<Visit> visits_;
+  int count_ = 0;  ///< modes that are looked for at a place
 };
 
 }  // namespace
