@@ -227,7 +227,8 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 
 }  // namespace
 
-void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity) {
+void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity,
+             const SparseSolverMaker& solver) {
   const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
   if (sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
@@ -240,7 +241,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
     print_parameters(to, *model, traced);
     print_data(to, *model);
     print_effects(to, *model);
-    print_route(estimate_projection(*large, options), options, to);
+    print_route(estimate_projection(*large, options, solver), options, to);
     return;
   }
   const PathProblem problem = problem_along(*model, options.parameter);

@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "explain.hpp"
+#include "factor_team.hpp"
 #include "scene_arguments.hpp"
 
 namespace eigentrail::app {
@@ -16,11 +17,11 @@ struct ExplainArguments : SceneArguments {
   std::map<std::string, std::string> options;
 };
 
-int run_explain(const ExplainArguments& arguments) {
+int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solver) {
   const OptionTexts options{arguments.options.begin(), arguments.options.end()};
   const TraceSetup setup = prepare_trace(given_scene(arguments), options);
   warn_of_unused(setup.scene, *setup.model);
-  explain(stdout, setup, options, arguments.sensitivity);
+  explain(stdout, setup, options, arguments.sensitivity, solver);
   if (large_family(*setup.model, setup.options) == nullptr)
     std::printf("next: eigentrail trace %s -o %s\n", setup.scene.path.c_str(),
                 std::filesystem::path(setup.scene.path).stem().replace_extension(".h5").c_str());
@@ -45,7 +46,10 @@ void add_explain(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  eigentrail explain data/scenes/rotating_mass.toml\n"
       "  eigentrail explain data/scenes/rotating_mass.toml --sensitivity --without drag");
-  command->callback([arguments, &exit_code] { exit_code = run_explain(*arguments); });
+  command->callback([arguments, &exit_code] {
+    exit_code =
+        factoring_together([&](const SparseSolverMaker& solver) { return run_explain(*arguments, solver); });
+  });
 }
 
 }  // namespace eigentrail::app

@@ -31,9 +31,10 @@ void print_route(const ProjectionEstimate& estimate, const TraceOptions& options
       {{"  model", std::to_string(estimate.freedoms) + " freedoms, " + std::to_string(estimate.nonzeros) +
                        " nonzeros in M, C and K together"},
        {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
-                            ", at 4 values of " + options.parameter + " and where residuals are largest"},
-       {"  factorization", std::string(estimate.method) + " at each, " + megabytes(estimate.factor_bytes) +
-                               ", " + rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
+                            ", at both ends of the range of " + options.parameter +
+                            " and where residuals are largest"},
+       {"  factorization", estimate.method + " at each, " + megabytes(estimate.factor_bytes) + ", " +
+                               rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
        {"  memory", megabytes(estimate.total_bytes) + " with the vectors"},
        {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"},
        {"  error", "of the projection below " + rounded(estimate.target, 3) +

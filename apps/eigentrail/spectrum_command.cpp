@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "factor_team.hpp"
 #include "output.hpp"
 #include "scene_arguments.hpp"
 #include "values.hpp"
@@ -162,7 +163,7 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
   }
 }
 
-int run_spectrum(const SpectrumArguments& arguments) {
+int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& solver) {
   TraceSetup setup = prepare_trace(
       given_scene(arguments), {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
   warn_of_unused(setup.scene, *setup.model);
@@ -170,7 +171,7 @@ int run_spectrum(const SpectrumArguments& arguments) {
       arguments.at.empty()
           ? std::vector{setup.options.from}
           : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
-  project_at_if_large(setup.model, setup.options, values);
+  project_at_if_large(setup.model, setup.options, values, {.solver = solver});
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   if (arguments.csv) {
     print_csv(points);
@@ -214,7 +215,10 @@ void add_spectrum(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  eigentrail spectrum data/scenes/rotating_mass.toml --at 40\n"
       "  eigentrail spectrum turbine.toml --at 8 12 --modes \"band = ['0.1 Hz', '3 Hz']\" --csv");
-  command->callback([arguments, &exit_code] { exit_code = run_spectrum(*arguments); });
+  command->callback([arguments, &exit_code] {
+    exit_code =
+        factoring_together([&](const SparseSolverMaker& solver) { return run_spectrum(*arguments, solver); });
+  });
 }
 
 }  // namespace eigentrail::app

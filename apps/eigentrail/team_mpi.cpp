@@ -25,6 +25,7 @@
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "launcher.hpp"
 #include "team.hpp"
 
 namespace eigentrail::app {
@@ -398,13 +399,6 @@ class MpiTeam final : public Team {
   Processes processes_;
   std::size_t cores_ = own_cores();
 };
-
-/// Whether a launcher has started this process: Open MPI, MPICH and Slurm set one of these variables.
-bool launched() {
-  const auto names = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
-  return std::any_of(names.begin(), names.end(),
-                     [](const char* name) { return std::getenv(name) != nullptr; });
-}
 
 }  // namespace
 

@@ -15,6 +15,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/projection_file.hpp"
+#include "factor_team.hpp"
 #include "interruption.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
@@ -153,13 +154,13 @@ void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
     std::printf("wrote %s and its scene %s\n", arguments.save_reduced.c_str(), scene.c_str());
 }
 
-int run_trace(const TraceArguments& arguments) {
+int run_trace(const TraceArguments& arguments, const SparseSolverMaker& solver) {
   if (std::isnan(arguments.save_every))
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(given_scene(arguments), {arguments.options.begin(), arguments.options.end()});
   warn_of_unused(setup.scene, *setup.model);
-  project_if_large(setup.model, setup.options);
+  project_if_large(setup.model, setup.options, {}, {.solver = solver});
   if (!arguments.save_reduced.empty()) save_reduced(arguments, setup);
   setup.options.threads = arguments.threads > 0
                               ? arguments.threads
@@ -215,7 +216,8 @@ void add_trace(CLI::App& program, int& exit_code) {
       "than a second, the program ends with the points up to the last save.");
   command->callback([arguments, output, &exit_code] {
     if (output->count() == 0) arguments->output = beside(arguments->scene, ".h5");
-    exit_code = run_trace(*arguments);
+    exit_code =
+        factoring_together([&](const SparseSolverMaker& solver) { return run_trace(*arguments, solver); });
   });
 }
 

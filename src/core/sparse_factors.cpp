@@ -82,7 +82,6 @@ class Lu {
             : umfpack_dl_numeric(starts, rows, values_.data(), symbolic_, &numeric_, control_, info_);
     check_umfpack("factorization", code);
     bytes_ = static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE] * info_[UMFPACK_SIZE_OF_UNIT]);
-    rcond_ = info_[UMFPACK_RCOND];
     return code != UMFPACK_WARNING_singular_matrix;
   }
 
@@ -97,7 +96,6 @@ class Lu {
     check_umfpack("solution", code);
   }
 
-  double reciprocal_condition() const { return rcond_; }
   std::size_t bytes() const { return bytes_; }
 
  private:
@@ -119,7 +117,6 @@ class Lu {
   void* numeric_ = nullptr;
   std::vector<double> values_;
   std::size_t bytes_ = 0;
-  double rcond_ = 0.0;
 };
 
 /// Cholesky factors by CHOLMOD, of a symmetric matrix whose lower triangle is used.
@@ -129,6 +126,8 @@ class Cholesky {
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.quick_return_if_not_posdef = 1;
+    // L L^T. The default of small matrices, L D L^T without pivoting, takes indefinite ones and loses digits.
+    common_.final_ll = 1;
   }
   ~Cholesky() {
     if (factor_ != nullptr) cholmod_l_free_factor(&factor_, &common_);
@@ -170,7 +169,6 @@ class Cholesky {
     return X;
   }
 
-  double reciprocal_condition() const { return cholmod_l_rcond(factor_, &common_); }
   std::size_t bytes() const {
     const auto entries = factor_->is_super != 0 ? factor_->xsize : factor_->nzmax;
     return static_cast<std::size_t>(entries) * sizeof(double);
@@ -215,7 +213,7 @@ constexpr const char* lu_name = "LU (UMFPACK)";
 
 using namespace suitesparse;
 
-FactorEstimate estimate_factors(const SparseMatrix& A, SparseKind kind) {
+FactorEstimate SparseFactors::estimate(const SparseMatrix& A, SparseKind kind) const {
   Pattern pattern(compressed(A));
   if (kind == SparseKind::symmetric) {
     const auto [entries, operations] = Cholesky().analyze(pattern, A);
@@ -248,8 +246,10 @@ struct SparseFactors::Implementation {
 
 SparseFactors::SparseFactors() : implementation_(std::make_unique<Implementation>()) {}
 SparseFactors::~SparseFactors() = default;
-SparseFactors::SparseFactors(SparseFactors&&) noexcept = default;
-SparseFactors& SparseFactors::operator=(SparseFactors&&) noexcept = default;
+
+std::unique_ptr<SparseSolver> make_solver(const SparseSolverMaker& maker) {
+  return maker ? maker() : std::make_unique<SparseFactors>();
+}
 
 bool SparseFactors::factor(const SparseMatrix& A, SparseKind kind) {
   Implementation& i = *implementation_;
@@ -322,17 +322,12 @@ bool SparseFactors::is_complex() const {
   return implementation_->lu && implementation_->lu->is_complex();
 }
 
-double SparseFactors::reciprocal_condition() const {
-  const Implementation& i = *implementation_;
-  return i.cholesky ? i.cholesky->reciprocal_condition() : i.lu->reciprocal_condition();
-}
-
 std::size_t SparseFactors::bytes() const {
   const Implementation& i = *implementation_;
   return i.cholesky ? i.cholesky->bytes() : i.lu->bytes();
 }
 
-const char* SparseFactors::method() const {
+std::string SparseFactors::method() const {
   return implementation_->cholesky ? cholesky_name : lu_name;
 }
 

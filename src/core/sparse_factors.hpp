@@ -1,61 +1,36 @@
-// LU factors of a large sparse matrix, real or complex, by SuiteSparse: Cholesky factors (CHOLMOD) where the
+// Factors of a large sparse matrix, real or complex, by SuiteSparse: Cholesky factors (CHOLMOD) where the
 // matrix is symmetric and turns out to be positive definite, else LU (UMFPACK).
 //
-// This is the only place that knows which library factors sparse matrices.
+// This is the only place of the library that knows what factors sparse matrices.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-
-#include "eigentrail/core/system_matrix.hpp"
+#include "eigentrail/core/sparse_solver.hpp"
 
 namespace eigentrail {
 
-using ComplexSparseMatrix = Eigen::SparseMatrix<Complex>;
-
-/// What is known of a matrix before it is factored.
-enum class SparseKind { symmetric, general };
-
-/// Upper bounds of memory and work of a factorization, from the symbolic analysis.
-struct FactorEstimate {
-  double bytes = 0.0;
-  double operations = 0.0;
-  const char* method = "";
-};
-FactorEstimate estimate_factors(const SparseMatrix& A, SparseKind kind);
-
-/// Factors matrices of one sparsity pattern, one at a time; the symbolic analysis is made once.
-class SparseFactors {
+class SparseFactors final : public SparseSolver {
  public:
   SparseFactors();
-  ~SparseFactors();
-  SparseFactors(SparseFactors&&) noexcept;
-  SparseFactors& operator=(SparseFactors&&) noexcept;
+  ~SparseFactors() override;
 
-  /// Factors A, n x n; the factors before are freed first. Returns whether it succeeded: false if A is
-  /// singular. Throws std::bad_alloc if memory does not suffice. A matrix with another pattern than the one
-  /// before is analyzed anew.
-  bool factor(const SparseMatrix& A, SparseKind kind);
-  bool factor(const ComplexSparseMatrix& A);
-
-  /// A^-1 B and A^-T B for the matrix that was factored last; B is n x k. If A is real and B complex, both
-  /// parts are solved for.
-  Matrix solve(const Matrix& B) const;
-  Matrix solve_transposed(const Matrix& B) const;
-  ComplexVector solve(const ComplexVector& b) const;
-  ComplexVector solve_transposed(const ComplexVector& b) const;
-
-  bool is_complex() const;
-  /// An estimate of the reciprocal condition number by the diagonal of the factors.
-  double reciprocal_condition() const;
-  /// Memory of the factors.
-  std::size_t bytes() const;
+  bool factor(const SparseMatrix& A, SparseKind kind) override;
+  bool factor(const ComplexSparseMatrix& A) override;
+  Matrix solve(const Matrix& B) const override;
+  Matrix solve_transposed(const Matrix& B) const override;
+  ComplexVector solve(const ComplexVector& b) const override;
+  ComplexVector solve_transposed(const ComplexVector& b) const override;
+  bool is_complex() const override;
+  std::size_t bytes() const override;
   /// "Cholesky (CHOLMOD)" or "LU (UMFPACK)".
-  const char* method() const;
+  std::string method() const override;
+  FactorEstimate estimate(const SparseMatrix& A, SparseKind kind) const override;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// A solver by the maker; by SuiteSparse if it is empty.
+std::unique_ptr<SparseSolver> make_solver(const SparseSolverMaker& maker);
 
 }  // namespace eigentrail

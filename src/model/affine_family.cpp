@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/transposition.hpp"
+#include "model/affine_factor.hpp"
 #include "model/rotor/table_errors.hpp"
-#include "model/rotor/tabulated_factor.hpp"
 
 namespace eigentrail {
 namespace {
@@ -22,23 +22,6 @@ struct StorageOf<Real, SparseMatrix> {
   using Type = Eigen::SparseMatrix<Real>;
   static Type zero(Eigen::Index n) { return Type(n, n); }
 };
-
-template <class Real, int Q>
-std::vector<Series<Real, Q>> si_series(const Parameters& parameters, const BasicPath<Real>& path) {
-  std::vector<Series<Real, Q>> si(parameters.size());
-  for (std::size_t i = 0; i < si.size(); ++i) {
-    for (int k = 0; k <= Q; ++k) si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
-  }
-  parameters.to_si(std::span<Series<Real, Q>>(si));
-  return si;
-}
-
-/// The factor of a summand for given values of the parameters (SI).
-template <class Scalar, class Storage>
-Scalar factor_of(const AffineTerm<Storage>& term, std::span<const Scalar> si) {
-  const Scalar value = term.factor.evaluate(si);
-  return term.table ? (*term.table)(value) : value;
-}
 
 /// Coefficients of a sum along the path up to h^order, without trailing zeros. All sparse coefficients have
 /// the pattern of the whole sum.

@@ -23,9 +23,6 @@ struct SparsePencil {
   ComplexMatrix transposed_times(Complex s, const ComplexMatrix& Z) const;
 };
 
-/// The pencil of a family at given parameters (declared units).
-SparsePencil pencil_at(const SparseFamily& family, const Vector& parameters);
-
 /// A shift on the real axis or on the imaginary one.
 struct Shift {
   double real = 0.0;       ///< 1/s
@@ -41,6 +38,7 @@ struct ModeRequest {
   int count = 1;       ///< about that many, nearest to the shift; a conjugate pair is one mode
   double cover = 0.0;  ///< all within this distance of the shift, as far as `most` modes reach
   int most = 0;        ///< a limit for `cover`
+  std::optional<double> tolerance = std::nullopt;  ///< in place of that of the finder
 };
 
 /// The matrix that is factored for a real shift, and whether it is symmetric.
@@ -60,8 +58,9 @@ struct NearestModes {
 /// Finds modes near a shift, place by place; the symbolic analysis of the factorization is kept.
 class ModeFinder {
  public:
-  /// `tolerance`: relative accuracy of the eigenvalues of the inverse.
-  explicit ModeFinder(double tolerance) : tolerance_(tolerance) {}
+  /// `tolerance`: relative accuracy of the eigenvalues of the inverse. `maker`: what factors.
+  explicit ModeFinder(double tolerance, const SparseSolverMaker& maker = {})
+      : tolerance_(tolerance), factors_(make_solver(maker)) {}
 
   /// The modes that a request asks for, possibly a few more. Factors the pencil once; a shift on an
   /// eigenvalue is moved, which takes a second factorization. Empty if the iteration does not converge.
@@ -70,7 +69,7 @@ class ModeFinder {
   int factorizations() const { return factorizations_; }
   long solutions() const { return solutions_; }
   std::size_t peak_bytes() const { return peak_bytes_; }  ///< of the factors
-  const char* method() const { return factors_.method(); }
+  std::string method() const { return factors_->method(); }
 
  private:
   bool factor(const SparsePencil& pencil, const Shift& shift);
@@ -84,7 +83,7 @@ class ModeFinder {
 
   double tolerance_;
   std::optional<MovedShift> moved_;
-  SparseFactors factors_;
+  std::unique_ptr<SparseSolver> factors_;
   int factorizations_ = 0;
   long solutions_ = 0;
   std::size_t peak_bytes_ = 0;

@@ -24,7 +24,7 @@ bool is_exact(const SmallPencil& small, const SparsePencil& large, const Matrix&
   const ComplexVector right = left_vector(small.M.transpose(), small.C.transpose(), small.K.transpose(), s);
   const ProjectedMode mode{s, (basis * right).normalized(),
                            (basis * left_vector(small.M, small.C, small.K, s)).normalized()};
-  return error_indicator(large, mode) < closeness * std::max(std::abs(s), reference);
+  return eigenvalue_error(large, mode).distance < closeness * std::max(std::abs(s), reference);
 }
 
 /// The spectrum of the projected pencil without the followed modes, and how far these reach from the centre.
@@ -50,7 +50,7 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, C
 
 /// Eigenvalues that are not followed and nearer to the centre than the farthest followed one, the farthest of
 /// them last.
-std::vector<Complex> among_the_followed(const SparseFamily& family, const ProjectedFamily& model,
+std::vector<Complex> among_the_followed(const FamilyPencils& large, const ProjectedFamily& model,
                                         const ProjectedPlace& place, Complex centre, double reference) {
   const AffinePencil<Matrix> at = model.at(place.parameters);
   const SmallPencil small{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
@@ -59,9 +59,9 @@ std::vector<Complex> among_the_followed(const SparseFamily& family, const Projec
     return std::abs(s - centre) >= others.farthest || std::abs(s) <= rigid * others.largest;
   });
   if (others.s.empty()) return {};
-  const SparsePencil large = pencil_at(family, place.parameters);
+  const SparsePencil pencil = large.at(place.parameters);
   std::erase_if(others.s,
-                [&](Complex s) { return !is_exact(small, large, model.projection()->basis, s, reference); });
+                [&](Complex s) { return !is_exact(small, pencil, model.projection()->basis, s, reference); });
   std::sort(others.s.begin(), others.s.end(),
             [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
   return others.s;
@@ -69,12 +69,12 @@ std::vector<Complex> among_the_followed(const SparseFamily& family, const Projec
 
 }  // namespace
 
-Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
+Newcomers find_newcomers(const FamilyPencils& large, const ProjectedFamily& model,
                          const std::vector<ProjectedPlace>& places, Complex centre, double reference) {
   Newcomers found;
   std::size_t known = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::vector<Complex> there = among_the_followed(family, model, places[i], centre, reference);
+    const std::vector<Complex> there = among_the_followed(large, model, places[i], centre, reference);
     const bool enters = i > 0 && there.size() > known;
     known = there.size();
     if (!enters) continue;

@@ -5,6 +5,7 @@
 
 #include "eigentrail/continuation/trace_result.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "projection/family_pencils.hpp"
 
 namespace eigentrail {
 
@@ -26,7 +27,7 @@ struct Newcomers {
 
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
-Newcomers find_newcomers(const SparseFamily& family, const ProjectedFamily& model,
+Newcomers find_newcomers(const FamilyPencils& large, const ProjectedFamily& model,
                          const std::vector<ProjectedPlace>& places, Complex centre, double reference);
 
 }  // namespace eigentrail

@@ -1,7 +1,7 @@
 #include "eigentrail/projection/project.hpp"
 
 #include "eigentrail/scene/limits.hpp"
-#include "projection/nearest_modes.hpp"
+#include "projection/family_pencils.hpp"
 
 namespace eigentrail {
 
@@ -20,13 +20,14 @@ std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::st
   return lines;
 }
 
-ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace) {
+ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace,
+                                       const SparseSolverMaker& solver) {
   const Parameters& parameters = family.description().parameters;
   Vector values = parameters.declared_values();
   values[parameters.index(trace.parameter).value()] = 0.5 * (trace.from + trace.to);
-  const SparsePencil pencil = pencil_at(family, values);
+  const SparsePencil pencil = FamilyPencils(family).at(values);
   const ShiftedMatrix shifted = shifted_matrix(pencil, {});
-  const FactorEstimate factors = estimate_factors(shifted.matrix, shifted.kind);
+  const FactorEstimate factors = make_solver(solver)->estimate(shifted.matrix, shifted.kind);
   ProjectionEstimate estimate;
   estimate.freedoms = pencil.size();
   estimate.nonzeros = pencil.M.nonZeros() + pencil.C.nonZeros() + pencil.K.nonZeros();
@@ -52,13 +53,15 @@ const SparseFamily* large_family(const Model& model, const TraceOptions& trace) 
 }
 
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
-                      const std::vector<ParameterValues>& lines) {
-  if (const SparseFamily* family = large_family(*model, trace)) model = project(*family, trace, lines);
+                      const std::vector<ParameterValues>& lines, const ProjectionOptions& options) {
+  if (const SparseFamily* family = large_family(*model, trace))
+    model = project(*family, trace, lines, options);
 }
 
 void project_at_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
-                         const std::vector<double>& values) {
-  if (const SparseFamily* family = large_family(*model, trace)) model = project_at(*family, trace, values);
+                         const std::vector<double>& values, const ProjectionOptions& options) {
+  if (const SparseFamily* family = large_family(*model, trace))
+    model = project_at(*family, trace, values, options);
 }
 
 }  // namespace eigentrail

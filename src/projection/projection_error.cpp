@@ -1,6 +1,7 @@
 #include "projection/projection_error.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace eigentrail {
@@ -34,7 +35,11 @@ void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode) 
   mode.shape = right;
 }
 
-double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode) {
+double EigenvalueError::relative_to(double size) const {
+  return distance / size * std::min(1.0, (distance + 2.0 * half_gap) / size);
+}
+
+EigenvalueError eigenvalue_error(const SparsePencil& pencil, const ProjectedMode& mode) {
   const double s = std::abs(mode.s);
   const Vector scale = s * s * pencil.M.diagonal().cwiseAbs() + s * pencil.C.diagonal().cwiseAbs() +
                        pencil.K.diagonal().cwiseAbs();
@@ -42,10 +47,20 @@ double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode) {
   const auto size = [&](const ComplexMatrix& residual) {
     return std::sqrt((residual.col(0).cwiseAbs2().array() / (scale.array() + floor)).sum());
   };
-  const ComplexVector slope = 2.0 * mode.s * (pencil.M * mode.right) + pencil.C * mode.right;
-  const Complex product = mode.left.transpose() * slope;
-  return size(pencil.times(mode.s, mode.right)) * size(pencil.transposed_times(mode.s, mode.left)) /
-         std::abs(product);
+  const double residual =
+      size(pencil.times(mode.s, mode.right)) * size(pencil.transposed_times(mode.s, mode.left));
+  const ComplexVector inertia = 2.0 * (pencil.M * mode.right);
+  const double slope = std::abs(mode.left.cwiseProduct(mode.s * inertia + pencil.C * mode.right).sum());
+  const double curvature = std::abs(mode.left.cwiseProduct(inertia).sum());
+  return {2.0 * residual / (slope + std::sqrt(slope * slope + 2.0 * curvature * residual)),
+          slope / curvature};
+}
+
+double half_gap(const Matrix& M, const Matrix& C, const Matrix& K, const ModeState& mode) {
+  const ComplexVector left = left_vector(M, C, K, mode.s);
+  const ComplexVector inertia = 2.0 * (M * mode.shape);
+  const Complex slope = left.cwiseProduct(mode.s * inertia + C * mode.shape).sum();
+  return std::abs(slope) / std::abs(left.cwiseProduct(inertia).sum());
 }
 
 }  // namespace eigentrail

@@ -21,9 +21,24 @@ ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Com
 /// digits, by inverse iteration and two-sided Rayleigh quotients. Leaves it where these lead elsewhere.
 void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode);
 
-/// An indicator of |s - s_large|, 1/s: |P(s) z| |y^T P(s)| / |y^T P'(s) z|, with both residuals measured by
-/// the diagonal of the pencil's terms. It is of the order of the error in its dependence on the vectors; its
-/// factor is found where exact eigenvalues are known.
-double error_indicator(const SparsePencil& pencil, const ProjectedMode& mode);
+/// How far an eigenvalue may be from one of the large pencil.
+struct EigenvalueError {
+  double distance = 0.0;  ///< 1/s
+  /// About half the distance to the eigenvalue that it meets where right and left vector become orthogonal,
+  /// 1/s: |y^T P' z| / |y^T P'' z|. The conjugate, if no other is nearer.
+  double half_gap = 0.0;
+
+  /// The error as the tolerance counts it, relative to `size` = max(|s|, reference): where two eigenvalues
+  /// meet they move by the root of what the pencil changes, and the square of their distance counts.
+  double relative_to(double size) const;
+};
+
+/// An indicator of |s - s_large|, the root of |P(s) z| |y^T P(s)| = |y^T P'(s) z| d + |y^T P'' z| d^2 / 2
+/// with both residuals measured by the diagonal of the pencil's terms. It is of the order of the error in its
+/// dependence on the vectors; its factor is found where exact eigenvalues are known.
+EigenvalueError eigenvalue_error(const SparsePencil& pencil, const ProjectedMode& mode);
+
+/// The half gap of an eigenvalue of the small pencil, whose right vector is known.
+double half_gap(const Matrix& M, const Matrix& C, const Matrix& K, const ModeState& mode);
 
 }  // namespace eigentrail

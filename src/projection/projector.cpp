@@ -9,6 +9,7 @@
 
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
+#include "projection/family_pencils.hpp"
 #include "projection/newcomers.hpp"
 #include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
@@ -22,6 +23,9 @@ constexpr double share_of_vectors = 0.02;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
+
+/// Accuracy of vectors that are only put into the space, as a share of that to which they are kept.
+constexpr double accuracy_of_added_vectors = 0.1;
 
 /// Tolerance of the traces that only look for the worst place.
 constexpr double scout_tolerance = 1e-3;
@@ -46,12 +50,13 @@ class Projector {
   Projector(const SparseFamily& family, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
             const ProjectionOptions& options)
       : family_(family),
+        pencils_(family),
         trace_(trace),
         lines_(lines),
         options_(options),
         space_(family.n_coordinates()),
         target_(options.share_of_tolerance * trace.tolerance),
-        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9)) {
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver) {
     if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
@@ -64,22 +69,27 @@ class Projector {
       std::vector<ProjectedPlace> places;
       for (const ParameterValues& line : lines_) scout(*model, line, places);
       const Worst worst = find_worst(*model, places);
-      if (projection_.factorizations > options_.max_factorizations) return give_up(worst);
+      if (projection_.factorizations > options_.max_factorizations)
+        return give_up(worst, worst.indicator * factor_,
+                       "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it was.
-      const double error = error_at(*worst.place);
+      const double error = error_at(*model, *worst.place);
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->p;
-      if (error > target_ || projection_.error > safety * target_) continue;
+      const bool stuck = error > target_ && stays(*worst.place, error);
+      if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
       if (lines_.size() == 1) note_newcomers(*model, places);
-      return reduced();
+      if (!stuck) return reduced();
+      return give_up(worst, error,
+                     "also with the vectors of that place, probably by rounding of the large matrices");
     }
   }
 
   /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
   std::unique_ptr<ProjectedFamily> at(const std::vector<double>& values) {
-    for (const double p : values) add(find_chosen(pencil_at(family_, parameters_at(p, lines_.front()))), p);
+    for (const double p : values) add(find_chosen(pencils_.at(parameters_at(p, lines_.front()))), p);
     return reduced();
   }
 
@@ -130,10 +140,10 @@ class Projector {
   }
 
   /// As many modes as contain the chosen ones, and spare ones; at the start of the trace.
-  NearestModes find_chosen(const SparsePencil& pencil) {
+  NearestModes find_chosen(const SparsePencil& pencil, std::optional<double> tolerance = std::nullopt) {
     count_ = trace_.modes.count.value_or(8) + options_.spare_modes;
     while (true) {
-      NearestModes modes = find(pencil, {usual_shift(), count_}, trace_.from);
+      NearestModes modes = find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, trace_.from);
       const int missing = missing_modes(modes, usual_shift());
       if (missing == 0 || count_ >= static_cast<int>(pencil.size()) / 2) return modes;
       count_ += missing;
@@ -161,12 +171,16 @@ class Projector {
 
   void first_samples(const ParameterValues& line) {
     const int n = options_.first_samples;
+    // Their vectors are needed, not their eigenvalues.
+    const double tolerance = accuracy_of_added_vectors * accuracy_of_vectors();
     for (int i = 0; i < n; ++i) {
       // Chebyshev places with the ends: dense where interpolation is worst.
       const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
       const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
-      const SparsePencil pencil = pencil_at(family_, parameters_at(p, line));
-      add(count_ == 0 ? find_chosen(pencil) : find(pencil, {usual_shift(), count_}, p), p);
+      const SparsePencil pencil = pencils_.at(parameters_at(p, line));
+      add(count_ == 0 ? find_chosen(pencil, tolerance)
+                      : find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, p),
+          p);
     }
   }
 
@@ -253,7 +267,7 @@ class Projector {
 
   /// The largest indicator of the modes at a place.
   double indicator_at(const ProjectedFamily& model, const ProjectedPlace& place) const {
-    const SparsePencil pencil = pencil_at(family_, place.parameters);
+    const SparsePencil pencil = pencils_.at(place.parameters);
     const AffinePencil<Matrix> at = model.at(place.parameters);
     const Matrix &M = at.M.front().matrix, &C = at.C.front().matrix, &K = at.K.front().matrix;
     double largest = 0.0;
@@ -264,19 +278,20 @@ class Projector {
       } else {
         one.left = pencil.symmetric ? one.right : one.right.conjugate();
       }
-      largest = std::max(largest, error_indicator(pencil, one) / size(mode.s));
+      largest = std::max(largest, eigenvalue_error(pencil, one).relative_to(size(mode.s)));
     }
     return largest;
   }
 
   /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
   /// size; the vectors of these are added to the space.
-  double error_at(const ProjectedPlace& place) {
-    const SparsePencil pencil = pencil_at(family_, place.parameters);
+  double error_at(const ProjectedFamily& model, const ProjectedPlace& place) {
+    const SparsePencil pencil = pencils_.at(place.parameters);
     const Complex centre = usual_shift().value();
+    const std::vector<ModeState> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ModeState& mode : moving_modes(place)) {
+    for (const ModeState& mode : modes) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
@@ -286,11 +301,13 @@ class Projector {
     add(exact, place.p);
     std::vector<Complex> known(exact.s.begin(), exact.s.end());
     for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.p)) known.push_back(s);
+    const AffinePencil<Matrix> small = model.at(place.parameters);
     double largest = 0.0;
-    for (const Complex s : followed) {
-      double distance = std::numeric_limits<double>::infinity();
-      for (const Complex other : known) distance = std::min(distance, std::abs(other - s));
-      largest = std::max(largest, distance / size(s));
+    for (const ModeState& mode : modes) {
+      EigenvalueError error{std::numeric_limits<double>::infinity()};
+      for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
+      error.half_gap = half_gap(small.M.front().matrix, small.C.front().matrix, small.K.front().matrix, mode);
+      largest = std::max(largest, error.relative_to(size(mode.s)));
     }
     return largest;
   }
@@ -316,7 +333,7 @@ class Projector {
   }
 
   void note_newcomers(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) {
-    const Newcomers found = find_newcomers(family_, model, places, usual_shift().value(), reference_);
+    const Newcomers found = find_newcomers(pencils_, model, places, usual_shift().value(), reference_);
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -327,17 +344,30 @@ class Projector {
                                 " rad/s; to follow more, ask for more modes");
   }
 
-  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst) {
-    projection_.error = worst.indicator * factor_;
+  /// Whether exact eigenvalues were computed at this place before, and the projected ones, with their vectors
+  /// in the space, are as far from them as before. Notes the place.
+  bool stays(const ProjectedPlace& place, double error) {
+    constexpr double same_place = 1e-9;  // of the range: where events are located again
+    const double close = same_place * std::abs(trace_.to - trace_.from);
+    const auto before = std::find_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
+      return (visit.parameters - place.parameters).cwiseAbs().maxCoeff() <= close;
+    });
+    const bool stayed = before != visits_.end() && error > 0.5 * before->error;
+    visits_.push_back({place.parameters, error});
+    return stayed;
+  }
+
+  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst, double error, const std::string& why) {
+    projection_.error = error;
     projection_.error_at = worst.place->p;
-    projection_.notes.push_back("the projection leaves an error of about " + digits(projection_.error, 2) +
-                                " at " + trace_.parameter + " = " + exact_text(worst.place->p) + " after " +
-                                std::to_string(projection_.factorizations) +
-                                " factorizations; asked for were " + digits(target_, 2));
+    projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
+                                trace_.parameter + " = " + exact_text(worst.place->p) + " " + why +
+                                "; asked for were " + digits(target_, 2));
     return reduced();
   }
 
   const SparseFamily& family_;
+  FamilyPencils pencils_;
   const TraceOptions& trace_;
   std::vector<ParameterValues> lines_;
   const ProjectionOptions& options_;
@@ -349,7 +379,13 @@ class Projector {
   double frequency_ = 0.0;  ///< largest |s| that was found
   double reference_ = 0.0;  ///< of the scout's eigenvalues
   double factor_ = 1.0;     ///< error over indicator, the largest that was seen
-  int count_ = 0;           ///< modes that are looked for at a place
+  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
+  struct Visit {
+    Vector parameters;
+    double error = 0.0;
+  };
+  std::vector<Visit> visits_;
+  int count_ = 0;  ///< modes that are looked for at a place
 };
 
 }  // namespace
@@ -361,8 +397,8 @@ std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const Trace
 }
 
 std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
-                                            const std::vector<double>& values) {
-  const ProjectionOptions options;
+                                            const std::vector<double>& values,
+                                            const ProjectionOptions& options) {
   return Projector(family, trace, {}, options).at(values);
 }
 

@@ -7,7 +7,7 @@
 #include "bench/text.hpp"
 #include "bench/timing.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "projection/nearest_modes.hpp"
+#include "projection/family_pencils.hpp"
 #include "support/large_families.hpp"
 #include "support/scenes.hpp"
 
@@ -76,10 +76,11 @@ int points_of_spline(const TraceSetup& setup) {
 double seconds_per_point(const TraceSetup& setup) {
   constexpr int places = 4;
   ModeFinder finder(1e-10);
+  const FamilyPencils pencils(family_of(setup));
   return seconds_of([&] {
            for (int i = 0; i < places; ++i) {
              const double p = setup.options.from + (setup.options.to - setup.options.from) * i / (places - 1);
-             SparsePencil pencil = pencil_at(family_of(setup), at(p));
+             SparsePencil pencil = pencils.at(at(p));
              pencil.one_sided = true;  // right vectors are enough for a grid
              (void)finder.find(pencil, {{}, followed});
            }

@@ -228,6 +228,9 @@ class Launched(ProgramTest):
                 self.assert_refused(self.run_program(*MAP, "-o", "new.h5"),
                                     ["4 processes were started together, but this eigentrail was built without MPI",
                                      "-DEIGENTRAIL_MPI=ON", "--part"])
+                self.assert_refused(self.run_program("trace", "scene.toml", "-o", "new.h5"),
+                                    ["4 processes were started together, but this eigentrail was built without PETSc",
+                                     "-DEIGENTRAIL_PETSC=ON"])
                 self.assertEqual(self.contents(), before)
         with unittest.mock.patch.dict(os.environ, {"PMI_SIZE": "1"}):
             self.run_well(*MAP, "-o", "new.h5", "--quiet")

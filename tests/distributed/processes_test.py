@@ -1,16 +1,10 @@
 """Commands that several processes carry out together by MPI: the results are those of one process."""
 
-import os
-import subprocess
 import unittest
 
 from loci_comparison import differences
-from program import BLADE, CURVES, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, PROGRAM, TIME_LIMIT, ProgramTest, edited
-
-MPIRUN = os.environ["EIGENTRAIL_MPIRUN"]
-# Tests may run as root in a container, and with more processes than cores.
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+from program import BLADE, CURVES, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, ProgramTest, edited
+from together import run_together
 
 MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "13x9")
 BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--from", "-1", "--to", "1")
@@ -23,8 +17,7 @@ class Processes(ProgramTest):
         self.write("scene.toml", BLADE)
 
     def run_together(self, count, *arguments):
-        return subprocess.run([MPIRUN, "-n", str(count), PROGRAM, *arguments], cwd=self.folder, env=ENVIRONMENT,
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=2 * TIME_LIMIT, check=False)
+        return run_together(self.folder, count, *arguments)
 
     def run_well_together(self, count, *arguments):
         run = self.run_together(count, *arguments)

@@ -134,8 +134,9 @@ void expect_frequencies(const NearestModes& modes, double stiffness, Eigen::Inde
   }
 }
 
-/// The chain has a mode at zero, on which the shift lies: the first place needs two factorizations, and each
-/// further one a single one.
+/// The chain has a mode at zero, on which the shift lies: the first place needs three factorizations, one
+/// that fails, one close to zero that tells where the others are and one between, and each further one a
+/// single one.
 TEST(NearestModes, ShiftThatWasMovedOffARigidBodyMotionIsRemembered) {
   const Matrix M = Matrix::Identity(size, size), C = Matrix::Zero(size, size);
   ModeFinder finder(accuracy);
@@ -144,7 +145,7 @@ TEST(NearestModes, ShiftThatWasMovedOffARigidBodyMotionIsRemembered) {
     const auto modes = finder.find(pencil_of(M, C, free_chain(k)), {{}, 5});
     ASSERT_TRUE(modes);
     expect_frequencies(*modes, k, 1, 4);
-    EXPECT_EQ(finder.factorizations() - before, before == 0 ? 2 : 1);
+    EXPECT_EQ(finder.factorizations() - before, before == 0 ? 3 : 1);
     before = finder.factorizations();
   }
 }

@@ -267,6 +267,110 @@ TEST(Projection, RigidBodyMotionsDoNotCountAsErrors) {
   }
 }
 
+/// A chain of n masses with springs between them, scaled so that the frequencies of a free one are 1, 2, 3
+/// ... rad/s and zero.
+SparseMatrix free_chain(Eigen::Index n) {
+  std::vector<Eigen::Triplet<double>> springs;
+  const double stiffness = std::pow(static_cast<double>(n) / M_PI, 2);
+  for (Eigen::Index i = 1; i < n; ++i) {
+    for (const Eigen::Index at : {i - 1, i}) springs.emplace_back(at, at, stiffness);
+    springs.emplace_back(i, i - 1, -stiffness);
+    springs.emplace_back(i - 1, i, -stiffness);
+  }
+  SparseMatrix K(n, n);
+  K.setFromTriplets(springs.begin(), springs.end());
+  return K;
+}
+
+SparseMatrix diagonal(const Vector& entries) {
+  SparseMatrix A(entries.size(), entries.size());
+  for (Eigen::Index i = 0; i < entries.size(); ++i) A.insert(i, i) = entries[i];
+  A.makeCompressed();
+  return A;
+}
+
+/// The lowest pair meets on the real axis, at -0.025, and one of it becomes unstable soon after. Where it
+/// meets the eigenvalues move by the root of rounding, which no number of factorizations can change.
+TEST(Projection, ACollisionOnTheRealAxisTakesFewFactorizations) {
+  constexpr Eigen::Index n = 2000;
+  const SparseMatrix unit = diagonal(Vector::Ones(n));
+  const SparseMatrix softening = diagonal(-Vector::LinSpaced(n, 1.0, 1.5));
+  AffinePencil<SparseMatrix> chain{{{1.0, unit}},
+                                   {{1.0, 0.05 * unit}},
+                                   {{1.0, free_chain(n) + unit}, {Expression::of_parameter(0), softening}}};
+  for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+    const TraceSetup setup = large_setup(chain, 0.0, 1.5, 4, tolerance);
+    const Traced traced = run(setup, 10);
+    EXPECT_EQ(traced.result.status, TraceStatus::completed);
+    EXPECT_LE(traced.model->projection()->factorizations, 12) << tolerance;
+    // At 1e-9 rounding of the stiffness, whose entries are a million times its lowest eigenvalue, is told.
+    EXPECT_EQ(traced.model->projection()->notes.empty(), tolerance > 1e-9);
+    EXPECT_LT(error(setup, traced), std::max(tolerance, 1e-8));
+    int collisions = 0, divergences = 0;
+    for (const Event& event : traced.result.events) {
+      collisions += event.kind == EventKind::collision ? 1 : 0;
+      divergences += event.kind == EventKind::divergence ? 1 : 0;
+    }
+    EXPECT_EQ(collisions, 1) << tolerance;
+    EXPECT_EQ(divergences, 1) << tolerance;
+  }
+}
+
+/// Free chains whose rigid-body motions make K singular. Damping of the springs leaves zero a double
+/// eigenvalue, damping of the masses a simple one.
+TEST(Projection, FreeModelsWithDampingAreProjected) {
+  constexpr Eigen::Index n = 1000;
+  const SparseMatrix K = free_chain(n), unit = diagonal(Vector::Ones(n));
+  const auto fields = [n](const SparseMatrix& first, const SparseMatrix& second, double turn) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      for (SparseMatrix::InnerIterator it(first, j); it; ++it) entries.emplace_back(it.row(), j, it.value());
+      for (SparseMatrix::InnerIterator it(second, j); it; ++it)
+        entries.emplace_back(n + it.row(), n + j, it.value());
+      if (turn == 0.0) continue;
+      entries.emplace_back(j, n + j, -turn);
+      entries.emplace_back(n + j, j, turn);
+    }
+    SparseMatrix A(2 * n, 2 * n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+  };
+  const SparseMatrix none(n, n);
+  for (const bool of_springs : {true, false}) {
+    for (const double gyroscopic : {0.0, 0.3}) {
+      const SparseMatrix damping = of_springs ? SparseMatrix(0.01 * K) : SparseMatrix(0.02 * unit);
+      AffinePencil<SparseMatrix> pencil{
+          {{1.0, fields(unit, unit, 0.0)}},
+          {{1.0, fields(damping, damping, 0.0)}},
+          {{1.0, fields(K, 1.3 * K, 0.0)}, {Expression::of_parameter(0), fields(0.2 * K, 0.1 * K, 0.0)}}};
+      if (gyroscopic > 0.0)
+        pencil.C.emplace_back(Expression::of_parameter(0), fields(none, none, gyroscopic));
+      const TraceSetup setup = large_setup(std::move(pencil), 0.0, 1.0, 6, 1e-6);
+      const std::string what = std::string(of_springs ? "springs" : "masses") + " damped, gyroscopic " +
+                               std::to_string(gyroscopic);
+      SCOPED_TRACE(what);
+      try {
+        const Traced traced = run(setup, 3);
+        EXPECT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
+        EXPECT_LE(traced.model->projection()->factorizations, 12);
+        for (std::size_t i = 0; i < traced.places.size(); ++i) {
+          const AffinePencil<SparseMatrix> there = family_of(setup).at(at(traced.places[i]));
+          int moving = 0;
+          for (const Complex s : traced.eigenvalues[i]) {
+            if (std::isnan(s.real()) || std::abs(s) < 0.1) continue;
+            ++moving;
+            const Complex exact = eigenvalues_near(there, s * Complex(1.0 + 1e-4, 1e-4), 1).front();
+            EXPECT_LT(std::abs(s - exact), 1e-6 * std::abs(s)) << s;
+          }
+          EXPECT_GE(moving, 2);
+        }
+      } catch (const std::exception& failure) {
+        ADD_FAILURE() << failure.what();
+      }
+    }
+  }
+}
+
 TEST(Projection, SingleValuesAreExact) {
   const TraceSetup setup = large_setup(rotating_plate({16, 0.02, 1.0}), 0.0, 3.0, 4, 1e-6);
   const auto model = project_at(family_of(setup), setup.options, {1.0});

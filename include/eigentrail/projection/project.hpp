@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/core/sparse_solver.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "eigentrail/model/projection.hpp"
 
@@ -27,12 +28,13 @@ struct ProjectionOptions {
   /// Largest error of an eigenvalue by the projection, relative to max(|s|, reference), as a share of the
   /// tolerance of the trace: what is left is for the trace itself, and places of events follow from it.
   double share_of_tolerance = 0.01;
-  int first_samples = 4;        ///< values of the parameter before the first trace, ends included; >= 2
+  int first_samples = 2;        ///< values of the parameter before the first trace, ends included; >= 2
   int max_factorizations = 40;  ///< the projection ends there and says what error is left
   int spare_modes = 3;          ///< modes beyond the followed ones whose vectors are kept as well; >= 0
   /// Whether left vectors are kept where the pencil is not symmetric. Without them the error of an eigenvalue
   /// is of first order; only for comparisons.
   bool left_vectors = true;
+  SparseSolverMaker solver = {};  ///< what factors the large pencil; empty: SuiteSparse
 };
 
 /// A family that was projected.
@@ -64,7 +66,8 @@ std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const Trace
 /// Projects `family` for single values of the traced parameter: the chosen modes are exact at each of them.
 /// One factorization for each value. Throws as `project`.
 std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
-                                            const std::vector<double>& values);
+                                            const std::vector<double>& values,
+                                            const ProjectionOptions& options = {});
 
 /// Up to this size the dense engine traces sparse families: it knows all modes, and takes less than a second
 /// for a few of them. The projection is as quick from about 60 freedoms on (docs, performance.md).
@@ -79,19 +82,20 @@ struct ProjectionEstimate {
   Eigen::Index freedoms = 0;
   Eigen::Index nonzeros = 0;       ///< of M, C and K together
   bool two_sided = false;          ///< left vectors are needed
-  const char* method = "";         ///< of the factorization
+  std::string method;              ///< of the factorization
   double factor_bytes = 0.0;       ///< of one factorization; one is kept at a time
   double factor_operations = 0.0;  ///< of one factorization
   double total_bytes = 0.0;        ///< with matrices, Arnoldi vectors and the space
   double target = 0.0;             ///< error of the projection, relative to the eigenvalues
 };
-ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace);
+ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace,
+                                       const SparseSolverMaker& solver = {});
 
 /// Replaces a large model by its projection; leaves others as they are.
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
-                      const std::vector<ParameterValues>& lines = {});
+                      const std::vector<ParameterValues>& lines = {}, const ProjectionOptions& options = {});
 /// The same for single values of the traced parameter: as project_at.
 void project_at_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
-                         const std::vector<double>& values);
+                         const std::vector<double>& values, const ProjectionOptions& options = {});
 
 }  // namespace eigentrail

@@ -1,0 +1,24 @@
+#include "launcher.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace eigentrail::app {
+
+bool launched() {
+  // Open MPI, MPICH and Slurm set one of these.
+  const auto names = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+  return std::any_of(names.begin(), names.end(),
+                     [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+int launched_processes() {
+  int number = 0;
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* text = std::getenv(name);
+    if (text != nullptr) number = std::max(number, std::atoi(text));
+  }
+  return number;
+}
+
+}  // namespace eigentrail::app
