@@ -15,6 +15,7 @@
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/loci_writer.hpp"
+#include "free_motions.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
 #include "scene_in_words.hpp"
@@ -231,7 +232,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
              const SparseSolverMaker& solver) {
   const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
-  if (sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
+  if (sensitivity && is_matrix_family(scene))
     throw InputError(scene.path + ": --sensitivity ranks effects; a family of matrices has none");
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
@@ -253,12 +254,17 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   if (computed) {
     for (const std::string& sentence : in_words(setup, structure, sizes))
       std::fprintf(to, "  %s\n", sentence.c_str());
+    if (is_rotor(scene)) {
+      const Matrix K = point.equilibrium.linearization.K[0].dense();
+      for (const std::string& sentence : free_motions_in_words(model->description(), K))
+        std::fprintf(to, "  %s\n", sentence.c_str());
+    }
   }
   print_parameters(to, *model, traced);
   print_data(to, *model);
   print_effects(to, *model);
   print_states(to, *model);
-  auto parts = find_independent_parts(model->coefficient_matrices());
+  auto parts = find_independent_parts(model->coefficient_matrices(problem.parameters, problem.traced));
   if (!parts && computed)
     parts = parts_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda);
   print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);

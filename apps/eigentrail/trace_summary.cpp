@@ -150,7 +150,7 @@ void print_rows(const char* heading, const std::vector<std::vector<std::string>>
 std::string separation_text(const Separation& found) {
   if (!found.is_too_close()) return "";
   const auto percent = [](double fraction) { return rounded(100.0 * fraction, 3) + " %"; };
-  const std::string range = exact_text(found.range.from) + " to " + exact_text(found.range.to);
+  const std::string range = rounded(found.range.from, 12) + " to " + rounded(found.range.to, 12);
   if (found.inside) return "in the operating range " + range;
   return percent(found.distance) + " from the operating range " + range + ", " + percent(found.wanted) +
          " wanted";

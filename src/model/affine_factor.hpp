@@ -24,7 +24,7 @@ std::vector<Series<Real, Q>> si_series(const Parameters& parameters, const Basic
 template <class Scalar, class Storage>
 Scalar factor_of(const AffineTerm<Storage>& term, std::span<const Scalar> si) {
   const Scalar value = term.factor.evaluate(si);
-  return term.table ? (*term.table)(value) : value;
+  return term.table ? (*term.table)(value)*term.scale.evaluate(si) : value;
 }
 
 }  // namespace eigentrail

@@ -77,10 +77,14 @@ std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
 }
 
 template <class Storage>
+bool depends_on(const AffineTerm<Storage>& term, const Parameters& parameters, int traced) {
+  return parameters.depends_on(term.factor, traced) || parameters.depends_on(term.scale, traced);
+}
+
+template <class Storage>
 bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameters& parameters, int traced) {
-  return std::none_of(terms.begin(), terms.end(), [&](const AffineTerm<Storage>& term) {
-    return parameters.depends_on(term.factor, traced);
-  });
+  return std::none_of(terms.begin(), terms.end(),
+                      [&](const AffineTerm<Storage>& term) { return depends_on(term, parameters, traced); });
 }
 
 }  // namespace
@@ -88,7 +92,8 @@ bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameter
 template <class Storage>
 AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<Storage> pencil)
     : Model([&] {
-        description.effects = effects_of(pencil);
+        if (description.shafts.empty() || description.effects.empty())
+          description.effects = effects_of(pencil);
         return std::move(description);
       }()),
       pencil_(std::move(pencil)) {
@@ -171,11 +176,20 @@ EvaluationFault AffineFamily<Storage>::linearize(const Path& path, int order, Li
 }
 
 template <class Storage>
-CoefficientMatrices AffineFamily<Storage>::coefficient_matrices() const {
+CoefficientMatrices AffineFamily<Storage>::coefficient_matrices(const Vector& parameters, int traced) const {
   CoefficientMatrices result;
   if constexpr (std::is_same_v<Storage, Matrix>) {
-    const auto take = [](const std::vector<AffineTerm<Matrix>>& terms, std::vector<Matrix>& matrices) {
-      for (const AffineTerm<Matrix>& term : terms) matrices.push_back(term.matrix);
+    const auto si = si_series<double, 0>(description().parameters, {parameters, {}, {}});
+    const auto take = [&](const std::vector<AffineTerm<Matrix>>& terms, std::vector<Matrix>& matrices) {
+      Matrix constant = Matrix::Zero(n_coordinates(), n_coordinates());
+      for (const AffineTerm<Matrix>& term : terms) {
+        if (depends_on(term, description().parameters, traced)) {
+          matrices.push_back(term.matrix);
+        } else {
+          constant += factor_of(term, std::span<const Series<double, 0>>(si))[0] * term.matrix;
+        }
+      }
+      if (!constant.isZero(0.0)) matrices.push_back(std::move(constant));
     };
     take(pencil_.M, result.M);
     take(pencil_.C, result.C);

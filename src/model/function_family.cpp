@@ -290,7 +290,7 @@ EvaluationFault FunctionFamily::extended_residual(const BasicPath<Extended>&,
   return {};
 }
 
-CoefficientMatrices FunctionFamily::coefficient_matrices() const {
+CoefficientMatrices FunctionFamily::coefficient_matrices(const Vector&, int) const {
   CoefficientMatrices all;
   for (const FamilyPiece& piece : pieces_) {
     all.M.insert(all.M.end(), piece.M.begin(), piece.M.end());

@@ -221,7 +221,7 @@ std::vector<Matrix> coefficients_of(const MatrixPolynomial& polynomial, Eigen::I
 
 }  // namespace
 
-CoefficientMatrices MatrixFamily::coefficient_matrices() const {
+CoefficientMatrices MatrixFamily::coefficient_matrices(const Vector&, int) const {
   if (n_constraints() > 0) return {};
   const Eigen::Index n = n_coordinates();
   return {coefficients_of(M_, n), coefficients_of(C_, n), coefficients_of(K_, n)};

@@ -41,7 +41,7 @@ class MatrixFamily final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
-  CoefficientMatrices coefficient_matrices() const override;
+  CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
   std::vector<Expression> expressions() const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;

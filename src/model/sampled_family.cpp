@@ -118,7 +118,7 @@ Structure SampledFamily::structure(int traced_parameter) const {
   return result;
 }
 
-CoefficientMatrices SampledFamily::coefficient_matrices() const {
+CoefficientMatrices SampledFamily::coefficient_matrices(const Vector&, int) const {
   return {samples_[0].samples, samples_[1].samples, samples_[2].samples};
 }
 

@@ -25,7 +25,7 @@ class SampledFamily final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
-  CoefficientMatrices coefficient_matrices() const override;
+  CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
   std::vector<double> kinks(int traced_parameter) const override;
   const SampleErrors* sample_errors() const override { return &errors_; }
   EvaluationFault extended_residual(const BasicPath<Extended>& path,

@@ -104,7 +104,7 @@ ROTORS = [
      "point: unknown key in a scene with [[shaft]]"),
     ("two shafts without names", ("[[shaft]]", "§[[shaft]]", "[[disc]]", "[[shaft]]\nstations = { length = 1, outer = 0.1 }\nE = 2e11\nnu = 0.3\n"
                                   "density = 7800\n[[disc]]"), "each needs a name"),
-    ("effect switched off", ("to = 9000", 'to = 9000\n§without = "bearing"'), "cannot be left out of a rotor"),
+    ("effect switched off", ("to = 9000", 'to = 9000\n§without = "bearings"'), "did you mean 'bearing'?"),
 ]
 
 # What is wrong in a CSV file of bearing coefficients or of stations.

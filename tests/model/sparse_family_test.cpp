@@ -61,7 +61,8 @@ TEST_F(SparseFamilyFile, MatricesAreSumsOfTermsWithTheirFactors) {
   EXPECT_NEAR(K(0, 0), 2.0 + 0.5 * 0.36, 1e-15);
   EXPECT_NEAR(K(1, 1), 3.0 + 1.5, 1e-15);
   EXPECT_EQ(K(0, 1), -1.0);
-  EXPECT_TRUE(family.coefficient_matrices().K.empty());  // of size n^2
+  EXPECT_TRUE(family.coefficient_matrices(family.description().parameters.declared_values(), 0)
+                  .K.empty());  // of size n^2
 }
 
 TEST_F(SparseFamilyFile, LinearizationIsTheSeriesOfTheSum) {

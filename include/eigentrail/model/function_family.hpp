@@ -85,7 +85,7 @@ class FunctionFamily final : public Model {
   /// A fault for values of the parameter beside the range.
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
-  CoefficientMatrices coefficient_matrices() const override;
+  CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,

@@ -171,9 +171,12 @@ class Model {
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
 
-  /// Constant matrices of which M, C and K are linear combinations, whatever the parameters; none if they are
-  /// not known or there are constraints. Common structure of these matrices holds on every path.
-  virtual CoefficientMatrices coefficient_matrices() const { return {}; }
+  /// Constant matrices of which M, C and K are linear combinations for every value of the parameter with
+  /// index `traced`, while the others stay as in `parameters` (declared units); none if they are not known or
+  /// there are constraints. Common structure of these matrices holds on the whole trace.
+  virtual CoefficientMatrices coefficient_matrices(const Vector& /*parameters*/, int /*traced*/) const {
+    return {};
+  }
 
   /// Expressions of the parameters on which the equations depend, besides the definitions of parameters. A
   /// trace looks at them between its points.

@@ -153,7 +153,8 @@ double damping_ratio(const OperatingMode& mode) {
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {
   check_within_samples(setup, values);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
-  problem.parts = find_independent_parts(setup.model->coefficient_matrices());
+  problem.parts =
+      find_independent_parts(setup.model->coefficient_matrices(problem.parameters, problem.traced));
   RunCounts counts;
   std::vector<OperatingPoint> points;
   EquilibriumGuess guess;

@@ -31,7 +31,7 @@ std::shared_ptr<const IndependentParts> parts_on_range(const PathProblem& proble
                                                        const Vector& lambda) {
   const Model& model = problem.model;
   const Structure& structure = problem.structure;
-  const CoefficientMatrices known = model.coefficient_matrices();
+  const CoefficientMatrices known = model.coefficient_matrices(problem.parameters, problem.traced);
   const bool gives_coefficients = !known.M.empty() || !known.C.empty() || !known.K.empty();
   const bool rests = structure.fixed_equilibrium && structure.constant_constraints;
   if (gives_coefficients || !rests || problem.basis != BasisChoice::aligned) return nullptr;

@@ -194,6 +194,16 @@ void Start::mark_permanent_zeros(Spectrum& spectrum) const {
   }
 }
 
+/// What moves in a rigid-body motion, by the coordinate that moves most: a shaft as a whole, or the
+/// coordinate.
+std::string rigid_motion(const ModelDescription& description, Eigen::Index most) {
+  const std::string& name = description.coordinate_names[static_cast<std::size_t>(most)];
+  if (description.shafts.empty()) return name;
+  if (name.ends_with(": z")) return "the shaft moves along its axis";
+  if (name.ends_with(": rz")) return "the shaft turns about its axis";
+  return name;
+}
+
 /// A note on the permanent zeros among the modes that are not followed, with what moves in them.
 void Start::list_permanent_zeros(const Spectrum& spectrum) {
   int count = 0;
@@ -206,8 +216,7 @@ void Start::list_permanent_zeros(const Spectrum& spectrum) {
     last_part = mode->part;
     Eigen::Index most = 0;
     problem_.parts->columns(static_cast<std::size_t>(mode->part)).col(0).cwiseAbs().maxCoeff(&most);
-    motions += (motions.empty() ? "" : ", ") +
-               problem_.model.description().coordinate_names[static_cast<std::size_t>(most)];
+    motions += (motions.empty() ? "" : ", ") + rigid_motion(problem_.model.description(), most);
   }
   if (count == 0) return;
   result_.notes.push_back(std::to_string(count) + (count == 1 ? " eigenvalue is" : " eigenvalues are") +
@@ -219,7 +228,7 @@ void Start::list_permanent_zeros(const Spectrum& spectrum) {
 /// coordinates without mass have one, those without mass and damping two. The states of elements have no
 /// mass.
 int Start::structural_infinities() const {
-  const CoefficientMatrices all = problem_.model.coefficient_matrices();
+  const CoefficientMatrices all = problem_.model.coefficient_matrices(problem_.parameters, problem_.traced);
   const auto is_zero = [](const std::vector<Matrix>& matrices, Eigen::Index column) {
     return std::all_of(matrices.begin(), matrices.end(), [&](const Matrix& matrix) {
       return matrix.size() == 0 || matrix.col(column).isZero(0.0);

@@ -29,7 +29,8 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
   for (const auto& [name, value] : options.values)
     problem.parameters[model.description().parameters.index(name).value()] = value;
   problem.basis = basis;
-  if (basis == BasisChoice::aligned) problem.parts = find_independent_parts(model.coefficient_matrices());
+  if (basis == BasisChoice::aligned)
+    problem.parts = find_independent_parts(model.coefficient_matrices(problem.parameters, problem.traced));
   problem.threads = options.threads;
   problem.thresholds = options.thresholds;
   problem.corrector.passing_error = passing_share * options.tolerance;

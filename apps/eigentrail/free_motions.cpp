@@ -1,0 +1,69 @@
+#include "free_motions.hpp"
+
+#include <array>
+
+namespace eigentrail::app {
+namespace {
+
+struct RigidMotion {
+  const char* freedom;  ///< as in the names of coordinates and in [[support]] holds
+  const char* words;
+};
+constexpr std::array<RigidMotion, 4> motions = {{{"x", "to move along x"},
+                                                 {"y", "to move along y"},
+                                                 {"z", "to move along its axis"},
+                                                 {"rz", "to turn about its axis"}}};
+
+/// The motion with one for the freedom of all nodes of a shaft, and `inner` for that of its elements.
+Vector rigid_motion(const std::vector<std::string>& names, const std::string& shaft, const char* freedom,
+                    double inner) {
+  const std::string begin = shaft.empty() ? "" : shaft + " ", end = std::string(": ") + freedom;
+  Vector motion = Vector::Zero(static_cast<Eigen::Index>(names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].ends_with(end)) continue;
+    if (names[i].starts_with(begin + "node ")) motion[static_cast<Eigen::Index>(i)] = 1.0;
+    if (names[i].starts_with(begin + "element ")) motion[static_cast<Eigen::Index>(i)] = inner;
+  }
+  return motion;
+}
+
+/// Whether no force acts against the motion, up to rounding of the terms that cancel.
+bool is_free(const Matrix& K, const Vector& motion) {
+  constexpr double rounding = 1e-12;
+  const Vector largest = K.cwiseAbs() * motion.cwiseAbs();
+  return motion.any() && (K * motion).cwiseAbs().maxCoeff() <= rounding * largest.maxCoeff();
+}
+
+std::string listed(const std::vector<std::string>& items) {
+  std::string all;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    all += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> free_motions_in_words(const ModelDescription& description, const Matrix& K) {
+  std::vector<std::string> sentences;
+  for (const SpinningShaft& shaft : description.shafts) {
+    std::vector<std::string> words;
+    std::string holds;
+    for (const RigidMotion& motion : motions) {
+      const auto free_with = [&](double inner) {
+        return is_free(K, rigid_motion(description.coordinate_names, shaft.name, motion.freedom, inner));
+      };
+      if (!free_with(1.0) && !free_with(0.0)) continue;
+      words.emplace_back(motion.words);
+      holds += (holds.empty() ? "\"" : ", \"") + std::string(motion.freedom) + "\"";
+    }
+    if (words.empty()) continue;
+    const std::string name = shaft.name.empty() ? "shaft" : "shaft " + shaft.name;
+    const std::string node = shaft.name.empty() ? "1" : "\"" + shaft.name + " node 1\"";
+    sentences.push_back("The " + name + " is free " + listed(words) +
+                        ": eigenvalues zero. To hold it, add [[support]] node = " + node + ", holds = [" +
+                        holds + "].");
+  }
+  return sentences;
+}
+
+}  // namespace eigentrail::app
