@@ -36,7 +36,8 @@ int run_import(const Importer& format, const ImportArguments& arguments) {
   for (const std::string& line : imported.understood) std::printf("  %s\n", printable(line).c_str());
   for (const std::string& line : imported.warnings) std::printf("  warning  %s\n", printable(line).c_str());
   const char* next = imported.one_point() ? "spectrum" : "trace";
-  std::printf("wrote %s and its matrices; next: eigentrail %s %s%s\n", scene.c_str(), next, scene.c_str(),
+  std::printf("wrote %s and its %s; next: eigentrail %s %s%s\n", scene.c_str(),
+              imported.stations ? "stations" : "matrices", next, scene.c_str(),
               imported.one_point() ? "" : " -o loci.h5");
   return done;
 }

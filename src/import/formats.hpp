@@ -6,6 +6,8 @@
 namespace eigentrail {
 
 Importer openfast_importer();
+Importer elastodyn_importer();
+Importer beamdyn_importer();
 Importer matrix_market_importer();
 Importer matlab_importer();
 Importer nastran_importer();

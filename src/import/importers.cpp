@@ -9,8 +9,9 @@
 namespace eigentrail {
 
 const std::vector<Importer>& importers() {
-  static const std::vector<Importer> all{openfast_importer(), matrix_market_importer(), matlab_importer(),
-                                         nastran_importer(), numpy_importer()};
+  static const std::vector<Importer> all{openfast_importer(),      elastodyn_importer(), beamdyn_importer(),
+                                         matrix_market_importer(), matlab_importer(),    nastran_importer(),
+                                         numpy_importer()};
   return all;
 }
 

@@ -156,6 +156,11 @@ void write_family(const std::string& path, const PolynomialData& family) {
 }
 
 std::string scene_text(const Imported& imported, const std::string& file) {
+  if (imported.stations) {
+    std::string text = "title = " + quoted(imported.title) + "\n\n";
+    for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
+    return text + "\n" + imported.stations->tables + "file = " + quoted(file) + "\n";
+  }
   const SampledData& samples = imported.samples;
   const std::optional<PolynomialData>& family = imported.family;
   const auto [least, largest] =
@@ -201,7 +206,7 @@ std::string write_import(const Imported& imported, const std::string& folder, co
                          bool force) {
   namespace fs = std::filesystem;
   const fs::path scene = fs::path(folder) / (name + ".toml");
-  const fs::path data = fs::path(folder) / (name + ".h5");
+  const fs::path data = fs::path(folder) / (name + (imported.stations ? ".csv" : ".h5"));
   std::error_code error;
   for (const fs::path& path : {scene, data}) {
     if (!force && fs::exists(path, error))
@@ -209,12 +214,14 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   }
   if (imported.family) {
     check(*imported.family);
-  } else {
+  } else if (!imported.stations) {
     check(imported.samples);
   }
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
-  if (imported.family) {
+  if (imported.stations) {
+    write_durably(data.string(), {imported.stations->csv});
+  } else if (imported.family) {
     write_family(data.string(), *imported.family);
   } else {
     SampledData samples = imported.samples;

@@ -17,17 +17,38 @@ constexpr double usual_shear = 5.0 / 6.0 / 2.6;
 using Column = std::vector<Expression>;
 using StrainVector = std::array<Expression, 6>;
 
+/// Column of the file for entry (i, j) of the stiffness, counted from 0: "S11", "S21".
+std::string entry_key(std::size_t i, std::size_t j) {
+  return "S" + std::to_string(std::max(i, j) + 1) + std::to_string(std::min(i, j) + 1);
+}
+
+/// N for forces by extension and shear, N m for those by curvature, N m^2 for moments by curvature.
+std::string entry_unit(std::size_t i, std::size_t j) {
+  const int curvatures = int{i > 2} + int{j > 2};
+  return curvatures == 0 ? "N" : curvatures == 1 ? "N m" : "N m^2";
+}
+
+/// Columns that a file of stations may have.
+std::vector<FieldHelp> file_fields() {
+  std::vector<FieldHelp> fields = beam_table_fields();
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) fields.push_back({entry_key(i, j), entry_unit(i, j), ""});
+  }
+  return fields;
+}
+
 /// Reads keys that may be one number for all stations or a list of one per station.
 class ColumnReader {
  public:
   ColumnReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {
-    if (table.has("file")) file_ = read_station_file(draft.scene, table, beam_table_fields());
+    if (table.has("file")) file_ = read_station_file(draft.scene, table, file_fields());
     read_span();
   }
 
   const std::vector<double>& span() const { return span_; }
   std::size_t stations() const { return span_.size(); }
   bool has(const std::string& key) { return table_.has(key) || file_.contains(key); }
+  bool in_file(const std::string& key) const { return file_.contains(key); }
 
   Column required(const std::string& key, std::string_view unit, Range range) {
     Column column = list(key, unit);
@@ -92,13 +113,17 @@ StrainVector strain_unit(std::size_t i) {
 /// Stiffness from that of extension about the tension centre and of shear and twist about the shear centre.
 /// Extension at (y, z) is Gamma_x + z kappa_y - y kappa_z; shear there is Gamma_y - z kappa_x, Gamma_z + y
 /// kappa_x.
-std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns) {
+std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns,
+                                                        const std::optional<Expression>& blade_length) {
   // Keys that have been asked for are no misprints of one that is missing.
   for (const char* key : {"EA", "GJ", "EI_flap", "EI_lag", "GA_flap", "GA_lag"}) (void)columns.has(key);
-  const Column EA = columns.required("EA", "N", Range::positive);
-  const Column GJ = columns.required("GJ", "N m^2", Range::positive);
+  Column EA, GJ;
+  if (!blade_length || columns.has("EA")) EA = columns.required("EA", "N", Range::positive);
+  if (!blade_length || columns.has("GJ")) GJ = columns.required("GJ", "N m^2", Range::positive);
   const Column flap = columns.required("EI_flap", "N m^2", Range::positive);
   const Column lag = columns.required("EI_lag", "N m^2", Range::positive);
+  for (std::size_t i = EA.size(); i < lag.size(); ++i) EA.push_back(blade_EA(lag[i], *blade_length));
+  for (std::size_t i = GJ.size(); i < lag.size(); ++i) GJ.push_back(blade_GJ(flap[i], lag[i]));
   const auto shear = [&](const std::string& key) {
     if (columns.has(key)) return columns.required(key, "N", Range::positive);
     Column usual;
@@ -120,6 +145,28 @@ std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns) {
     add_product(stiffness[i], GJ[i], strain_unit(3));
     add_product(stiffness[i], flap[i], strain_unit(4));
     add_product(stiffness[i], lag[i], strain_unit(5));
+  }
+  return stiffness;
+}
+
+/// The matrix of each station from the columns S11, S21, ... of the file. Those that are left out are zero.
+std::vector<BeamTable::Stiffness> stiffness_columns(const TableReader& table, ColumnReader& columns) {
+  std::vector<BeamTable::Stiffness> stiffness(columns.stations());
+  std::vector<Eigen::Matrix<double, 6, 6>> values(columns.stations(), Eigen::Matrix<double, 6, 6>::Zero());
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (!columns.in_file(entry_key(i, j))) continue;
+      const Column column = columns.required(entry_key(i, j), entry_unit(i, j), Range::any);
+      for (std::size_t k = 0; k < stiffness.size(); ++k) {
+        stiffness[k][section_entry(i, j)] = column[k];
+        values[k](static_cast<int>(i), static_cast<int>(j)) = column[k].evaluate(std::span<const double>());
+      }
+    }
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k].llt().info() != Eigen::Success)
+      table.fail("file", "the matrix of station " + std::to_string(k + 1) +
+                             " (columns S11, S21, ... S66) must be positive definite; it is not");
   }
   return stiffness;
 }
@@ -154,6 +201,7 @@ std::vector<BeamTable::Stiffness> full_stiffness(Draft& draft, TableReader& tabl
 /// Moments of the mass about the axis. Without inertias the mass is spread as the stiffness is: m EI/EA.
 std::vector<BeamTable::Mass> read_mass(ColumnReader& columns,
                                        const std::vector<BeamTable::Stiffness>& stiffness) {
+  const Column product = columns.optional("inertia_product", "kg m");
   const Column mass = columns.required("mass", "kg/m", Range::positive);
   const Column y = columns.optional("centre_y", "m");
   const Column z = columns.optional("centre_z", "m");
@@ -171,7 +219,7 @@ std::vector<BeamTable::Mass> read_mass(ColumnReader& columns,
   std::vector<BeamTable::Mass> moments;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     moments.push_back({mass[i], mass[i] * y[i], mass[i] * z[i], lag[i] + mass[i] * y[i] * y[i],
-                       flap[i] + mass[i] * z[i] * z[i], mass[i] * y[i] * z[i]});
+                       flap[i] + mass[i] * z[i] * z[i], product[i] + mass[i] * y[i] * z[i]});
   }
   return moments;
 }
@@ -186,12 +234,24 @@ std::vector<BeamTable::Share> BeamTable::shares(double s) const {
   return {{right - 1, 1.0 - weight}, {right, weight}};
 }
 
-BeamTable read_beam_table(Draft& draft, TableReader& table) {
+Expression blade_EA(const Expression& EI_lag, const Expression& length) {
+  return Expression(1e4) * EI_lag / (length * length);
+}
+
+Expression blade_GJ(const Expression& EI_flap, const Expression& EI_lag) {
+  return Expression(1.0 / 2.6) * (EI_flap + EI_lag);
+}
+
+BeamTable read_beam_table(Draft& draft, TableReader& table, const std::optional<Expression>& blade_length) {
   ColumnReader columns(draft, table);
   BeamTable result;
   result.span = columns.span();
-  result.stiffness = table.has("stiffness") ? full_stiffness(draft, table, columns.stations())
-                                            : engineering_stiffness(columns);
+  if (table.has("stiffness"))
+    result.stiffness = full_stiffness(draft, table, columns.stations());
+  else if (columns.in_file("S11"))
+    result.stiffness = stiffness_columns(table, columns);
+  else
+    result.stiffness = engineering_stiffness(columns, blade_length);
   result.mass = read_mass(columns, result.stiffness);
   for (const char* key : {"sweep", "prebend"}) {
     if (columns.has(key) && columns.stations() < 2) table.fail(key, "needs stations; give span as well");
@@ -204,7 +264,7 @@ BeamTable read_beam_table(Draft& draft, TableReader& table) {
   return result;
 }
 
-std::vector<FieldHelp> beam_table_fields() {
+std::vector<FieldHelp> beam_table_fields(bool blade) {
   return {
       {"span", "list",
        "where the stations are, from the first at `from` to the last at `to`, in any unit; keys "
@@ -214,18 +274,20 @@ std::vector<FieldHelp> beam_table_fields() {
        "CSV file with columns span and any keys below, beside the scene; units in brackets: `twist [deg]`",
        "none"},
       {"mass", "kg/m", "mass per length"},
-      {"EA", "N", "extensional stiffness"},
+      {"EA", "N", "extensional stiffness", blade ? "10^4 EI_lag/length^2" : ""},
       {"EI_flap", "N m^2", "stiffness of bending that moves along the z axis of the section"},
       {"EI_lag", "N m^2", "stiffness of bending that moves along its y axis"},
-      {"GJ", "N m^2", "torsional stiffness"},
+      {"GJ", "N m^2", "torsional stiffness", blade ? "(EI_flap + EI_lag)/2.6" : ""},
       {"GA_flap", "N", "shear stiffness along z, shear factor included", "0.32 EA"},
       {"GA_lag", "N", "shear stiffness along y", "0.32 EA"},
       {"stiffness", "6 x 6",
-       "in place of all stiffnesses: of extension, shear along y and z, twist, bending about y and z",
+       "in place of all stiffnesses: of extension, shear along y and z, twist, bending about y and z; "
+       "by station as columns S11, S21, S22, S31, ... S66 of the file",
        "none"},
       {"inertia_flap", "kg m", "mass moment of inertia per length about y, at the mass centre",
        "mass EI_flap/EA"},
       {"inertia_lag", "kg m", "likewise about z", "mass EI_lag/EA"},
+      {"inertia_product", "kg m", "integral of y z over the mass per length, about the mass centre", "0"},
       {"centre_y", "m", "mass centre of the section", "0"},
       {"centre_z", "m", "likewise", "0"},
       {"tension_y", "m", "tension centre: an axial force there does not bend", "0"},

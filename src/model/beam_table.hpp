@@ -1,6 +1,8 @@
 // Section properties of a beam along its span.
 #pragma once
 
+#include <optional>
+
 #include "model/draft.hpp"
 
 namespace eigentrail {
@@ -28,10 +30,19 @@ struct BeamTable {
   std::vector<Share> shares(double s) const;
 };
 
-/// Reads the keys of a [[beam]] that describe sections.
-BeamTable read_beam_table(Draft& draft, TableReader& table);
+/// Reads the keys of a [[beam]] that describe sections. If the length of a blade is given, EA and GJ have the
+/// defaults of blade_EA and blade_GJ.
+BeamTable read_beam_table(Draft& draft, TableReader& table,
+                          const std::optional<Expression>& blade_length = std::nullopt);
 
-/// These keys.
-std::vector<FieldHelp> beam_table_fields();
+/// Extension of a section whose radius of gyration in lag is a hundredth of the length: it changes
+/// frequencies of bending by less than stations usually are accurate.
+Expression blade_EA(const Expression& EI_lag, const Expression& length);
+/// Torsion of a circular section with Poisson's ratio 0.3, of all solid sections of given moments of inertia
+/// that of largest torsional stiffness.
+Expression blade_GJ(const Expression& EI_flap, const Expression& EI_lag);
+
+/// These keys, with the defaults of a [[beam]] or of a [[blade]].
+std::vector<FieldHelp> beam_table_fields(bool blade = false);
 
 }  // namespace eigentrail

@@ -28,6 +28,8 @@ struct BeamDraft {
   std::size_t n_nodes = 0;
   std::size_t first_section = 0;
   std::size_t n_sections = 0;
+  /// Damping of the beam's own: times by strain, s. Empty: none.
+  std::vector<Expression> damping_times = {};
 };
 
 /// What a place or direction moves with: a body, a point, or neither (the frame).

@@ -2,6 +2,7 @@
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/read_beams.hpp"
+#include "model/read_blades.hpp"
 #include "model/registry.hpp"
 #include "model/strips.hpp"
 
@@ -97,6 +98,7 @@ std::vector<EffectHelp> effect_reference() {
         help.states.push_back({std::string(state.name), std::string(state.unit), std::string(state.help)});
     }
   });
+  reference.push_back({"blade", "a beam on a hub, by the stations of a blade", blade_fields()});
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read != nullptr)
       reference.push_back({std::string(kind.name), std::string(kind.description), kind.fields});

@@ -9,11 +9,16 @@ namespace eigentrail {
 /// ends, and the elements to Draft::beam_sections. Bodies must have been read.
 void read_beams(Draft& draft);
 
-/// The quadrature points of all [[beam_damping]] tables, with their labels.
+/// The damping of all beams at their quadrature points, with their labels: of [[beam_damping]] tables, and
+/// that of their own.
 std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft);
 
 /// The elements of all beams, with their labels.
 std::vector<std::pair<BeamSection, std::string>> labelled_sections(const Draft& draft);
+
+/// Times must not be negative. One of several, which enter by their roots, must not become zero on the trace.
+void check_time(Draft& draft, const TableReader& table, const std::string& key, const Expression& time,
+                bool has_root);
 
 /// Keys of both tables.
 std::vector<FieldHelp> beam_fields();

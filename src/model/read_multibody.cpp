@@ -7,6 +7,7 @@
 #include "model/draft.hpp"
 #include "model/multibody.hpp"
 #include "model/read_beams.hpp"
+#include "model/read_blades.hpp"
 #include "model/strips.hpp"
 
 namespace eigentrail {
@@ -242,12 +243,19 @@ void check_gravity(const Draft& draft, const ExpressionVector& rotation, const E
   }
 }
 
+/// Whether blades have the effect: they are beams, and may have damping.
+bool of_blades(const Draft& draft, const std::string& name) {
+  return std::any_of(draft.beams.begin(), draft.beams.end(), [&](const BeamDraft& beam) {
+    return name == BeamSection::name || (name == BeamDamping::name && !beam.damping_times.empty());
+  });
+}
+
 /// Checks the effects that are switched off: the scene must have them, and they must not be inertia.
 void check_without(const Draft& draft) {
   std::vector<std::string> can;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
     const std::string name(Element::name);
-    const bool present = !tables(draft.scene, name).empty();
+    const bool present = !tables(draft.scene, name).empty() || of_blades(draft, name);
     if (present && !Element::contribution.inertia) can.push_back(name);
   });
   for (const std::string& name : draft.request.without) {
@@ -352,9 +360,11 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   read_points(draft);
   read_bodies(draft);
   read_beams(draft);
+  read_blades(draft);
   if (draft.masses.empty()) {
-    throw InputError(scene.path +
-                     ": a scene needs at least one [[point]], [[body]] or [[beam]], or a [matrix_family]");
+    throw InputError(
+        scene.path +
+        ": a scene needs at least one [[point]], [[body]], [[beam]] or [[blade]], or a [matrix_family]");
   }
   check_without(draft);
   add_masses(draft);

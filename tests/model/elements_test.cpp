@@ -95,6 +95,14 @@ const std::vector<ElementCase> cases = {
     {"beam_damping",
      "[[beam]]\nname = \"arm\"\nfrom = [0, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 1\nmass = 1\nEA = 9\n"
      "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\n[[beam_damping]]\nbeam = \"arm\"\ntime = \"0.1*p\"\n"},
+    {"damping_by_strain",
+     "[[beam]]\nname = \"arm\"\nfrom = [0, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 1\nmass = 1\nEA = 9\n"
+     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\nshear_y = 0.2\n"
+     "[[beam_damping]]\nbeam = \"arm\"\ntime = [0.1, 0, 0.2, \"0.3*p\", 0.4, 0.5]\n"},
+    {"blade",
+     "[[blade]]\nname = \"arm\"\nhub_radius = 0.2\nlength = \"p\"\nelements = 1\nmass = 1\nEA = 9\nGJ = 1.5\n"
+     "EI_flap = \"2*p\"\nEI_lag = 3\npitch = \"0.3*p\"\nprecone = 0.1\nazimuth = 0.4\ndamping_flap = "
+     "\"0.1*p\"\n"},
     {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
     {"revolute_held",
      "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "

@@ -17,7 +17,7 @@ BASE = edited(edited(BASE, "mass = 2.0", 'mass = "omega"'), "g = 9.81\n", "")
 SPECIAL = {"from": "[0, 0, -1.5]", "to": '"second"', "cross_axis": '"second.y"', "second": "[0, 1, 0]", "lift": "[0, 0, 1]",
            "leading": "[0, 1, 0]", "root": "[0, 0, 0]", "rod from": "[0, 0, -1]", "spring from": "[0, 0, -1]",
            "damper from": "[0, 0, -1]", "follower_force from": "[0, 0, -1]", "beam from": "[0, 3, 0]", "beam to": "[1, 3, 0]",
-           "beam elements": "2", "beam_damping beam": '"wing"'}
+           "beam elements": "2", "beam_damping beam": '"wing"', "blade elements": "2"}
 
 # By what the reference says of a value: a good one, wrong ones, and what is expected in their place.
 KINDS = [
@@ -110,8 +110,8 @@ def rows_of(heading):
             continue
         _, _, wrong, expected = kind_of(unit)
         for value in wrong:
-            if heading == "[[beam]]" and value == "[1]":
-                continue  # lists are values at stations
+            if value == "[1]" and (heading in ("[[beam]]", "[[blade]]") or f"{name} {key}" == "beam_damping time"):
+                continue  # lists are values at stations, or of the strains
             bad = {**good, key: f"{PLACE}{key} = {value}"}
             yield f"{name} with {key} being {WORDS[value]}", scene(heading, bad), (f"{where} {key}: ", expected)
     unknown = {**good, "": f"{PLACE}nonsense_of_mine = 1"}

@@ -28,17 +28,24 @@ struct PolynomialData {
   double from = 0.0, to = 1.0;           ///< range of the parameter
 };
 
-/// What an importer has read: samples or, if there is one, a polynomial family.
+/// A blade: a scene with a table of stations beside it.
+struct StationData {
+  std::string tables;  ///< of the scene; its last line belongs to the table that names the file of stations
+  std::string csv;     ///< the stations
+};
+
+/// What an importer has read: samples or, if there is one, a polynomial family or a table of stations.
 struct Imported {
   std::string title;
   std::string parameter;  ///< name of the parameter, an identifier
   SampledData samples;
   std::optional<PolynomialData> family = {};
+  std::optional<StationData> stations = {};
   std::vector<std::string> understood;  ///< sentences for the user: what was found and what was done with it
   std::vector<std::string> warnings;    ///< sentences for the user: what is doubtful
 
   /// Whether there is one operating point only, and no range to trace.
-  bool one_point() const { return !family && samples.count() == 1; }
+  bool one_point() const { return !family && !stations && samples.count() == 1; }
 };
 
 /// One thing in the files of a format, and what becomes of it. For help and documentation.
@@ -68,8 +75,9 @@ const Importer& importer(const std::string& format);
 /// file.
 std::string common_name(const std::vector<std::string>& files);
 
-/// Writes `name`.toml and `name`.h5 to `folder`, which is made if it does not exist. Existing files are
-/// replaced only if `force` is set. Returns the path of the scene. Throws InputError or std::runtime_error.
+/// Writes `name`.toml and `name`.h5, or `name`.csv with stations, to `folder`, which is made if it does not
+/// exist. Existing files are replaced only if `force` is set. Returns the path of the scene. Throws
+/// InputError or std::runtime_error.
 std::string write_import(const Imported& imported, const std::string& folder, const std::string& name,
                          bool force);
 

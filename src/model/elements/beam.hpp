@@ -136,27 +136,41 @@ struct BeamSection : BeamPoint {
   }
 };
 
-/// Damping of the material, proportional to its stiffness: stresses time S e' with the rates e' of the
-/// strains.
+/// Damping of the material, proportional to its stiffness: stresses D e' with the rates e' of the strains,
+/// D_ij = time root_i S_ij root_j. The strain i alone has the time: time root_i^2. D has no negative
+/// eigenvalue.
 struct BeamDamping : BeamPoint {
   static constexpr std::string_view name = "beam_damping";
   static constexpr std::string_view description = "damping of a beam by the rates of its strains";
   static constexpr Contribution contribution{.dissipative = true};
   static constexpr Dependence depends{.velocity = true, .turning = true};
 
-  Quantity time;  ///< s
+  Quantity time;                  ///< s
+  std::array<Quantity, 6> roots;  ///< without slot: one
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     common_fields(self, visit, enters_damping);
     visit.quantity({"time", "s", enters_damping, "", Range::non_negative}, self.time);
+    for (auto& root : self.roots) visit.quantity({"root", "", enters_damping, ""}, root);
   }
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     Strain<Scalar> e = strain_rate(at);
     for (Scalar& rate : e) rate *= at.value(time);
-    add_stress(at, stress(at, e));
+    multiply_by_roots(at, e);
+    Strain<Scalar> s = stress(at, e);
+    multiply_by_roots(at, s);
+    add_stress(at, s);
+  }
+
+ private:
+  template <class Scalar>
+  void multiply_by_roots(const ElementView<Scalar>& at, Strain<Scalar>& e) const {
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (roots[i].slot >= 0) e[i] *= at.value(roots[i]);
+    }
   }
 };
 

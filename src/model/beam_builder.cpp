@@ -1,0 +1,276 @@
+#include "model/beam_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/beam_axis.hpp"
+#include "model/gauss_points.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Points per element and station at which the mass is integrated: exact for products of quadratic shape
+/// functions with mass that is linear between stations, if elements are straight.
+constexpr int mass_points = 2;
+
+bool is_zero(const Expression& e) {
+  return e.is_constant() && e.evaluate(std::span<const double>()) == 0.0;
+}
+
+class BeamBuilder {
+ public:
+  BeamBuilder(Draft& draft, TableReader& table, const BeamDesign& design)
+      : draft_(draft),
+        table_(table),
+        name_(design.name),
+        section_(design.sections),
+        damping_times_(design.damping_times) {
+    axis_ = beam_axis(section_, design.elements, design.degree, design.ends[0].position,
+                      design.ends[1].position, design.y);
+  }
+
+  void build(const std::array<BeamEnd, 2>& ends) {
+    first_body_ = draft_.bodies.size();
+    add_nodes();
+    add_sections();
+    hold(ends[0], first_body_);
+    hold(ends[1], draft_.bodies.size() - 1);
+  }
+
+ private:
+  std::string node_name(int i) const {
+    if (i == 0) return name_ + ".root";
+    return name_ + "." + (i == axis_.nodes() - 1 ? "tip" : std::to_string(i));
+  }
+
+  void add_nodes() {
+    const std::vector<BeamTable::Mass> mass = nodal_masses();
+    for (int i = 0; i < axis_.nodes(); ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const auto& taken = draft_.mass_names;
+      if (std::find(taken.begin(), taken.end(), node_name(i)) != taken.end())
+        table_.fail("name",
+                    "a body or point is called '" + node_name(i) + "' already, like a node of this beam");
+      const int triple = static_cast<int>(draft_.guess.size()) / 3;
+      for (const Expression& e : axis_.position[index]) draft_.guess.push_back(e);
+      for (const ExpressionVector& director : axis_.rotation[index]) {
+        for (const Expression& e : director) draft_.guess.push_back(e);
+      }
+      draft_.mass_names.push_back(node_name(i));
+      draft_.bodies.push_back({node_name(i), triple, axis_.position[index], axis_.rotation[index], {}});
+      draft_.masses.push_back(mass_distribution(triple, mass[index]));
+      add_directors(draft_, static_cast<int>(draft_.bodies.size()) - 1);
+    }
+  }
+
+  MassDistribution mass_distribution(int triple, const BeamTable::Mass& moments) {
+    MassDistribution masses;
+    masses.size = 4;
+    for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft_.point_place(triple + i);
+    masses.mass = draft_.quantity(moments[0]);
+    const Quantity none = draft_.quantity(0.0);
+    masses.first = {none, draft_.quantity(moments[1]), draft_.quantity(moments[2])};
+    masses.second = {none, draft_.quantity(moments[3]), draft_.quantity(moments[4]), none,
+                     none, draft_.quantity(moments[5])};
+    return masses;
+  }
+
+  /// Every node has the integral of its shape function over the mass: the mass matrix is lumped. The errors
+  /// of eigenvalues are of order 2 degree, as with the full matrix, since the nodes are those of
+  /// Gauss-Lobatto quadrature (Fried & Malkus 1975).
+  std::vector<BeamTable::Mass> nodal_masses() const {
+    std::vector<std::vector<double>> share(static_cast<std::size_t>(axis_.nodes()),
+                                           std::vector<double>(section_.span.size(), 0.0));
+    std::vector<BeamTable::Mass> result(static_cast<std::size_t>(axis_.nodes()));
+    for (int e = 0; e < axis_.elements; ++e) {
+      for_each_mass_point(e, [&](double xi, double weight) {
+        const ShapeFunctions shape = shape_functions(axis_.degree, xi);
+        const Expression stretch = axis_.straight ? Expression(1.0) : axis_.stretch(e, shape);
+        for (std::size_t a = 0; a < shape.value.size(); ++a) {
+          for (const auto& [station, part] : section_.shares((e + xi) / axis_.elements)) {
+            const double w = weight * shape.value[a] * part;
+            if (axis_.straight)
+              share[axis_.node(e, a)][station] += w;
+            else
+              add(result[axis_.node(e, a)], Expression(w) * stretch, section_.mass[station]);
+          }
+        }
+      });
+    }
+    if (!axis_.straight) return result;
+    const Expression length = Expression(1.0 / axis_.elements) * axis_.length;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      for (std::size_t k = 0; k < share[i].size(); ++k)
+        add(result[i], Expression(share[i][k]) * length, section_.mass[k]);
+    }
+    return result;
+  }
+
+  static void add(BeamTable::Mass& sum, const Expression& weight, const BeamTable::Mass& moments) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + weight * moments[i];
+  }
+
+  /// Calls visit(xi, weight) for the points of the parts of an element between stations.
+  template <class Visit>
+  void for_each_mass_point(int e, Visit visit) const {
+    std::vector<double> ends = {0.0};
+    for (const double s : section_.span) {
+      const double xi = s * axis_.elements - e;
+      if (xi > 1e-9 && xi < 1.0 - 1e-9) ends.push_back(xi);
+    }
+    ends.push_back(1.0);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double width = ends[i] - ends[i - 1];
+      for (const auto& [at, weight] : gauss_points(mass_points))
+        visit(ends[i - 1] + at * width, weight * width);
+    }
+  }
+
+  /// One fewer quadrature points than nodes: the lowest number that leaves no deformation without strain. The
+  /// interpolation then has as many constraints as it can meet when the beam is slender, and does not lock
+  /// (Noor & Peters 1981).
+  void add_sections() {
+    const auto n_nodes = static_cast<std::size_t>(axis_.nodes());
+    draft_.beams.push_back(
+        {name_, draft_.masses.size() - n_nodes, n_nodes, draft_.beam_sections.size(), 0, damping_times_});
+    for (int e = 0; e < axis_.elements; ++e) {
+      for (const auto& [xi, weight] : gauss_points(axis_.degree)) add_section(e, xi, weight);
+    }
+    draft_.beams.back().n_sections = draft_.beam_sections.size() - draft_.beams.back().first_section;
+  }
+
+  void add_section(int e, double xi, double weight) {
+    const ShapeFunctions shape = shape_functions(axis_.degree, xi);
+    const Expression stretch = axis_.stretch(e, shape);
+    std::vector<Expression> values(shape.value.begin(), shape.value.end());
+    std::vector<Expression> slopes;
+    for (const double slope : shape.slope) slopes.push_back(Expression(slope) / stretch);
+    BeamSection section;
+    const std::vector<Quantity> value_weights = quantities(values);
+    const std::vector<Quantity> slope_weights = quantities(slopes);
+    section.slope = interpolated(e, slope_weights, 0);
+    for (int i = 0; i < 3; ++i) {
+      section.directors[static_cast<std::size_t>(i)] = interpolated(e, value_weights, i + 1);
+      section.rates[static_cast<std::size_t>(i)] = interpolated(e, slope_weights, i + 1);
+    }
+    section.width = draft_.quantity(Expression(weight) * stretch);
+    set_stiffness(section, (e + xi) / axis_.elements);
+    set_unloaded(section, e, values, slopes);
+    draft_.beam_sections.push_back(std::move(section));
+  }
+
+  std::vector<Quantity> quantities(const std::vector<Expression>& expressions) {
+    std::vector<Quantity> result;
+    for (const Expression& e : expressions) result.push_back(draft_.quantity(e));
+    return result;
+  }
+
+  /// Sum over the nodes of an element of weights times one of their four triples.
+  Place interpolated(int e, const std::vector<Quantity>& weights, int triple) const {
+    Place place;
+    for (std::size_t a = 0; a < weights.size(); ++a)
+      place.terms.push_back({draft_.bodies[first_body_ + axis_.node(e, a)].triple + triple, weights[a]});
+    return place;
+  }
+
+  void set_stiffness(BeamSection& section, double s) {
+    BeamTable::Stiffness S;
+    for (const auto& [station, part] : section_.shares(s)) {
+      for (std::size_t i = 0; i < section_entries; ++i)
+        S[i] = S[i] + Expression(part) * section_.stiffness[station][i];
+    }
+    for (std::size_t i = 0; i < section_entries; ++i) {
+      if (!is_zero(S[i])) section.stiffness[i] = draft_.quantity(S[i]);
+    }
+  }
+
+  /// Strains of the nodes where the scene gives them, so that the beam there is free of stress.
+  void set_unloaded(BeamSection& section, int e, const std::vector<Expression>& values,
+                    const std::vector<Expression>& slopes) {
+    if (axis_.straight && !axis_.twisted) {
+      section.unloaded[0] = draft_.quantity(1.0);
+      return;
+    }
+    ExpressionVector along;
+    ExpressionRotation directors, rates;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      along = along + slopes[a] * axis_.local_position[axis_.node(e, a)];
+      for (std::size_t i = 0; i < 3; ++i) {
+        directors[i] = directors[i] + values[a] * axis_.local_rotation[axis_.node(e, a)][i];
+        rates[i] = rates[i] + slopes[a] * axis_.local_rotation[axis_.node(e, a)][i];
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      section.unloaded[i] = draft_.quantity(dot(directors[i], along));
+      section.unloaded[3 + i] =
+          draft_.quantity(Expression(0.5) * (dot(directors[k], rates[j]) - dot(directors[j], rates[k])));
+    }
+  }
+
+  /// Welds a node to what holds the end.
+  void hold(const BeamEnd& end, std::size_t node) {
+    if (!end.clamped) return;
+    const BodyDraft& body = draft_.bodies[node];
+    const Place origin = draft_.point_place(body.triple);
+    std::vector<ConstraintRow> rows;
+    for (int i = 0; i < 3; ++i) rows.push_back({{origin, end.place}, {}, i, draft_.quantity(0.0)});
+    const ExpressionRotation axes = body.rotation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Place fixed = draft_.direction_on(end.carrier, draft_.in_axes_of(end.carrier, axes[i]));
+      const Place next = draft_.point_place(body.triple + 1 + static_cast<int>((i + 1) % 3));
+      rows.push_back({{next, {}}, Difference{fixed, {}}, 0, draft_.quantity(0.0)});
+    }
+    draft_.add_constraint("weld", body.name + " weld", std::move(rows));
+  }
+
+  Draft& draft_;
+  TableReader& table_;
+  const std::string& name_;
+  const BeamTable& section_;
+  const std::vector<Expression>& damping_times_;
+  BeamAxis axis_;
+  std::size_t first_body_ = 0;
+};
+
+}  // namespace
+
+std::string read_beam_name(Draft& draft, TableReader& table) {
+  const std::string name = table.text("name");
+  if (name.empty()) table.fail("name", "must not be empty");
+  const auto is_beam = [&](const BeamDraft& beam) { return beam.name == name; };
+  const auto& taken = draft.mass_names;
+  if (std::find(taken.begin(), taken.end(), name) != taken.end() ||
+      std::any_of(draft.beams.begin(), draft.beams.end(), is_beam))
+    table.fail("name", "another beam, body or point is called '" + name + "' already");
+  return name;
+}
+
+int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most) {
+  const Expression e = table.expression_or(key, otherwise);
+  const double n = e.is_constant() ? e.evaluate(std::span<const double>()) : 0.0;
+  if (!(n >= 1.0) || n > most || n != std::floor(n))
+    table.fail(key, "expected a whole number from 1 to " + std::to_string(most));
+  return static_cast<int>(n);
+}
+
+ExpressionVector position_of(const Draft& draft, const Place& place) {
+  ExpressionVector sum;
+  if (!place.moves()) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] = place.fixed[i].expression;
+    return sum;
+  }
+  for (const Term& term : place.terms) {
+    const std::size_t first = 3 * static_cast<std::size_t>(term.triple);
+    const ExpressionVector triple = {draft.guess[first], draft.guess[first + 1], draft.guess[first + 2]};
+    sum = sum + (term.weight.slot < 0 ? Expression(1.0) : term.weight.expression) * triple;
+  }
+  return sum;
+}
+
+void add_beam(Draft& draft, TableReader& table, const BeamDesign& design) {
+  BeamBuilder(draft, table, design).build(design.ends);
+}
+
+}  // namespace eigentrail
