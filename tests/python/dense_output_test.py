@@ -2,6 +2,7 @@
 
 import csv
 import io
+import shutil
 import unittest
 
 import eigentrail
@@ -76,6 +77,8 @@ class AgainstEval(ProgramTest):
 @each_case([(path.stem, path) for path in sorted(SCENES.glob("*.toml"))])
 class Scenes(AgainstEval):
     def check(self, path):
+        for table in path.parent.glob("*.csv"):  # that scenes name
+            shutil.copy(table, self.folder)
         self.compare(path.read_text(encoding="utf-8"))
 
 
