@@ -6,6 +6,7 @@
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/expression_dimension.hpp"
+#include "eigentrail/scene/measure.hpp"
 
 namespace eigentrail {
 namespace {
@@ -43,6 +44,29 @@ Expression traced_frequency(const Scene& scene, const std::string& traced, const
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
   }
   return frequency;
+}
+
+/// Replaces texts with units ("3000 rpm") by numbers in the unit of the traced parameter, in lists too.
+void take_units(const Scene& scene, const std::string& key, const Parameter& traced, Value& value) {
+  if (auto* list = std::get_if<Array>(&value.data)) {
+    for (Value& item : *list) take_units(scene, key, traced, item);
+  }
+  const auto* text = std::get_if<std::string>(&value.data);
+  const auto measure = text == nullptr ? std::nullopt : parse_measure(*text);
+  if (!measure) return;
+  const UnitValue found = value_in_unit_of(traced, *measure);
+  if (!found.fault.empty()) throw scene_error(scene, value.where, "[events] " + key + ": " + found.fault);
+  value.data = found.value;
+}
+
+/// The table [events] with operating ranges in the unit of the traced parameter.
+Table with_plain_ranges(const Scene& scene, const std::string& traced, Table events) {
+  const auto index = scene.parameters.index(traced);
+  for (auto& [key, value] : events.entries) {
+    if (key == "operating_range" && index)
+      take_units(scene, key, scene.parameters[static_cast<std::size_t>(*index)], value);
+  }
+  return events;
 }
 
 /// One pair [from, to], or a list of pairs, in the unit of the traced parameter.
@@ -92,7 +116,8 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
   if (found.empty()) return options;
   if (found.size() > 1)
     throw scene_error(scene, found[1]->where, "[events]: a scene has one of these at most");
-  TableReader table(scene, *found.front(), "[events]", used);
+  const Table events = with_plain_ranges(scene, traced, *found.front());
+  TableReader table(scene, events, "[events]", used);
   bool is_excited = false;
   for (const EventKindInfo& kind : event_kinds()) {
     if (kind.request.key.empty()) continue;
