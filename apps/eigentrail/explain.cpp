@@ -230,7 +230,7 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity) {
   const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
-  if (sensitivity && (is_matrix_family(scene) || is_rotor(scene)))
+  if (sensitivity && is_matrix_family(scene))
     throw InputError(scene.path + ": --sensitivity ranks effects; a family of matrices has none");
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
@@ -241,6 +241,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
     print_data(to, *model);
     print_effects(to, *model);
     print_route(estimate_projection(*large, options), options, to);
+    if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return;
   }
   const PathProblem problem = problem_along(*model, options.parameter);

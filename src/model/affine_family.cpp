@@ -37,7 +37,7 @@ std::vector<Series<Real, Q>> si_series(const Parameters& parameters, const Basic
 template <class Scalar, class Storage>
 Scalar factor_of(const AffineTerm<Storage>& term, std::span<const Scalar> si) {
   const Scalar value = term.factor.evaluate(si);
-  return term.table ? (*term.table)(value) : value;
+  return term.table ? (*term.table)(value) * term.scale.evaluate(si) : value;
 }
 
 /// Coefficients of a sum along the path up to h^order, without trailing zeros. All sparse coefficients have
@@ -96,7 +96,7 @@ std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
 template <class Storage>
 bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameters& parameters, int traced) {
   return std::none_of(terms.begin(), terms.end(), [&](const AffineTerm<Storage>& term) {
-    return parameters.depends_on(term.factor, traced);
+    return parameters.depends_on(term.factor, traced) || parameters.depends_on(term.scale, traced);
   });
 }
 
@@ -105,7 +105,8 @@ bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameter
 template <class Storage>
 AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<Storage> pencil)
     : Model([&] {
-        description.effects = effects_of(pencil);
+        if (description.shafts.empty() || description.effects.empty())
+          description.effects = effects_of(pencil);
         return std::move(description);
       }()),
       pencil_(std::move(pencil)) {

@@ -76,12 +76,10 @@ bool is_rotor(const Scene& scene) {
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
   check_top_level(scene);
   if (!is_matrix_family(scene) && !is_rotor(scene)) return read_multibody(scene, request);
-  if (!request.without.empty()) {
-    throw without_error(scene, request.without.front(),
-                        is_rotor(scene) ? "cannot be left out of a rotor; leave out its tables"
-                                        : "cannot be left out: a family of matrices has no effects");
-  }
   if (is_rotor(scene)) return read_rotor(scene, request);
+  if (!request.without.empty())
+    throw without_error(scene, request.without.front(),
+                        "cannot be left out: a family of matrices has no effects");
   if (scene.root.find("sampled_family") != nullptr)
     return read_sampled_family(scene, request.used_elsewhere, request.check_at);
   std::unique_ptr<Model> model = read_matrix_family(scene, request.used_elsewhere);

@@ -32,6 +32,7 @@ AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Stora
       }
       result.emplace_back(term.factor, std::move(reduced), term.name);
       result.back().table = term.table;
+      result.back().scale = term.scale;
     }
     return result;
   };

@@ -27,8 +27,9 @@ struct AffineTerm {
   Expression factor;
   Storage matrix;
   std::string name;  ///< in the file that it comes from: "2" for /K/2, "bearing" for /K/bearing
-  /// If there is one, the factor is the tabulated function at `factor`.
+  /// If there is one, the factor is `scale` times the tabulated function at `factor`.
   std::shared_ptr<const TabulatedFactor> table;
+  Expression scale = 1.0;
 };
 
 /// The summands of M, C and K; an empty list is a zero matrix.
@@ -41,7 +42,8 @@ struct AffinePencil {
 template <class Storage>
 class AffineFamily : public Model {
  public:
-  /// The description gives n; its effects are set here. The caller must have checked the sizes.
+  /// The description gives n; its effects are the matrices, unless it has shafts and effects of its own. The
+  /// caller must have checked the sizes.
   AffineFamily(ModelDescription description, AffinePencil<Storage> pencil);
 
   const AffinePencil<Storage>& pencil() const { return pencil_; }

@@ -38,17 +38,19 @@ bool is_absent(const Expression& factor) {
 }
 
 /// An element between two nodes along one freedom: stiffness k [1, -1; -1, 1], inertia m [2, 1; 1, 2] / 6.
-void add_rod(PencilSum& sum, const ShaftDraft& shaft, const NodeCoordinates& left,
+void add_rod(RotorDraft& rotor, const ShaftDraft& shaft, const NodeCoordinates& left,
              const NodeCoordinates& right, NodeFreedom freedom, const Expression& stiffness,
              const Expression& inertia) {
   const std::array<Eigen::Index, 2> at = {left[freedom], right[freedom]};
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       const double sign = i == j ? 1.0 : -1.0, share = i == j ? 1.0 / 3.0 : 1.0 / 6.0;
-      sum.K.add(at[i], at[j], stiffness, sign);
-      sum.M.add(at[i], at[j], inertia, share);
-      sum.C.add_product(at[i], at[j], shaft.alpha, inertia, share);
-      sum.C.add_product(at[i], at[j], shaft.beta + shaft.internal, stiffness, sign);
+      rotor.sum(RotorEffect::shaft).K.add(at[i], at[j], stiffness, sign);
+      rotor.sum(RotorEffect::shaft_mass).M.add(at[i], at[j], inertia, share);
+      MatrixSum& damping = rotor.sum(RotorEffect::shaft_damping).C;
+      damping.add_product(at[i], at[j], shaft.alpha, inertia, share);
+      damping.add_product(at[i], at[j], shaft.beta, stiffness, sign);
+      rotor.sum(RotorEffect::internal_damping).C.add_product(at[i], at[j], shaft.internal, stiffness, sign);
     }
   }
 }
@@ -81,7 +83,8 @@ SegmentMatrices matrices_of(const ShaftDraft& shaft, const ShaftSegment& segment
           shaft.density * polar * piece.length};
 }
 
-void add_element(PencilSum& sum, const ShaftDraft& shaft, const SegmentMatrices& element, std::size_t node) {
+void add_element(RotorDraft& rotor, const ShaftDraft& shaft, const SegmentMatrices& element,
+                 std::size_t node) {
   const NodeCoordinates &left = shaft.nodes[node], &right = shaft.nodes[node + 1];
   InnerCoordinates inner{-1, -1, -1, -1};
   if (shaft.refined) inner = shaft.inner[node];
@@ -89,33 +92,41 @@ void add_element(PencilSum& sum, const ShaftDraft& shaft, const SegmentMatrices&
       {left[along_x], left[about_y], right[along_x], right[about_y], inner[along_x], inner[about_y]}, 1.0};
   const ElementPlane y{
       {left[along_y], left[about_x], right[along_y], right[about_x], inner[along_y], inner[about_x]}, -1.0};
+  PencilSum& damping = rotor.sum(RotorEffect::shaft_damping);
+  PencilSum& internal = rotor.sum(RotorEffect::internal_damping);
   for (const ElementPlane* plane : {&x, &y}) {
-    add_block(sum.M, *plane, *plane, element.inertia, 1.0, 1.0);
-    add_block(sum.K, *plane, *plane, element.stiffness, 1.0, 1.0);
-    if (!is_absent(shaft.alpha)) add_block(sum.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
-    const Expression by_stiffness = shaft.beta + shaft.internal;
-    if (!is_absent(by_stiffness)) add_block(sum.C, *plane, *plane, element.stiffness, by_stiffness, 1.0);
+    add_block(rotor.sum(RotorEffect::shaft_mass).M, *plane, *plane, element.inertia, 1.0, 1.0);
+    add_block(rotor.sum(RotorEffect::shaft).K, *plane, *plane, element.stiffness, 1.0, 1.0);
+    if (!is_absent(shaft.alpha)) add_block(damping.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
+    if (!is_absent(shaft.beta)) add_block(damping.C, *plane, *plane, element.stiffness, shaft.beta, 1.0);
+    if (!is_absent(shaft.internal))
+      add_block(internal.C, *plane, *plane, element.stiffness, shaft.internal, 1.0);
   }
-  add_block(sum.C, x, y, element.rotation, shaft.speed, 2.0);
-  add_block(sum.C, y, x, element.rotation, shaft.speed, -2.0);
+  MatrixSum& gyroscopic = rotor.sum(RotorEffect::gyroscopic).C;
+  add_block(gyroscopic, x, y, element.rotation, shaft.speed, 2.0);
+  add_block(gyroscopic, y, x, element.rotation, shaft.speed, -2.0);
   const Expression circulatory = shaft.speed * shaft.internal;
   if (!is_absent(circulatory)) {
-    add_block(sum.K, x, y, element.stiffness, circulatory, 1.0);
-    add_block(sum.K, y, x, element.stiffness, circulatory, -1.0);
+    add_block(internal.K, x, y, element.stiffness, circulatory, 1.0);
+    add_block(internal.K, y, x, element.stiffness, circulatory, -1.0);
   }
-  if (shaft.axial) add_rod(sum, shaft, left, right, along_z, element.axial_stiffness, element.axial_inertia);
+  if (shaft.axial)
+    add_rod(rotor, shaft, left, right, along_z, element.axial_stiffness, element.axial_inertia);
   if (shaft.torsion)
-    add_rod(sum, shaft, left, right, about_z, element.torsional_stiffness, element.torsional_inertia);
+    add_rod(rotor, shaft, left, right, about_z, element.torsional_stiffness, element.torsional_inertia);
 }
 
 }  // namespace
 
 void assemble_shafts(RotorDraft& rotor) {
   for (const ShaftDraft& shaft : rotor.shafts) {
+    for (const RotorEffect effect : {RotorEffect::shaft, RotorEffect::shaft_mass, RotorEffect::gyroscopic,
+                                     RotorEffect::shaft_damping, RotorEffect::internal_damping})
+      rotor.count(effect);
     std::size_t node = 0;
     for (const ShaftSegment& segment : shaft.segments) {
       const SegmentMatrices element = matrices_of(shaft, segment);
-      for (int i = 0; i < segment.elements; ++i) add_element(rotor.sum, shaft, element, node++);
+      for (int i = 0; i < segment.elements; ++i) add_element(rotor, shaft, element, node++);
     }
   }
 }

@@ -5,12 +5,13 @@
 namespace eigentrail {
 
 MatrixSum::Part& MatrixSum::part(const Expression& factor,
-                                 const std::shared_ptr<const TabulatedFactor>& table) {
+                                 const std::shared_ptr<const TabulatedFactor>& table,
+                                 const Expression& scale) {
   const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const Part& one) {
-    return one.table == table && one.factor == factor;
+    return one.table == table && one.factor == factor && one.scale == scale;
   });
   if (found != parts_.end()) return *found;
-  return parts_.emplace_back(Part{factor, table});
+  return parts_.emplace_back(Part{factor, table, scale});
 }
 
 void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value) {
@@ -37,6 +38,16 @@ void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& arg
   part(argument, table).entries[{row, column}] += value;
 }
 
+void MatrixSum::add(const MatrixSum& other, const Expression& strength) {
+  for (const Part& one : other.parts_) {
+    const bool whole = strength == Expression(1.0);
+    Part& own = whole       ? part(one.factor, one.table, one.scale)
+                : one.table ? part(one.factor, one.table, one.scale * strength)
+                            : part(one.factor * strength, nullptr);
+    for (const auto& [at, value] : one.entries) own.entries[at] += value;
+  }
+}
+
 std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
   std::vector<AffineTerm<SparseMatrix>> result;
   for (const Part& one : parts_) {
@@ -48,6 +59,7 @@ std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
     matrix.setFromTriplets(entries.begin(), entries.end());
     result.emplace_back(one.factor, std::move(matrix));
     result.back().table = one.table;
+    result.back().scale = one.scale;
   }
   return result;
 }

@@ -24,6 +24,11 @@ class MatrixSum {
   void add(Eigen::Index row, Eigen::Index column, const Expression& argument,
            const std::shared_ptr<const TabulatedFactor>& table, double value);
 
+  /// Adds all entries of another sum, times `strength`.
+  void add(const MatrixSum& other, const Expression& strength);
+
+  bool empty() const { return parts_.empty(); }
+
   /// The summands, n x n.
   std::vector<AffineTerm<SparseMatrix>> terms(Eigen::Index n) const;
 
@@ -31,10 +36,12 @@ class MatrixSum {
   struct Part {
     Expression factor;
     std::shared_ptr<const TabulatedFactor> table;
+    Expression scale = 1.0;  ///< of the tabulated function
     std::map<std::pair<Eigen::Index, Eigen::Index>, double> entries = {};
   };
 
-  Part& part(const Expression& factor, const std::shared_ptr<const TabulatedFactor>& table);
+  Part& part(const Expression& factor, const std::shared_ptr<const TabulatedFactor>& table,
+             const Expression& scale = 1.0);
 
   std::vector<Part> parts_;
 };

@@ -139,8 +139,12 @@ void read_bearings(RotorDraft& rotor) {
     if (coefficients.empty())
       table.fail("kxx", "is missing; expected coefficients such as kxx = 1e6, cxx = 100, or a table");
     std::string where;
+    const bool has_mass = std::any_of(coefficients.begin(), coefficients.end(),
+                                      [](const auto& one) { return one.first[0] == 'm'; });
+    const RotorEffect effect = has_mass ? RotorEffect::seal : RotorEffect::bearing;
     for (const auto& [node, other] : ends) {
-      add_bearing(rotor.sum, {&rotor.at(node), other ? &rotor.at(*other) : nullptr}, coefficients);
+      rotor.count(effect);
+      add_bearing(rotor.sum(effect), {&rotor.at(node), other ? &rotor.at(*other) : nullptr}, coefficients);
       where +=
           (where.empty() ? "" : ", ") + rotor.name_of(node) + (other ? " and " + rotor.name_of(*other) : "");
     }

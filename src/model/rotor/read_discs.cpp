@@ -53,13 +53,16 @@ DiscInertia inertia_of_numbers(const Draft& draft, TableReader& table) {
 void add_disc(RotorDraft& rotor, const NodePlace& place, const DiscInertia& disc) {
   const NodeCoordinates& at = rotor.at(place);
   const Expression& speed = rotor.shafts[place.shaft].speed;
+  MatrixSum& inertia = rotor.sum(RotorEffect::disc).M;
   for (const NodeFreedom freedom : {along_x, along_y, along_z})
-    rotor.sum.M.add(at[freedom], at[freedom], disc.mass);
-  for (const NodeFreedom freedom : {about_x, about_y})
-    rotor.sum.M.add(at[freedom], at[freedom], disc.diametral);
-  rotor.sum.M.add(at[about_z], at[about_z], disc.polar);
-  rotor.sum.C.add_product(at[about_x], at[about_y], speed, disc.polar, 1.0);
-  rotor.sum.C.add_product(at[about_y], at[about_x], speed, disc.polar, -1.0);
+    inertia.add(at[freedom], at[freedom], disc.mass);
+  for (const NodeFreedom freedom : {about_x, about_y}) inertia.add(at[freedom], at[freedom], disc.diametral);
+  inertia.add(at[about_z], at[about_z], disc.polar);
+  MatrixSum& gyroscopic = rotor.sum(RotorEffect::gyroscopic).C;
+  gyroscopic.add_product(at[about_x], at[about_y], speed, disc.polar, 1.0);
+  gyroscopic.add_product(at[about_y], at[about_x], speed, disc.polar, -1.0);
+  rotor.count(RotorEffect::disc);
+  rotor.count(RotorEffect::gyroscopic);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ void read_supports(RotorDraft& rotor) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = rotor.draft.reader(*all[i], "[[support]] " + std::to_string(i + 1));
     const std::vector<NodePlace> places = rotor.read_nodes(table, "node");
+    rotor.count(RotorEffect::support);
     const std::vector<std::string> holds =
         table.has("holds") ? table.texts("holds") : std::vector<std::string>{"x", "y"};
     if (table.has("name")) (void)table.text("name");
@@ -94,21 +95,26 @@ ModelDescription describe(RotorDraft& rotor) {
   description.data.insert(description.data.end(), rotor.data.begin(), rotor.data.end());
   description.coordinate_names = std::move(rotor.coordinate_names);
   description.coordinate_units = std::move(rotor.coordinate_units);
-  description.parameters = rotor.draft.scene.parameters;
+  description.effects = rotor_effects(rotor, static_cast<Eigen::Index>(description.coordinate_names.size()));
+  description.parameters = rotor.draft.parameters();
   description.unused_parameters = unused_parameters(rotor.draft.scene, rotor.draft.used);
   return description;
 }
 
 std::vector<AffineTerm<Matrix>> dense(const std::vector<AffineTerm<SparseMatrix>>& terms) {
   std::vector<AffineTerm<Matrix>> result;
-  for (const AffineTerm<SparseMatrix>& term : terms)
-    result.emplace_back(term.factor, Matrix(term.matrix), term.name).table = term.table;
+  for (const AffineTerm<SparseMatrix>& term : terms) {
+    auto& one = result.emplace_back(term.factor, Matrix(term.matrix), term.name);
+    one.table = term.table;
+    one.scale = term.scale;
+  }
   return result;
 }
 
 std::unique_ptr<Model> family_of(RotorDraft& rotor) {
   const auto n = static_cast<Eigen::Index>(rotor.coordinate_names.size());
-  AffinePencil<SparseMatrix> pencil{rotor.sum.M.terms(n), rotor.sum.C.terms(n), rotor.sum.K.terms(n)};
+  check_rotor_without(rotor);
+  AffinePencil<SparseMatrix> pencil = pencil_of_effects(rotor, n);
   ModelDescription description = describe(rotor);
   if (n > largest_dense_rotor)
     return std::make_unique<SparseFamily>(std::move(description), std::move(pencil));

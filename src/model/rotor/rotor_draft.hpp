@@ -9,6 +9,7 @@
 #include "model/csv_table.hpp"
 #include "model/draft.hpp"
 #include "model/rotor/pencil_sum.hpp"
+#include "model/rotor/rotor_effects.hpp"
 #include "model/rotor/shaft_element.hpp"
 
 namespace eigentrail {
@@ -59,10 +60,13 @@ struct RotorDraft {
 
   Draft draft;
   std::vector<ShaftDraft> shafts;
-  PencilSum sum;
+  std::array<PencilSum, rotor_effect_count> sums;  ///< of each effect
+  std::array<int, rotor_effect_count> counts{};    ///< how many tables or nodes have it
   std::vector<std::string> coordinate_names, coordinate_units;
   std::vector<std::pair<std::string, std::string>> data;  ///< what `explain` says
 
+  PencilSum& sum(RotorEffect effect) { return sums[static_cast<std::size_t>(effect)]; }
+  void count(RotorEffect effect) { ++counts[static_cast<std::size_t>(effect)]; }
   const NodeCoordinates& at(const NodePlace& place) const { return shafts[place.shaft].nodes[place.node]; }
   std::string name_of(const NodePlace& place) const { return shafts[place.shaft].node_name(place.node); }
 
