@@ -38,7 +38,9 @@ UnitValue value_in_unit_of(const Parameter& parameter, const Measure& measure) {
     return {0.0, exact_text(measure.number) + " " + measure.unit + " does not fit " + parameter.name +
                      ", which is in " + parameter.unit};
   }
-  return {measure.number * unit->factor / (parameter.dimension ? parameter.factor : 1.0), ""};
+  const double own = parameter.dimension ? parameter.factor : 1.0;
+  if (unit->factor == own) return {measure.number, ""};  // no rounding
+  return {measure.number * unit->factor / own, ""};
 }
 
 }  // namespace eigentrail

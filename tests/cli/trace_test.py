@@ -47,6 +47,22 @@ class Trace(CommandTest):
         self.write("scene.toml", scene.replace("[400, 520]", "[400, 600]").replace("§", ""))
         self.assertIn("critical speed 2x at omega = 557.174: in the operating range 400 to 600\n", self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force"))
 
+    def test_operating_ranges_may_have_units(self):
+        scene = (SCENES / "two_disc_rotor.toml").read_text(encoding="utf-8")
+        given = [self.margins(scene, text) for text in ('[2400, 3000]', '["40 Hz", "3000 rpm"]', '[["40 rev/s", 3000]]')]
+        self.assertIn("operating range 2400 to 3000", given[0])
+        self.assertEqual(given, given[:1] * 3)
+        self.write("scene.toml", self.with_range(scene, '["40 N", 3000]'))
+        self.assert_refused(self.run_program("trace", "scene.toml"), ["operating_range: 40 N does not fit", "which is in rpm"])
+
+    def with_range(self, scene, text):
+        return edited(scene, "[events]\n", f"[events]\noperating_range = {text}\n")
+
+    def margins(self, scene, text):
+        self.write("scene.toml", self.with_range(scene, text))
+        summary = self.run_well("trace", "scene.toml", "--force")
+        return "\n".join(line for line in summary.splitlines() if line.startswith("  margin"))
+
     def test_quiet_prints_nothing(self):
         self.write("scene.toml", BLADE)
         self.assertEqual(self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet"), "")

@@ -287,6 +287,7 @@ TEST(EventOptions, FaultsAreNamed) {
       {"harmonics = 1\noperating_range = [2, 1]", "expected 0 <= from <= to; found 2 and 1"},
       {"harmonics = 1\noperating_range = [1, 2, 3]", "expected [from, to]"},
       {"harmonics = 1\noperating_range = [\"p\", 2]", "without parameters"},
+      {"harmonics = 1\noperating_range = [\"1 RPM\", 2]", "did you mean 'rpm'?"},
       {"harmonics = 1\nseparation_margin = 0.1", "of no use without `operating_range`"},
       {"harmonics = 1\noperating_range = [1, 2]\nseparation_margin = 15", "must be a fraction"},
       {"harmonic = 1", "harmonics"},
