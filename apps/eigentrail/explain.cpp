@@ -243,6 +243,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
     print_data(to, *model);
     print_effects(to, *model);
     print_route(estimate_projection(*large, options, solver), options, to);
+    if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return;
   }
   const PathProblem problem = problem_along(*model, options.parameter);

@@ -104,7 +104,10 @@ ROTORS = [
      "point: unknown key in a scene with [[shaft]]"),
     ("two shafts without names", ("[[shaft]]", "§[[shaft]]", "[[disc]]", "[[shaft]]\nstations = { length = 1, outer = 0.1 }\nE = 2e11\nnu = 0.3\n"
                                   "density = 7800\n[[disc]]"), "each needs a name"),
-    ("effect switched off", ("to = 9000", 'to = 9000\n§without = "bearings"'), "did you mean 'bearing'?"),
+    ("effect switched off", ("to = 9000", 'to = 9000\n§without = "shaft"'), "cannot be left out: without its elastic forces"),
+    ("support switched off", ("to = 9000", 'to = 9000\n§without = "support"'), "it holds freedoms; remove its table"),
+    ("effect that a rotor has not", ("to = 9000", 'to = 9000\n§without = "seal"'), "is no effect of this rotor; known:"),
+    ("misspelt effect", ("to = 9000", 'to = 9000\n§without = "bearings"'), "did you mean 'bearing'?"),
 ]
 
 # What is wrong in a CSV file of bearing coefficients or of stations.
