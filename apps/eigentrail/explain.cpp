@@ -253,13 +253,13 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const bool computed = point.status == PointStatus::computed;
   const Sizes sizes = sizes_at(*model, point);
   if (computed) {
-    for (const std::string& sentence : in_words(setup, structure, sizes))
-      std::fprintf(to, "  %s\n", sentence.c_str());
+    std::vector<std::string> sentences = in_words(setup, structure, sizes);
     if (is_rotor(scene)) {
-      const Matrix K = point.equilibrium.linearization.K[0].dense();
-      for (const std::string& sentence : free_motions_in_words(model->description(), K))
-        std::fprintf(to, "  %s\n", sentence.c_str());
+      const std::vector<std::string> free =
+          free_motions_in_words(model->description(), point.equilibrium.linearization.K[0].dense());
+      sentences.insert(sentences.end(), free.begin(), free.end());
     }
+    for (const std::string& sentence : sentences) std::fprintf(to, "  %s\n", sentence.c_str());
   }
   print_parameters(to, *model, traced);
   print_data(to, *model);

@@ -21,6 +21,7 @@
 #include "commands.hpp"
 #include "factor_team.hpp"
 #include "launcher.hpp"
+#include "mpi_session.hpp"
 #include "petsc_factors.hpp"
 
 namespace eigentrail::app {
@@ -240,13 +241,11 @@ class PetscSolver final : public SparseSolver {
   std::size_t bytes_ = 0;
 };
 
-/// MPI and PETSc between their beginning and their end. Signals end the program as they do without PETSc, and
-/// options are not read from files.
+/// MPI and PETSc between their beginning and their end; PETSc ends first. Signals end the program as they do
+/// without PETSc, and options are not read from files.
 class Session {
  public:
   Session() {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");
     PetscOptionsSetValue(nullptr, "-skip_petscrc", "true");
     check_petsc(PetscInitializeNoArguments());
@@ -254,10 +253,7 @@ class Session {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
-  ~Session() {
-    PetscFinalize();
-    MPI_Finalize();
-  }
+  ~Session() { PetscFinalize(); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -265,6 +261,7 @@ class Session {
   int size() const { return size_; }
 
  private:
+  MpiSession mpi_;
   int rank_ = 0, size_ = 1;
 };
 

@@ -26,6 +26,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "launcher.hpp"
+#include "mpi_session.hpp"
 #include "team.hpp"
 
 namespace eigentrail::app {
@@ -358,18 +359,6 @@ std::size_t own_cores() {
   MPI_Comm_free(&machine);
   return static_cast<std::size_t>(std::max(1, all ? cores / here : cores));
 }
-
-/// MPI between its beginning and its end.
-class MpiSession {
- public:
-  MpiSession() {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-  }
-  ~MpiSession() { MPI_Finalize(); }
-  MpiSession(const MpiSession&) = delete;
-  MpiSession& operator=(const MpiSession&) = delete;
-};
 
 class MpiTeam final : public Team {
  public:

@@ -12,6 +12,16 @@ namespace {
 /// Points per element and station at which the mass is integrated: exact for products of quadratic shape
 /// functions with mass that is linear between stations, if elements are straight.
 constexpr int mass_points = 2;
+constexpr int most_elements = 200;
+
+/// A whole number from 1 to `most`.
+int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most) {
+  const Expression e = table.expression_or(key, otherwise);
+  const double n = e.is_constant() ? e.evaluate(std::span<const double>()) : 0.0;
+  if (!(n >= 1.0) || n > most || n != std::floor(n))
+    table.fail(key, "expected a whole number from 1 to " + std::to_string(most));
+  return static_cast<int>(n);
+}
 
 bool is_zero(const Expression& e) {
   return e.is_constant() && e.evaluate(std::span<const double>()) == 0.0;
@@ -247,12 +257,15 @@ std::string read_beam_name(Draft& draft, TableReader& table) {
   return name;
 }
 
-int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most) {
-  const Expression e = table.expression_or(key, otherwise);
-  const double n = e.is_constant() ? e.evaluate(std::span<const double>()) : 0.0;
-  if (!(n >= 1.0) || n > most || n != std::floor(n))
-    table.fail(key, "expected a whole number from 1 to " + std::to_string(most));
-  return static_cast<int>(n);
+void read_elements(TableReader& table, BeamDesign& design) {
+  design.elements = read_whole_number(table, "elements", design.elements, most_elements);
+  design.degree = read_whole_number(table, "degree", design.degree, 2);
+}
+
+std::array<FieldHelp, 2> element_fields() {
+  return {FieldHelp{"elements", "", "number of elements, 1 to " + std::to_string(most_elements), "10"},
+          FieldHelp{"degree", "",
+                    "2: three nodes per element, errors of fourth order; 1: two nodes, second order", "2"}};
 }
 
 ExpressionVector position_of(const Draft& draft, const Place& place) {

@@ -24,13 +24,12 @@ struct BeamDesign {
   std::vector<Expression> damping_times = {};  ///< of each strain, s; empty: no damping
 };
 
-inline constexpr int most_beam_elements = 200;
-
 /// The key `name`, which nothing else may have.
 std::string read_beam_name(Draft& draft, TableReader& table);
 
-/// A whole number from 1 to `most`.
-int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most);
+/// The keys `elements` and `degree`, and what is said of them.
+void read_elements(TableReader& table, BeamDesign& design);
+std::array<FieldHelp, 2> element_fields();
 
 /// Position of a place at the starting guess.
 ExpressionVector position_of(const Draft& draft, const Place& place);

@@ -18,8 +18,7 @@ class BeamReader {
     design.ends = {read_end("from"), read_end("to")};
     read_holds(design.ends);
     check_apart(design.ends);
-    design.elements = read_whole_number(table_, "elements", 10, most_beam_elements);
-    design.degree = read_whole_number(table_, "degree", 2, 2);
+    read_elements(table_, design);
     design.y = draft_.read_vector(table_, "y_axis", any_unit, Range::positive, unit_vector(1));
     check_across(design.ends, design.y);
     design.sections = read_beam_table(draft_, table_);
@@ -148,13 +147,14 @@ std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft)
 }
 
 std::vector<FieldHelp> beam_fields() {
+  const auto [elements, degree] = element_fields();
   std::vector<FieldHelp> fields = {
       {"name", "text", "its nodes are the bodies NAME.root, NAME.1, NAME.2, ..., NAME.tip"},
       {"from", "place", "where it begins; welded to the body, or clamped in the frame"},
       {"to", "place", "where it ends; welded to the body, or free if a position is given"},
       {"ends", "two texts", "\"clamped\" or \"free\", for from and to", "as said there"},
-      {"elements", "", "number of elements, 1 to 200", "10"},
-      {"degree", "", "2: three nodes per element, errors of fourth order; 1: two nodes, second order", "2"},
+      elements,
+      degree,
       {"y_axis", "[x, y, z]", "direction of the y axis of the sections, as far as it is normal to the beam",
        "[0, 1, 0]"}};
   for (FieldHelp& field : beam_table_fields()) fields.push_back(std::move(field));

@@ -17,8 +17,7 @@ class BladeReader {
     read_hub();
     const Expression length = draft_.read_number(table_, "length", "m", Range::positive);
     place(design, length);
-    design.elements = read_whole_number(table_, "elements", 10, most_beam_elements);
-    design.degree = read_whole_number(table_, "degree", 2, 2);
+    read_elements(table_, design);
     design.sections = read_beam_table(draft_, table_, length);
     check_root(design.sections);
     design.damping_times = read_damping(design.sections, length);
@@ -129,6 +128,7 @@ void read_blades(Draft& draft) {
 }
 
 std::vector<FieldHelp> blade_fields() {
+  const auto [elements, degree] = element_fields();
   std::vector<FieldHelp> fields = {
       {"name", "text", "its nodes are the bodies NAME.root, NAME.1, NAME.2, ..., NAME.tip"},
       {"hub", "place", "centre of the hub: of a body, to which the root is welded, or fixed", "[0, 0, 0]"},
@@ -140,8 +140,8 @@ std::vector<FieldHelp> blade_fields() {
       {"azimuth", "rad", "turns the blade about the axis", "0"},
       {"precone", "rad", "turns its tip towards the axis", "0"},
       {"pitch", "rad", "turns all sections, y towards z, leading edge up", "0"},
-      {"elements", "", "number of elements, 1 to 200", "10"},
-      {"degree", "", "2: three nodes per element, errors of fourth order; 1: two nodes, second order", "2"},
+      elements,
+      degree,
       {"damping_flap", "",
        "ratio of the first flap mode at rest, without twist: bending about y and shear along z have stresses "
        "in proportion to stiffness times strain rate",
