@@ -8,6 +8,7 @@
 #include "eigentrail/store/loci_file.hpp"
 #include "frequency_unit.hpp"
 #include "output.hpp"
+#include "ranges.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -25,6 +26,7 @@ struct Evaluated {
   double p = 0.0;
   std::string mode;
   Complex s;
+  bool is_zero = false;  ///< the mode is zero throughout: s is rounding
   /// Bounds of errors that come from the data of the model; NaN if it has none.
   double interpolation = NAN, digits = NAN;
 };
@@ -32,6 +34,9 @@ struct Evaluated {
 /// Each value p in `at`, each passage of the path there, and each mode that exists.
 std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double>& at) {
   std::vector<Evaluated> values;
+  const auto accuracy = accuracy_of(loci);
+  const std::vector<Permanence> permanence =
+      accuracy ? permanence_of_modes(loci, *accuracy) : std::vector<Permanence>(loci.modes.size());
   for (const double p : at) {
     const std::vector<ComplexVector> passages = loci.eigenvalues_at(p);
     const auto positions = loci.positions(p);
@@ -39,7 +44,8 @@ std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double
       const ComplexVector& s = passages[passage];
       for (Eigen::Index i = 0; i < s.size(); ++i) {
         if (std::isnan(s[i].real())) continue;
-        Evaluated value{p, loci.modes[static_cast<std::size_t>(i)], s[i]};
+        const auto mode = static_cast<std::size_t>(i);
+        Evaluated value{p, loci.modes[mode], s[i], permanence[mode] == Permanence::zero};
         if (loci.data_errors && passage < positions.size()) {
           const auto step = static_cast<Eigen::Index>(positions[passage].step);
           value.interpolation = loci.data_errors->interpolation(step, i);
@@ -94,7 +100,7 @@ void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values
                                               "damped, " + unit.name, "damping", "decrement"}};
   if (loci.data_errors) rows[0].emplace_back("error of the data");
   for (const Evaluated& value : values) {
-    const Complex s = without_rounding(value.s, 0.0);
+    const Complex s = value.is_zero ? Complex(0.0) : without_rounding(value.s, 0.0);
     const double size = std::abs(s);
     const double decrement = log_decrement(s);
     const bool has_damping = std::isfinite(size) && size > 0.0;

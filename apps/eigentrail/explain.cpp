@@ -267,7 +267,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   print_states(to, *model);
   auto parts = find_independent_parts(model->coefficient_matrices(problem.parameters, problem.traced));
   if (!parts && computed)
-    parts = parts_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda);
+    parts = scene_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda).parts;
   print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -60,14 +59,6 @@ void print_uncertified(const LociFile& loci) {
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
 }
 
-/// The number in an attribute; empty if the file has none.
-std::optional<double> number_in(const LociFile& loci, const std::string& name) {
-  const std::string text = attribute(loci, name);
-  double value = 0.0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  return parsed.ec == std::errc() ? std::optional(value) : std::nullopt;
-}
-
 /// To which modes the stable ranges refer, in words; empty if to all.
 std::string followed_modes(const LociFile& loci) {
   const std::string wanted = attribute(loci, "option_modes");
@@ -109,7 +100,11 @@ void print_for_people(const LociFile& loci) {
               rounded(std::stod(attribute(loci, "reference")), 4).c_str(), order_of_series(loci).c_str());
   std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
                                               "certified", "worst residual", "worst condition"}};
-  const auto end_value = [&loci](Eigen::Index node, std::size_t mode) {
+  const auto accuracy = accuracy_of(loci);
+  const std::vector<Permanence> permanence =
+      accuracy ? permanence_of_modes(loci, *accuracy) : std::vector<Permanence>(loci.modes.size());
+  const auto end_value = [&](Eigen::Index node, std::size_t mode) {
+    if (permanence[mode] == Permanence::zero) return std::string("0");
     const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
     return std::isnan(s.real()) ? std::string("-") : eigenvalue_text(s, 8);
   };
@@ -123,9 +118,7 @@ void print_for_people(const LociFile& loci) {
   }
   print_table(rows);
   print_uncertified(loci);
-  const auto tolerance = number_in(loci, "tolerance");
-  const auto reference = number_in(loci, "reference");
-  if (tolerance && reference) print_permanent(loci, {*tolerance, *reference}, loci.mode_names);
+  if (accuracy) print_permanent(loci, *accuracy, loci.mode_names);
   if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
   if (!loci.events.empty())
     std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());

@@ -1,6 +1,7 @@
 #include "ranges.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +24,24 @@ nlohmann::ordered_json end_json(const RangeEnd& end) {
   return json;
 }
 
+/// A root attribute that is a number; empty if there is none.
+std::optional<double> number_in(const LociFile& loci, const std::string& name) {
+  const auto found = loci.attributes.find(name);
+  if (found == loci.attributes.end()) return std::nullopt;
+  const std::string& text = found->second;
+  double value = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  return parsed.ec == std::errc() ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<EigenvalueAccuracy> accuracy_of(const LociFile& loci) {
+  const auto tolerance = number_in(loci, "tolerance");
+  const auto reference = number_in(loci, "reference");
+  if (!tolerance || !reference) return std::nullopt;
+  return EigenvalueAccuracy{*tolerance, *reference};
+}
 
 void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accuracy,
                      const std::vector<std::string>& names) {

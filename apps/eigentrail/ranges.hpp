@@ -2,13 +2,18 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eigentrail/stability/permanent_modes.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
+#include "eigentrail/store/loci_file.hpp"
 
 namespace eigentrail::app {
+
+/// Tolerance and reference of the trace in a loci file; empty where the file does not tell.
+std::optional<EigenvalueAccuracy> accuracy_of(const LociFile& loci);
 
 /// Prints which modes do not move with the parameter, and what moves in those that are zero throughout, which
 /// the stable ranges leave out. Nothing if all modes move. `names`: what moves, per mode; may be empty.

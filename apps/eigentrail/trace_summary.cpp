@@ -61,11 +61,12 @@ void print_heading(const TraceSummary& trace) {
   }
 }
 
-/// Frequency and damping of an eigenvalue. A real one has no frequency: its rate stands for the damping.
+/// Frequency and damping of an eigenvalue. Zero has no damping. A real one has no frequency: its rate stands for the damping.
 std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, double reference) {
   if (std::isnan(s.real())) return {"-", "-"};
   if (!std::isfinite(s.real())) return {"infinite", "-"};
   s = without_rounding(s, reference);
+  if (s == 0.0) return {"0", "-"};
   if (s.imag() == 0.0) return {"-", rounded(s.real(), 6) + " 1/s"};
   return {rounded(std::abs(s.imag()) / unit.factor, 6),
           rounded(-100.0 * s.real() / std::abs(s) + 0.0, 4) + " %"};
@@ -77,13 +78,17 @@ void print_modes(const TraceSummary& trace, const FrequencyUnit& unit) {
       {"mode", unit.name + " at " + exact_text(trace.setup.options.from), "damping",
        unit.name + " at " + exact_text(trace.result.reached), "damping", "what moves"}};
   // A mode that was found on the step at which the trace was stopped has no column yet.
+  const std::vector<Permanence> permanence =
+      permanence_of_modes(trace.path, {trace.setup.options.tolerance, trace.result.s_ref});
   const int columns = std::min(trace.result.n_columns, static_cast<int>(trace.path.eigenvalues.cols()));
   for (int mode = 0; mode < columns; ++mode) {
     // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
     if (trace.path.eigenvalues.col(mode).array().isNaN().all()) continue;
     std::vector<std::string> row{std::to_string(mode + 1)};
     for (const Matrix::Index at : {Matrix::Index{0}, last}) {
-      const auto cells = motion_cells(trace.path.eigenvalues(at, mode), unit, trace.result.s_ref);
+      const bool is_zero = permanence[static_cast<std::size_t>(mode)] == Permanence::zero;
+      const Complex s = is_zero ? Complex(0.0) : trace.path.eigenvalues(at, mode);
+      const auto cells = motion_cells(s, unit, trace.result.s_ref);
       row.insert(row.end(), cells.begin(), cells.end());
     }
     row.push_back(cell_text(trace.mode_names[static_cast<std::size_t>(mode)]));

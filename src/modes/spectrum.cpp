@@ -244,8 +244,26 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
   return z;
 }
 
+namespace {
+
+/// Both eigenvalues of a single freedom, without rounding where stiffness or damping is zero.
+InvariantPair pair_of_one_freedom(double m, double c, double k) {
+  InvariantPair pair;
+  pair.is_real = true;
+  pair.Z = ComplexMatrix::Identity(1, 2);
+  pair.Lambda = ComplexMatrix::Zero(2, 2);
+  pair.Lambda(0, 1) = 1.0;
+  pair.Lambda(1, 0) = 0.0 - k / m;
+  pair.Lambda(1, 1) = 0.0 - c / m;
+  return pair;
+}
+
+}  // namespace
+
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
                                  Eigen::Index k, bool is_real, double least_scale) {
+  if (M.rows() == 1 && k == 2 && is_real && M(0, 0) != 0.0)
+    return pair_of_one_freedom(M(0, 0), C(0, 0), K(0, 0));
   constexpr int iterations = 6;
   constexpr double offset = 1e-5;  // relative to |mu|: the shift must not equal an eigenvalue
   const Eigen::Index n = M.rows();

@@ -40,6 +40,19 @@ constexpr double well_scaled_states = 4.0;
 
 using Random = std::mt19937_64;
 
+/// What a search for parts needs besides the matrices.
+struct Search {
+  Random random;
+  /// Rounding of the matrices in units of their own: more than one where large terms cancel in their entries.
+  double rounding = 1.0;
+  /// How many times rounding may be magnified in the search for X by the condition of eigenvectors. What a
+  /// generous search finds is tested like anything else.
+  double slack = 1.0;
+
+  /// Largest share of a matrix that counts as zero.
+  double zero() const { return rounding * slack * no_coupling; }
+};
+
 double random_number(Random& random) {
   return std::normal_distribution<double>()(random);
 }
@@ -73,9 +86,12 @@ Matrix sum_of_magnitudes(const std::vector<Matrix>& matrices, Eigen::Index n) {
 }
 
 /// The sum |M| w^2 + |C| w + |K| of magnitudes, at the frequency w at which the first and the last have the
-/// same norm; without M, the last two. No term then counts for more because of the unit of time.
+/// same norm; without M, the last two. No term then counts for more because of the unit of time. Freedoms
+/// that no force holds have no frequency: their mass does not count, or else scaling it up would lower w
+/// further and further.
 Matrix at_typical_frequency(const Matrix& M, const Matrix& C, const Matrix& K) {
-  const double m = M.norm();
+  const Vector held = (K.rowwise().norm().array() > 0.0).cast<double>();
+  const double m = (held.asDiagonal() * M).norm();
   const double c = C.norm();
   const double k = K.norm();
   const double w = m > 0.0 && k > 0.0 ? std::sqrt(k / m) : c > 0.0 && k > 0.0 ? k / c : 1.0;
@@ -148,7 +164,7 @@ std::vector<std::vector<Eigen::Index>> close_groups(const ComplexVector& values,
 /// matrix with which X commutes). Empty if that costs too much.
 template <class Values>
 std::optional<Values> random_commuting(const Values& H, const std::vector<std::vector<Eigen::Index>>& spaces,
-                                       Random& random) {
+                                       Search& search) {
   using Scalar = typename Values::Scalar;
   const auto count = static_cast<Eigen::Index>(spaces.size());
   const auto block = [&](Eigen::Index i, Eigen::Index j) {
@@ -157,7 +173,7 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
   const double size = H.norm();
   // Coupled eigenspaces have their X in common; other groups are independent.
   const auto coupled = connected_groups(count, [&](Eigen::Index i, Eigen::Index j) {
-    return block(i, j).norm() + block(j, i).norm() > no_coupling * size;
+    return block(i, j).norm() + block(j, i).norm() > search.zero() * size;
   });
   Values X = Values::Zero(H.rows(), H.cols());
   for (const auto& members : coupled) {
@@ -171,7 +187,7 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
     const Eigen::Index unknowns = first.back();
     if (unknowns == static_cast<Eigen::Index>(members.size())) {
       // All eigenspaces have one dimension: X is a multiple of the unit matrix on them.
-      const double value = random_number(random);
+      const double value = random_number(search.random);
       for (const Eigen::Index i : members) {
         const Eigen::Index at = spaces[static_cast<std::size_t>(i)].front();
         X(at, at) = value;
@@ -199,8 +215,8 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
     if (!right.values.allFinite()) return std::nullopt;
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>::Zero(unknowns);
     for (Eigen::Index k = 0; k < unknowns; ++k) {
-      if (k < right.values.size() && right.values[k] > no_coupling * size) continue;
-      x += random_number(random) * right.V.col(k);
+      if (k < right.values.size() && right.values[k] > search.zero() * size) continue;
+      x += random_number(search.random) * right.V.col(k);
     }
     for (std::size_t a = 0; a < members.size(); ++a) {
       const auto& space = spaces[static_cast<std::size_t>(members[a])];
@@ -221,9 +237,9 @@ struct Splitting {
 };
 
 /// Whether all matrices are symmetric or skew-symmetric, up to rounding.
-bool all_symmetric_or_skew(const std::vector<Matrix>& all) {
-  constexpr double rounding = 1e-14;
-  return std::all_of(all.begin(), all.end(), [](const Matrix& A) {
+bool all_symmetric_or_skew(const std::vector<Matrix>& all, double magnified) {
+  const double rounding = 1e-14 * magnified;
+  return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
     const double size = rounding * A.norm();
     return (A - A.transpose()).norm() <= size || (A + A.transpose()).norm() <= size;
   });
@@ -231,7 +247,7 @@ bool all_symmetric_or_skew(const std::vector<Matrix>& all) {
 
 /// The splitting of symmetric and skew-symmetric matrices, which keeps their symmetry: left = right. Empty if
 /// no combination of them is found positive definite.
-std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Random& random) {
+std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Search& search) {
   const Eigen::Index n = all[0].rows();
   Matrix definite = Matrix::Zero(n, n);
   for (const Matrix& A : all) {
@@ -247,14 +263,14 @@ std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Random&
     const Matrix B = cholesky.matrixL().solve(A);
     return Matrix(cholesky.matrixL().solve(B.transpose()).transpose());
   };
-  const Matrix some = random_combination(all, random);
+  const Matrix some = random_combination(all, search.random);
   const Matrix G = reduced(0.5 * (some + some.transpose()));
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(0.5 * (G + G.transpose())));
   const Matrix& V = eigen.eigenvectors();
   const ComplexVector values = eigen.eigenvalues().cast<Complex>();
-  const Matrix H = V.transpose() * reduced(random_combination(all, random)) * V;
+  const Matrix H = V.transpose() * reduced(random_combination(all, search.random)) * V;
   const auto X =
-      random_commuting(H, close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff()), random);
+      random_commuting(H, close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff()), search);
   if (!X) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(0.5 * (*X + X->transpose())));
   const Vector& x = parts.eigenvalues();
@@ -300,7 +316,7 @@ ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const Co
     const Complex mean = values(members).mean();
     ComplexMatrix shifted = G.cast<Complex>() - mean * ComplexMatrix::Identity(n, n);
     const auto right = right_singular_vectors(std::move(shifted));
-    if (!right.values.allFinite() || right.values[n - size] > possibly_equal * right.values[0]) return {};
+    if (!right.values.allFinite() || right.values[n - size] > possibly_equal * G.norm()) return {};
     V(Eigen::all, members) = right.V.rightCols(size);
   }
   return V;
@@ -308,11 +324,11 @@ ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const Co
 
 /// The splitting of any matrices. Empty if no combination of them is well-conditioned, or their eigenvectors
 /// are not.
-std::optional<Splitting> split_any(const std::vector<Matrix>& all, Random& random) {
+std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& search) {
   const Eigen::Index n = all[0].rows();
-  const Eigen::PartialPivLU<Matrix> B(random_combination(all, random));
+  const Eigen::PartialPivLU<Matrix> B(random_combination(all, search.random));
   if (!(B.rcond() > 1.0 / (worst * worst))) return std::nullopt;
-  const Matrix G = B.solve(random_combination(all, random));
+  const Matrix G = B.solve(random_combination(all, search.random));
   const Eigen::EigenSolver<Matrix> eigen(G);
   if (eigen.info() != Eigen::Success) return std::nullopt;
   const ComplexVector values = eigen.eigenvalues();
@@ -321,9 +337,9 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Random& rando
   if (V.size() == 0) return std::nullopt;
   const Eigen::PartialPivLU<ComplexMatrix> lu(V);
   if (!(lu.rcond() > 1.0 / (worst * worst))) return std::nullopt;
-  const Matrix other = B.solve(random_combination(all, random));
+  const Matrix other = B.solve(random_combination(all, search.random));
   const ComplexMatrix H = lu.solve(other.cast<Complex>() * V);
-  const auto X = random_commuting(H, spaces, random);
+  const auto X = random_commuting(H, spaces, search);
   if (!X) return std::nullopt;
   const Matrix real_X = ((V * *X) * lu.inverse()).real();
   const Eigen::EigenSolver<Matrix> parts(real_X);
@@ -362,8 +378,9 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Random& rando
 /// Whether the matrices are block diagonal in the coordinates of a splitting, up to rounding: as a whole, and
 /// every entry compared with the terms it is the sum of. The second keeps a weak coupling of freedoms with
 /// small entries, which is no rounding however large other entries are.
-bool holds(const Splitting& splitting, const std::vector<Matrix>& all) {
-  constexpr double rounding = 1e-13;  // of an entry, relative to the sum of the magnitudes of its terms
+bool holds(const Splitting& splitting, const std::vector<Matrix>& all, double magnified) {
+  // Of an entry, relative to the sum of the magnitudes of its terms.
+  const double rounding = 1e-13 * magnified;
   const double size = std::max(splitting.left.norm() * splitting.right.norm(), 1.0);
   return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
     Matrix there = splitting.left.transpose() * A * splitting.right;
@@ -373,13 +390,14 @@ bool holds(const Splitting& splitting, const std::vector<Matrix>& all) {
       there.block(at, at, m, m).setZero();
       at += m;
     }
-    return there.norm() <= no_coupling * size && (there.cwiseAbs().array() <= rounding * terms.array()).all();
+    return there.norm() <= magnified * no_coupling * size &&
+           (there.cwiseAbs().array() <= rounding * terms.array()).all();
   });
 }
 
 /// The same splitting, with the parts of complex pairs of eigenvalues split once more where another X does
 /// that.
-Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Random& random) {
+Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Search& search) {
   constexpr int tries = 8;  // a random real matrix of size two has complex eigenvalues in 3 of 10 cases
   Splitting result{splitting.right, splitting.left, {}, {}};
   Eigen::Index at = 0;
@@ -392,9 +410,9 @@ Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Ra
       std::vector<Matrix> own;
       for (const Matrix& A : all) own.emplace_back(left.transpose() * A * right);
       for (int attempt = 0; attempt < tries && (!finer || finer->sizes.size() < 2); ++attempt)
-        finer = split_any(own, random);
-      if (finer && (finer->sizes.size() < 2 || !holds(*finer, own))) finer.reset();
-      if (finer) finer = refined(*finer, own, random);
+        finer = split_any(own, search);
+      if (finer && (finer->sizes.size() < 2 || !holds(*finer, own, search.rounding))) finer.reset();
+      if (finer) finer = refined(*finer, own, search);
       if (finer) {
         result.right.middleCols(at, size) = right * finer->right;
         result.left.middleCols(at, size) = left * finer->left;
@@ -409,23 +427,26 @@ Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Ra
 }
 
 /// The parts of matrices that no permutation makes block diagonal.
-Splitting split_connected(const std::vector<Matrix>& all, Random& random) {
+Splitting split_connected(const std::vector<Matrix>& all, Search& search) {
   const Eigen::Index n = all[0].rows();
   const Splitting whole{Matrix::Identity(n, n), Matrix::Identity(n, n), {n}, {false}};
   if (n == 1) return whole;
-  const bool keeps_symmetry = all_symmetric_or_skew(all);
+  const bool keeps_symmetry = all_symmetric_or_skew(all, search.rounding);
   // The coordinates of one X may be worse conditioned than those of another, and it may tell fewer parts.
   constexpr int attempts = 6;
+  constexpr double generous = 1e3;
   Splitting best = whole;
   for (int attempt = 0; attempt < attempts; ++attempt) {
+    search.slack = attempt % 2 == 0 ? 1.0 : generous;
     std::optional<Splitting> found;
-    if (keeps_symmetry) found = split_symmetric(all, random);
-    if (!found) found = split_any(all, random);
+    if (keeps_symmetry) found = split_symmetric(all, search);
+    if (!found) found = split_any(all, search);
     if (!found) continue;
     const bool is_one = found->sizes.size() == 1 && !found->of_pair[0];
-    if (is_one) return whole;  // X is a multiple of the unit matrix
-    const Splitting finer = refined(*found, all, random);
-    if (finer.sizes.size() == 1 || !holds(finer, all)) continue;
+    if (is_one && search.slack > 1.0) break;  // X is a multiple of the unit matrix
+    if (is_one) continue;
+    const Splitting finer = refined(*found, all, search);
+    if (finer.sizes.size() == 1 || !holds(finer, all, search.rounding)) continue;
     if (finer.sizes.size() == best.sizes.size()) break;  // twice the same
     if (finer.sizes.size() > best.sizes.size()) best = finer;
   }
@@ -434,9 +455,9 @@ Splitting split_connected(const std::vector<Matrix>& all, Random& random) {
 
 /// The parts of any matrices. Coordinates that no entry connects come first: they are separated without
 /// rounding.
-Splitting split(const std::vector<Matrix>& all) {
+Splitting split(const std::vector<Matrix>& all, double magnified) {
   constexpr std::uint64_t seed = 20101;  // the same coordinates in every run
-  Random random(seed);
+  Search search{Random(seed), magnified};
   const Eigen::Index n = all[0].rows();
   Matrix pattern = Matrix::Zero(n, n);
   for (const Matrix& A : all) pattern += A.cwiseAbs();
@@ -453,7 +474,7 @@ Splitting split(const std::vector<Matrix>& all) {
     const auto size = static_cast<Eigen::Index>(members.size());
     const Splitting finer =
         own.empty() ? Splitting{Matrix::Identity(size, size), Matrix::Identity(size, size), {size}, {false}}
-                    : split_connected(own, random);
+                    : split_connected(own, search);
     result.right(members, Eigen::seqN(at, size)) = finer.right;
     result.left(members, Eigen::seqN(at, size)) = finer.left;
     result.sizes.insert(result.sizes.end(), finer.sizes.begin(), finer.sizes.end());
@@ -465,7 +486,8 @@ Splitting split(const std::vector<Matrix>& all) {
 
 /// For every part the first one that equals it up to a change of coordinates: random combinations of the
 /// matrices have the same eigenvalues in both.
-std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Matrix>& all) {
+std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Matrix>& all,
+                                double magnified) {
   // Relative difference of eigenvalues. Mistuning of 1e-10 makes different parts.
   constexpr double equal = 1e-12;
   constexpr std::uint64_t seed = 20102;
@@ -485,7 +507,8 @@ std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Ma
     const auto is_same = [&](const ComplexVector& other) {
       if (other.size() != size) return false;
       return std::all_of(other.begin(), other.end(), [&](Complex s) {
-        return (spectrum.array() - s).abs().minCoeff() <= equal * static_cast<double>(size) * scale;
+        return (spectrum.array() - s).abs().minCoeff() <=
+               magnified * equal * static_cast<double>(size) * scale;
       });
     };
     first.push_back(
@@ -497,8 +520,9 @@ std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Ma
 }
 
 /// Whether the entries of left^T A right are more than rounding, for any of the matrices; within the parts.
-Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts) {
-  constexpr double rounding = 1e-13;  // of an entry, relative to the sum of the magnitudes of its terms
+Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts, double magnified) {
+  // Of an entry, relative to the sum of the magnitudes of its terms.
+  const double rounding = 1e-13 * magnified;
   const Eigen::Index n = parts.right.rows();
   Matrix pattern = Matrix::Zero(n, n);
   const Matrix left = parts.left.cwiseAbs().transpose();
@@ -514,9 +538,7 @@ Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& p
   return pattern.cwiseProduct(within);
 }
 
-}  // namespace
-
-std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients) {
+std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coefficients, double magnified) {
   std::vector<Matrix> all;
   for (const auto* matrices : {&coefficients.M, &coefficients.C, &coefficients.K}) {
     for (const Matrix& A : *matrices) {
@@ -530,7 +552,7 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
     A = scaling.of(A);
     A /= A.norm();
   }
-  const Splitting splitting = split(all);
+  const Splitting splitting = split(all, magnified);
   const bool falls_apart = splitting.sizes.size() > 1;
   const bool first_order = std::all_of(coefficients.M.begin(), coefficients.M.end(),
                                        [](const Matrix& M) { return M.size() == 0 || M.isZero(0.0); });
@@ -545,33 +567,55 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
     parts->pattern_M = parts->pattern_C = parts->pattern_K = Matrix::Ones(n, n);
     return parts;
   }
-  const std::vector<std::size_t> copy_of = copies(splitting, all);
+  const std::vector<std::size_t> copy_of = copies(splitting, all, magnified);
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < copy_of.size(); ++i) {
     parts->ranges.push_back({first, splitting.sizes[i], copy_of[i]});
     first += splitting.sizes[i];
   }
-  parts->pattern_M = pattern_of(coefficients.M, *parts);
-  parts->pattern_C = pattern_of(coefficients.C, *parts);
-  parts->pattern_K = pattern_of(coefficients.K, *parts);
+  parts->pattern_M = pattern_of(coefficients.M, *parts, magnified);
+  parts->pattern_C = pattern_of(coefficients.C, *parts, magnified);
+  parts->pattern_K = pattern_of(coefficients.K, *parts, magnified);
   return parts;
+}
+
+/// T^T A T for all matrices. `magnified` is raised to how many times larger than the result the terms are
+/// that cancel in it, up to a bound: beyond that, rounding would hide a coupling that matters. A result that
+/// is nothing but rounding is zero.
+std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix& T, double& magnified) {
+  constexpr double most = 100.0;
+  constexpr double nothing = 1e-14;
+  std::vector<Matrix> result;
+  for (const Matrix& A : matrices) {
+    result.emplace_back(T.transpose() * A * T);
+    const double terms = (T.cwiseAbs().transpose() * A.cwiseAbs() * T.cwiseAbs()).norm();
+    if (result.back().norm() <= nothing * terms) {
+      result.back().setZero();
+      continue;
+    }
+    magnified = std::clamp(terms / result.back().norm(), magnified, most);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients) {
+  return find_parts(coefficients, 1.0);
 }
 
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
                                                                const Matrix& T) {
-  const auto projected = [&T](const std::vector<Matrix>& matrices) {
-    std::vector<Matrix> result;
-    for (const Matrix& A : matrices) result.emplace_back(T.transpose() * A * T);
-    return result;
-  };
-  const auto within = find_independent_parts(
-      {projected(coefficients.M), projected(coefficients.C), projected(coefficients.K)});
+  double magnified = 1.0;
+  const CoefficientMatrices inner{projected(coefficients.M, T, magnified),
+                                  projected(coefficients.C, T, magnified),
+                                  projected(coefficients.K, T, magnified)};
+  const auto within = find_parts(inner, magnified);
   if (within == nullptr || within->count() == 1) return nullptr;
-  auto parts = std::make_shared<IndependentParts>(*within);
-  parts->right = T * within->right;
-  parts->left = T * within->left;
-  parts->inverse = within->inverse * T.transpose();
-  return parts;
+  within->right = T * within->right;
+  within->left = T * within->left;
+  within->inverse = within->inverse * T.transpose();
+  return within;
 }
 
 }  // namespace eigentrail

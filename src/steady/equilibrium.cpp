@@ -258,6 +258,24 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   return result;
 }
 
+std::optional<Vector> multipliers_at_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                          EvaluationCounts& counts) {
+  Equilibrium at;
+  at.x = x;
+  at.lambda = Vector::Zero(model.n_constraints());
+  SteadyProblem problem(model, parameters, counts, at.report);
+  SteadyResidual residual;
+  if (problem.evaluate(at, residual)) return std::nullopt;
+  at.lambda =
+      ConstraintFactorization(at.linearization.A[0]).transposed_pseudo_inverse_times(-residual.force.col(0));
+  if (problem.evaluate(at, residual)) return std::nullopt;
+  const Scales scales = find_scales(at.x, at.lambda, at.linearization, residual);
+  Vector dx, dl;
+  problem.factor(at.linearization).solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
+  if (!(dx.lpNorm<Eigen::Infinity>() <= newton_rounding * scales.length)) return std::nullopt;
+  return at.lambda;
+}
+
 Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                              const Vector& lambda, EvaluationCounts& counts) {
   Equilibrium result;
@@ -294,6 +312,22 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
     kkt.solve(-residual.force.col(k), -residual.constraint.col(k), dx, dl);
     path.x.col(k) = dx;
     path.lambda.col(k) = dl;
+  }
+  return {};
+}
+
+EvaluationFault differentiate_multipliers(const Model& model, const Equilibrium& equilibrium,
+                                          const VectorSeries& parameters, int order, Path& path,
+                                          EvaluationCounts& counts) {
+  path.parameters = parameters;
+  path.x = equilibrium.x;
+  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.lambda.col(0) = equilibrium.lambda;
+  SteadyResidual residual;
+  for (int k = 1; k <= order; ++k) {
+    if (auto fault = model.residual(path, k, residual, counts)) return fault;
+    path.lambda.col(k) =
+        equilibrium.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(k));
   }
   return {};
 }

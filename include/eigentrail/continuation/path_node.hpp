@@ -125,6 +125,8 @@ struct PathProblem {
   int threads = 1;       ///< threads that share the modes of a point, >= 1
   ModeRoute route = ModeRoute::one_by_one;  ///< the cheapest route that the model allows
   BasisChoice basis = BasisChoice::aligned;
+  /// Whether the positions at equilibrium are the same on the whole path, and only the multipliers change.
+  bool rests = false;
   /// Constant coordinates in which the equations fall apart or are balanced; null where they do not.
   std::shared_ptr<const IndependentParts> parts = {};
   SteadyOptions steady = {};

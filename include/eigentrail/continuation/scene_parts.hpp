@@ -1,5 +1,5 @@
-// Independent parts of a multibody scene at rest: those of a family of matrices follow from its coefficients,
-// a scene has none.
+// Multibody scenes that rest on the range of a trace, and their independent parts: those of a family of
+// matrices follow from its coefficients, a scene has none.
 #pragma once
 
 #include "eigentrail/continuation/path_node.hpp"
@@ -7,11 +7,17 @@
 
 namespace eigentrail {
 
-/// The parts in which the equations of a model fall apart on the range of a trace, from its matrices at a few
-/// places. x, lambda: the equilibrium. Null where they do not fall apart, where equilibrium or constraints
-/// change along the path, and for models that give their coefficients. Costs a dozen linearizations.
-std::shared_ptr<const IndependentParts> parts_on_range(const PathProblem& problem,
-                                                       const TraceOptions& options, const Vector& x,
-                                                       const Vector& lambda);
+/// What holds for the equilibrium of a scene on the range of a trace.
+struct SceneOnRange {
+  bool rests = false;  ///< its positions and the constraints do not change; the multipliers may
+  std::shared_ptr<const IndependentParts> parts;  ///< null where the equations do not fall apart
+};
+
+/// Looks at a scene with the equilibrium (x, lambda) at a few places of the range. It counts as resting if x
+/// is an equilibrium at all of them: positions are analytic functions of the parameter. Models that give
+/// their coefficients are not looked at, nor are traces that leave their path at a branch point. Costs a
+/// dozen linearizations.
+SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& options, const Vector& x,
+                            const Vector& lambda);
 
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
 // Steady equilibrium x0, lambda0 of a model and its power series along the path (seed paper, Eqs. 14, 38).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "eigentrail/model/model.hpp"
@@ -47,6 +48,11 @@ struct [[nodiscard]] Equilibrium {
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 
+/// The multipliers with which the positions x are an equilibrium at given parameters: those of least squares
+/// (Eq. 15). Empty where a Newton correction of x would be more than rounding. Cost: one factorization.
+std::optional<Vector> multipliers_at_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                          EvaluationCounts& counts);
+
 /// Takes an equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without
 /// solving.
 Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
@@ -56,6 +62,12 @@ Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const
 /// holds the values at the equilibrium). One back-substitution per order with the factorization of the
 /// equilibrium. Returns a fault if a number is not finite.
 EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium& equilibrium,
+                                          const VectorSeries& parameters, int order, Path& path,
+                                          EvaluationCounts& counts);
+
+/// The same for an equilibrium whose positions do not change along `parameters`: series of the multipliers by
+/// least squares.
+EvaluationFault differentiate_multipliers(const Model& model, const Equilibrium& equilibrium,
                                           const VectorSeries& parameters, int order, Path& path,
                                           EvaluationCounts& counts);
 

@@ -43,6 +43,7 @@ struct Determinant {
 
   /// `scale`: norm of the matrix of which this one is a projection.
   Determinant(const Matrix& matrix, double scale) {
+    if (matrix.size() == 0) return;
     const Eigen::PartialPivLU<Matrix> lu(matrix);
     const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
     if (!(lu.rcond() * norm > regular * scale)) return;
@@ -55,6 +56,31 @@ struct Determinant {
   /// This determinant, with its sign, divided by the magnitude of another one.
   double relative_to(const Determinant& other) const { return sign * std::exp(logarithm - other.logarithm); }
 };
+
+/// A stiffness in reduced coordinates, and the norm of the terms that its entries are sums of.
+struct Stiffness {
+  Matrix K;
+  double scale;
+
+  Determinant determinant() const { return {K, scale}; }
+};
+
+/// `K` in the coordinates of a basis, without the freedoms that nothing holds for any value of the parameter:
+/// their zero is no branch point. `whole`: the stiffness of which K is a projection.
+Stiffness held_stiffness(const Matrix& K, const TangentBasis& basis, const SystemMatrix& whole) {
+  if (!basis.parts) return {K, whole.one_norm()};
+  const IndependentParts& parts = *basis.parts;
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    if (!parts.pattern_K.row(i).isZero(0.0) || !parts.pattern_K.col(i).isZero(0.0)) held.push_back(i);
+  }
+  const Matrix terms = parts.left.cwiseAbs().transpose() * whole.dense().cwiseAbs() * parts.right.cwiseAbs();
+  return {K(held, held), held.empty() ? 0.0 : terms(held, held).colwise().sum().maxCoeff()};
+}
+
+Stiffness held_stiffness(const PathPoint& point) {
+  return held_stiffness(point.pencil.K[0], point.basis, point.equilibrium.linearization.K[0]);
+}
 
 /// Derivative of a row of a series at h.
 double slope(const VectorSeries& series, Eigen::Index row, double h) {
@@ -76,7 +102,8 @@ std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode
   const int traced = frame.range.traced;
   const auto test = [&](const PathNode& there, double distance, double& divisor) {
     divisor = frame.plane ? slope(there.path.parameters, traced, distance) : 1.0;
-    return Determinant(evaluate_series(there.pencil.K, distance), there.linearization.K[0].one_norm());
+    return held_stiffness(evaluate_series(there.pencil.K, distance), there.basis, there.linearization.K[0])
+        .determinant();
   };
   double heading = 1.0;
   const Determinant begin = test(node, within_step * h, heading);
@@ -126,7 +153,7 @@ double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& b
   const auto stiffness = [&](double at) {
     const PathPoint point = reduce_on(solver.problem(), bridge.path(at, 1), basis, solver.counts());
     if (point.status != PointStatus::computed) return 0.0;
-    const Determinant there(point.pencil.K[0], 0.0);
+    const Determinant there(held_stiffness(point).K, 0.0);
     return there.sign * std::exp(there.logarithm - left.logarithm);
   };
   double a = left.coordinate;
@@ -218,7 +245,7 @@ std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& 
   if (!side.path.x.allFinite() || !side.path.lambda.allFinite()) return std::nullopt;
   side.coordinate = point.plane ? (*point.plane)(point.equilibrium.x, point.p) : point.p;
   side.heading = coefficient(side.path.parameters, solver.problem().traced, 1);
-  const Determinant stiffness(point.pencil.K[0], point.equilibrium.linearization.K[0].one_norm());
+  const Determinant stiffness = held_stiffness(point).determinant();
   side.sign = stiffness.sign;
   side.logarithm = stiffness.logarithm;
   return side;
@@ -240,8 +267,8 @@ bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const Path
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point) {
   const PathProblem& problem = solver.problem();
   if (!equilibrium_moves(problem) || point.pencil.size() == 0) return std::nullopt;
-  const double scale = point.equilibrium.linearization.K[0].one_norm();
-  if (Determinant(point.pencil.K[0], scale).sign != 0.0) return std::nullopt;
+  const Stiffness stiffness = held_stiffness(point);
+  if (stiffness.K.size() == 0 || stiffness.determinant().sign != 0.0) return std::nullopt;
   const std::optional<PathNode> node = differentiate_point(problem, point, solver.counts());
   if (!node) return std::nullopt;
   frame.largest_position = std::max(frame.largest_position, node->path.x.col(0).norm());

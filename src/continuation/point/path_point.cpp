@@ -67,6 +67,16 @@ EvaluationFault series_along(const PathProblem& problem, const PathPoint& point,
                                    counts.evaluations);
 }
 
+/// The same along the traced parameter.
+EvaluationFault series_along_path(const PathProblem& problem, const PathPoint& point, int order, Path& path,
+                                  RunCounts& counts) {
+  const VectorSeries parameters = straight_series(problem, point, problem.traced);
+  if (!problem.rests || problem.structure.fixed_equilibrium)
+    return series_along(problem, point, parameters, order, path, counts);
+  return differentiate_multipliers(problem.model, point.equilibrium, parameters, order, path,
+                                   counts.evaluations);
+}
+
 /// Tangent basis and reduced pencil at the point's equilibrium. Sets the status if there is no equilibrium.
 void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
                   RunCounts& counts) {
@@ -140,10 +150,7 @@ EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& 
     path = *point.known;
     return {};
   }
-  if (!point.plane) {
-    const VectorSeries parameters = straight_series(problem, point, problem.traced);
-    return series_along(problem, point, parameters, order, path, counts);
-  }
+  if (!point.plane) return series_along_path(problem, point, order, path, counts);
   return differentiate_equilibrium_on(*point.plane, problem.model, point.equilibrium,
                                       parameters_at(problem, point.p), problem.traced, order, path,
                                       counts.evaluations);

@@ -152,14 +152,17 @@ std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
 std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z, int part) {
   const TangentBasis& basis = node.basis;
   if (basis.is_identity) return Z;
-  if (basis.parts) {
+  if (basis.parts && basis.T.size() == 1) {
     for (ComplexMatrix& coefficient : Z) coefficient = basis.shapes(coefficient, part);
     return Z;
   }
   // For a large model, a complex copy of the basis for every mode would take longer than the product.
   if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
+  const IndependentParts::Range columns = basis.parts ? basis.parts->ranges[static_cast<std::size_t>(part)]
+                                                      : IndependentParts::Range{0, basis.T[0].cols()};
   std::vector<ComplexMatrix> T;
-  for (const Matrix& coefficient : basis.T) T.emplace_back(coefficient.cast<Complex>());
+  for (const Matrix& coefficient : basis.T)
+    T.emplace_back(coefficient.middleCols(columns.first, columns.size).cast<Complex>());
   return multiply_series(T, Z, Z.size());
 }
 

@@ -318,7 +318,9 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
   }
   if (!problem.parts && fits(state.origin.node.path, problem.model)) {
     const Path& path = state.origin.node.path;
-    problem.parts = parts_on_range(problem, options, path.x.col(0), path.lambda.col(0));
+    const SceneOnRange scene = scene_on_range(problem, options, path.x.col(0), path.lambda.col(0));
+    problem.rests = scene.rests;
+    problem.parts = scene.parts;
   }
   for (PathNode* node : {&state.origin.node, &state.origin.previous}) node->basis.parts = problem.parts;
   if (state.origin.tried) state.origin.tried->basis.parts = problem.parts;

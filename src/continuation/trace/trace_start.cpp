@@ -111,7 +111,9 @@ std::optional<StartFailure> Start::compute() {
 void Start::find_parts() {
   if (problem_.parts) return;
   const Equilibrium& equilibrium = point_.equilibrium;
-  problem_.parts = parts_on_range(problem_, options_, equilibrium.x, equilibrium.lambda);
+  const SceneOnRange scene = scene_on_range(problem_, options_, equilibrium.x, equilibrium.lambda);
+  problem_.rests = scene.rests;
+  problem_.parts = scene.parts;
   if (!problem_.parts) return;
   point_.basis = basis_of(problem_.parts);
   point_.pencil = reduce(equilibrium.linearization, point_.basis, 0);
