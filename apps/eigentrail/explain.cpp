@@ -252,22 +252,19 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
   const bool computed = point.status == PointStatus::computed;
   const Sizes sizes = sizes_at(*model, point);
+  auto parts = find_independent_parts(model->coefficient_matrices(problem.parameters, problem.traced));
+  if (!parts && computed)
+    parts = scene_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda).parts;
   if (computed) {
     std::vector<std::string> sentences = in_words(setup, structure, sizes);
-    if (is_rotor(scene)) {
-      const std::vector<std::string> free =
-          free_motions_in_words(model->description(), point.equilibrium.linearization.K[0].dense());
-      sentences.insert(sentences.end(), free.begin(), free.end());
-    }
+    const std::vector<std::string> free = free_motions_in_words(*model, point, parts.get());
+    sentences.insert(sentences.end(), free.begin(), free.end());
     for (const std::string& sentence : sentences) std::fprintf(to, "  %s\n", sentence.c_str());
   }
   print_parameters(to, *model, traced);
   print_data(to, *model);
   print_effects(to, *model);
   print_states(to, *model);
-  auto parts = find_independent_parts(model->coefficient_matrices(problem.parameters, problem.traced));
-  if (!parts && computed)
-    parts = scene_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda).parts;
   print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,

@@ -172,6 +172,32 @@ TEST(IndependentParts, HaveZerosWhereEntriesAreRoundingThroughout) {
   EXPECT_GT(pencil.of(rigid).M[0](0, 0), 0.0);
 }
 
+/// Two masses that nothing holds beside an oscillator, in mixed coordinates: the two free motions have simple
+/// coordinates in which the mass is diagonal.
+TEST(IndependentParts, OfFreeMotionsAreSimple) {
+  const Matrix M{{2.0, 0.5, 0.0}, {0.5, 3.0, 0.0}, {0.0, 0.0, 1.0}};
+  const Matrix K{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 4.0}};
+  const auto parts = find_independent_parts({{M}, {}, {K}});
+  ASSERT_NE(parts, nullptr);
+  EXPECT_EQ(sizes_of(*parts), (Sizes{1, 1, 1}));
+  EXPECT_LT((parts->inverse * parts->right - Matrix::Identity(3, 3)).norm(), rounding);
+  const Matrix mass = parts->left.transpose() * M * parts->right;
+  EXPECT_LT((mass - Matrix(mass.diagonal().asDiagonal())).norm(), rounding * mass.norm());
+  int simple = 0;
+  for (const auto& motion : parts->right.colwise()) simple += (motion.array() != 0.0).count() == 1 ? 1 : 0;
+  EXPECT_EQ(simple, 2);  // one free motion and the oscillator; the other free motion has to be independent
+}
+
+/// Freedoms without forces do not spoil the scaling of the others.
+TEST(IndependentParts, OfFreeMotionsHaveAScale) {
+  const Matrix M = Eigen::Vector3d(2.0, 3.0, 5.0).asDiagonal();
+  const Matrix K{{1000.0, -1000.0, 0.0}, {-1000.0, 1000.0, 0.0}, {0.0, 0.0, 0.0}};
+  const auto parts = find_independent_parts({{M}, {}, {K}});
+  ASSERT_NE(parts, nullptr);
+  EXPECT_LT(parts->right.cwiseAbs().maxCoeff(), 1e3);
+  EXPECT_GT(parts->right.colwise().norm().minCoeff(), 1e-3);
+}
+
 TEST(IndependentParts, BalanceUnits) {
   // Metres beside micrometres: the entries differ by a million and more.
   const Matrix M{{2.0, 0.3}, {0.3, 1.0}};

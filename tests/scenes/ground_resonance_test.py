@@ -73,6 +73,18 @@ class GroundResonance(RotorTest):
         self.assertTrue(unstable(1245.0))
         self.assertFalse(unstable(1250.0))
 
+    def test_overdamped_lag_meets_once_for_each_free_blade(self):
+        """Collective and differential lag leave the hub at rest: two equal pairs, each of which is born on the real axis
+        where c = 2 sqrt(I e S) omega. Nothing else happens there, however close the copies are."""
+        p = self.parameters()
+        for damper in (3500.0, 3667.0, 4000.0):
+            file = self.trace_text(self.changed(lag_damper=damper), tolerance=1e-8)
+            met = damper / (2.0 * math.sqrt(p["second"] * p["offset"] * p["first"])) / RPM
+            collisions = self.event_parameters(file, "collision")
+            np.testing.assert_allclose(collisions, [met, met], rtol=1e-8)
+            veerings = np.array(self.event_parameters(file, "veering"))
+            self.assertGreater(np.min(np.abs(veerings - met)), 0.1, damper)
+
     def test_full_dampers_keep_it_stable(self):
         """Hammond (1974): with 4068 N m s/rad at every blade there is no instability."""
         file = self.trace_text(self.changed(lag_damper=4067.5), "--from", "100")

@@ -1,0 +1,29 @@
+// Splitting of matrices into independent parts in suitable coordinates (see independent_parts.hpp).
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+using Random = std::mt19937_64;
+
+/// A linear combination of the matrices with normally distributed factors.
+Matrix random_combination(const std::vector<Matrix>& all, Random& random);
+
+/// Coordinates of parts in balanced coordinates: columns of `right` and `left`, part after part.
+struct Splitting {
+  Matrix right, left;
+  std::vector<Eigen::Index> sizes;
+  /// Per part, whether it belongs to a complex pair of eigenvalues of X. Then it is a complex pair of parts
+  /// that no real coordinates separate, or two equal parts of which another X would tell.
+  std::vector<bool> of_pair;
+};
+
+/// The parts of any matrices, all n x n and of norm one. Coordinates that no entry connects come first: they
+/// are separated without rounding. `magnified`: rounding of the matrices in units of their own, >= 1.
+Splitting split(const std::vector<Matrix>& all, double magnified);
+
+}  // namespace eigentrail
