@@ -61,7 +61,8 @@ void print_heading(const TraceSummary& trace) {
   }
 }
 
-/// Frequency and damping of an eigenvalue. Zero has no damping. A real one has no frequency: its rate stands for the damping.
+/// Frequency and damping of an eigenvalue. Zero has no damping. A real one has no frequency: its rate stands
+/// for the damping.
 std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, double reference) {
   if (std::isnan(s.real())) return {"-", "-"};
   if (!std::isfinite(s.real())) return {"infinite", "-"};

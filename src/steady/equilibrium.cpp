@@ -258,22 +258,34 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   return result;
 }
 
-std::optional<Vector> multipliers_at_rest(const Model& model, const Vector& parameters, const Vector& x,
-                                          EvaluationCounts& counts) {
-  Equilibrium at;
-  at.x = x;
-  at.lambda = Vector::Zero(model.n_constraints());
+Equilibrium equilibrium_at_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                EvaluationCounts& counts) {
+  Equilibrium result;
+  result.x = x;
+  result.lambda = Vector::Zero(model.n_constraints());
+  SteadyProblem problem(model, parameters, counts, result.report);
+  SteadyResidual residual;
+  if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
+  result.kkt = KktFactorization(result.linearization.A[0]);
+  result.lambda = result.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(0));
+  if (const auto fault = problem.linearize(result.x, result.lambda, result.linearization))
+    return not_finite(std::move(result), fault);
+  result.status = SteadyStatus::converged;
+  return result;
+}
+
+std::optional<Equilibrium> find_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                     EvaluationCounts& counts) {
+  Equilibrium at = equilibrium_at_rest(model, parameters, x, counts);
   SteadyProblem problem(model, parameters, counts, at.report);
   SteadyResidual residual;
-  if (problem.evaluate(at, residual)) return std::nullopt;
-  at.lambda =
-      ConstraintFactorization(at.linearization.A[0]).transposed_pseudo_inverse_times(-residual.force.col(0));
-  if (problem.evaluate(at, residual)) return std::nullopt;
+  if (at.status != SteadyStatus::converged || problem.evaluate(at.x, at.lambda, residual))
+    return std::nullopt;
   const Scales scales = find_scales(at.x, at.lambda, at.linearization, residual);
   Vector dx, dl;
   problem.factor(at.linearization).solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
   if (!(dx.lpNorm<Eigen::Infinity>() <= newton_rounding * scales.length)) return std::nullopt;
-  return at.lambda;
+  return at;
 }
 
 Equilibrium keep_equilibrium(const Model& model, const Vector& parameters, const Vector& x,

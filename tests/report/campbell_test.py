@@ -120,7 +120,8 @@ class Campbell(PageTest):
         modes = "return [...new Set(document.querySelector('.campbell').data.filter((t) => t.meta && 'mode' in t.meta && t.yaxis === 'y2').map((t) => t.meta.mode))]"
         with h5py.File(self.folder / "wing.h5") as file:
             s = file["eigenvalue"][()]
-        oscillating = np.flatnonzero(np.any(np.abs(s.imag) > 1e-6 * np.abs(s), axis=0))
+        # Where two real roots meet, a step ends on the double root, which is known to the root of rounding.
+        oscillating = np.flatnonzero(np.any(np.abs(s.imag) > 1e-4 * np.abs(s), axis=0))
         self.assertEqual(sorted(self.driver.execute_script(modes)), list(oscillating))
         self.assertLess(len(oscillating), s.shape[1])
         self.control("real roots").click()

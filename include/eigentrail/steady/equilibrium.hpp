@@ -48,10 +48,14 @@ struct [[nodiscard]] Equilibrium {
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 
-/// The multipliers with which the positions x are an equilibrium at given parameters: those of least squares
-/// (Eq. 15). Empty where a Newton correction of x would be more than rounding. Cost: one factorization.
-std::optional<Vector> multipliers_at_rest(const Model& model, const Vector& parameters, const Vector& x,
-                                          EvaluationCounts& counts);
+/// The equilibrium at positions x that are known to be one: the multipliers are those of least squares (Eq.
+/// 15). Only the constraints are factored.
+Equilibrium equilibrium_at_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                EvaluationCounts& counts);
+
+/// The same, where it is not known: empty if a Newton correction of x is more than rounding.
+std::optional<Equilibrium> find_rest(const Model& model, const Vector& parameters, const Vector& x,
+                                     EvaluationCounts& counts);
 
 /// Takes an equilibrium that is already known: linearizes at (x, lambda) and factors the constraints, without
 /// solving.

@@ -6,14 +6,14 @@
 namespace eigentrail {
 namespace {
 
-/// Series of x, lambda and p - p0 as rows of one matrix.
+/// Series of x, lambda and p - p0 as rows of one matrix. Positions that rest have no coefficients but the
+/// first.
 ComplexMatrix stacked(const Path& path, int traced, double p0) {
-  ComplexMatrix rows(path.x.rows() + path.lambda.rows() + 1, path.x.cols());
-  rows.setZero();
-  rows.topRows(path.x.rows()) = path.x.cast<Complex>();
-  rows.middleRows(path.x.rows(), path.lambda.rows()) = path.lambda.cast<Complex>();
-  for (Eigen::Index k = 0; k < path.x.cols(); ++k)
-    rows(rows.rows() - 1, k) = coefficient(path.parameters, traced, k);
+  const Eigen::Index count = std::max(path.x.cols(), path.lambda.cols());
+  ComplexMatrix rows = ComplexMatrix::Zero(path.x.rows() + path.lambda.rows() + 1, count);
+  rows.topLeftCorner(path.x.rows(), path.x.cols()) = path.x.cast<Complex>();
+  rows.block(path.x.rows(), 0, path.lambda.rows(), path.lambda.cols()) = path.lambda.cast<Complex>();
+  for (Eigen::Index k = 0; k < count; ++k) rows(rows.rows() - 1, k) = coefficient(path.parameters, traced, k);
   rows(rows.rows() - 1, 0) -= p0;
   return rows;
 }

@@ -35,7 +35,8 @@ std::optional<PathPlane> plane_across(const PointSolver& solver, const PathNode&
   directions.row(n) /= scales.p;
   directions.colwise().normalize();
   Vector own(n + 1);
-  own << node.path.x.col(1) / scales.x, solver.frame().speed(node) / scales.p;
+  const Vector dx = node.path.x.cols() > 1 ? Vector(node.path.x.col(1)) : Vector(Vector::Zero(n));
+  own << dx / scales.x, solver.frame().speed(node) / scales.p;
   own.normalize();
   const Matrix others = directions - own * (own.transpose() * directions);
   const bool first = others.col(0).norm() >= others.col(1).norm();

@@ -26,6 +26,8 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
     const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
     return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
+  if (problem.rests && guess.solved && !plane)
+    return equilibrium_at_rest(problem.model, parameters, guess.x, counts.evaluations);
   // Relaxation to a state of rest is allowed only at the start. On the path a failure indicates a fold or a
   // branch point, and relaxation might lead to an equilibrium on another path.
   SteadyOptions steady = problem.steady;

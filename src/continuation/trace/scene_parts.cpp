@@ -32,9 +32,9 @@ std::optional<Path> resting_path(const PathProblem& problem, double p, const Pat
   const Structure& structure = problem.structure;
   if (structure.fixed_equilibrium && structure.constant_constraints)
     return Path{parameters_at(problem, p), start.x, start.lambda};
-  auto lambda = multipliers_at_rest(problem.model, parameters_at(problem, p), start.x.col(0), counts);
-  if (!lambda) return std::nullopt;
-  return Path{parameters_at(problem, p), start.x, *lambda};
+  const auto rest = find_rest(problem.model, parameters_at(problem, p), start.x.col(0), counts);
+  if (!rest) return std::nullopt;
+  return Path{parameters_at(problem, p), start.x, rest->lambda};
 }
 
 bool leaves_its_path(const TraceOptions& options) {
