@@ -19,7 +19,7 @@ FOLDERS = {"scenes/README": "scenes/", "developers/README": "developers/"}
 
 def pages_of(patterns, known):
     """Pages that exist, in the order of the patterns."""
-    return [page for pattern in patterns for page in sorted(known) if pathlib.PurePath(page).match(pattern)]
+    return [page for pattern in patterns for page in sorted(known) if pathlib.PurePath("/", page).match(f"/{pattern}")]
 
 
 def toctree(pages, caption=""):
