@@ -99,6 +99,27 @@ class Campbell(PageTest):
         self.type("up to", "1500")
         self.assertEqual(self.layout("layout.yaxis.range")[1], 1500.0)
 
+    def test_rays_that_nobody_asked_for_hide_no_low_modes(self):
+        """Modes at 10, 20, ... 50 rad/s, all above 4x at the highest speed: the lowest three remain in sight."""
+        stiffness = [[float((10 * (i + 1))**2 * (i == j)) for j in range(5)] for i in range(5)]
+        unit = [[float(i == j) for j in range(5)] for i in range(5)]
+        self.trace(f"""
+            [parameters]
+            omega = {{ value = 1, unit = "rad/s" }}
+            [trace]
+            parameter = "omega"
+            from = 0
+            to = 2
+            [matrix_family]
+            M = [{unit}]
+            K = [{stiffness}, {unit}]
+            """, output="fan.h5")
+        self.show("fan.h5")
+        third, fastest = np.sqrt(902.0), 2.0
+        self.assertAlmostEqual(self.layout("layout.yaxis.range")[1] / (1.06 * third), 1.0, 6)
+        self.type("Harmonics", "1, 2")
+        self.assertAlmostEqual(self.layout("layout.yaxis.range")[1] / (1.06 * 2.0 * fastest), 1.0, 6)
+
     def test_logarithmic_frequencies(self):
         self.disc()
         before = self.lines(3)

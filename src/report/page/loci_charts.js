@@ -2,6 +2,7 @@
 // Draws the charts of a LociView: Campbell diagram and root locus.
 
 const MOST_DECADES = 4;  // of frequency on a logarithmic axis
+const SHOWN_ANYWAY = 3;  // lowest modes that are shown even if they are above rays that nobody asked for
 
 class LociCharts {
   zoomed(figure, change) {
@@ -18,23 +19,24 @@ class LociCharts {
     this.timer = setTimeout(() => this.draw(), 120);
   }
 
-  /** The window of a chart that shows all active modes, as far as the chart has them. */
-  wholeWindow(chart) {
-    const xs = [], ys = [], hidesReal = chart !== "locus" && !this.settings.realRoots;
-    for (const file of this.files) {
+  /** Points [x, y] of all active modes in a chart, as far as the chart has them: a list for each mode. */
+  sampledModes(chart) {
+    const hidesReal = chart !== "locus" && !this.settings.realRoots;
+    return this.files.flatMap((file) => {
       const project = CHARTS[chart].project(file, this.settings);
-      file.path.modes.forEach((stretches, mode) => {
-        if (!this.isActive({ file, mode })) return;
-        for (const stretch of stretches) {
-          const samples = stretch.samples(), stride = Math.max(1, Math.floor(samples.length / 200));
-          for (const place of [...samples.filter((_, i) => i % stride === 0), stretch.to]) {
-            const s = stretch.at(place), [x, y] = project(place, s);
-            if (Number.isFinite(x) && Number.isFinite(y) && !(hidesReal && stretch.isReal(s))) { xs.push(x); ys.push(y); }
-          }
-        }
-      });
-    }
-    return { x: usualRange(xs), y: usualRange(ys) };
+      return file.path.modes.filter((_, mode) => this.isActive({ file, mode })).map((stretches) => stretches.flatMap((stretch) => {
+        const samples = stretch.samples(), stride = Math.max(1, Math.floor(samples.length / 200));
+        return [...samples.filter((_, i) => i % stride === 0), stretch.to].map((place) => [place, stretch.at(place)])
+          .filter(([, s]) => !(hidesReal && stretch.isReal(s))).map(([place, s]) => project(place, s))
+          .filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y));
+      }));
+    });
+  }
+
+  /** The window of a chart that shows all active modes. */
+  wholeWindow(chart) {
+    const points = this.sampledModes(chart).flat();
+    return { x: usualRange(points.map(([x]) => x)), y: usualRange(points.map(([, y]) => y)) };
   }
 
   view(window, size) {
@@ -127,13 +129,24 @@ class LociCharts {
     return [crossingTrace(critical, plot), labelTrace(placed, view, plot, "inside"), nameTrace(lines, style, view, nameOf)];
   }
 
-  /** Frequencies from zero to the highest mode, but not above the highest ray; or as far as asked for. */
+  /** The highest frequency of the `count` lowest modes. */
+  topOfLowest(count) {
+    const modes = this.sampledModes("frequency").map((points) => points.map(([, y]) => y)).filter((ys) => ys.length);
+    const lowest = modes.map((ys) => [Math.min(...ys), Math.max(...ys)]).sort((a, b) => a[0] - b[0]).slice(0, count);
+    return Math.max(...lowest.map(([, high]) => high));
+  }
+
+  /**
+   * Frequencies from zero to the highest mode, but not above the highest ray; or as far as asked for. Rays that neither the
+   * scene nor the reader has asked for leave at least the lowest modes in sight.
+   */
   frequencyRange() {
     const { settings, files } = this, [low, high] = this.wholeWindow("frequency").y;
     const source = files.find((file) => file.data.excitation);
     const fastest = source ? Math.max(...source.data.excitation.frequency.map(Math.abs)) : 0;
     const ray = onFrequencyAxis(Math.max(0, ...settings.harmonics) * fastest * settings.unitFactor, settings);
-    const top = settings.highest ? onFrequencyAxis(settings.highest, settings) : settings.harmonics.length && fastest > 0 ? Math.min(high, ray) : high;
+    const hasRays = settings.harmonics.length && fastest > 0, end = settings.raysAsked ? ray : Math.max(ray, this.topOfLowest(SHOWN_ANYWAY));
+    const top = settings.highest ? onFrequencyAxis(settings.highest, settings) : hasRays ? Math.min(high, end) : high;
     if (!settings.logarithmic) return [-0.02 * (top || 1), (settings.highest ? 1 : 1.06) * (top || 1)];
     const bottom = Math.max(Math.min(low, top - 0.3), top - MOST_DECADES);
     return padded([bottom, top], settings.highest ? 0 : 0.03);

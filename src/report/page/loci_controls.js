@@ -20,7 +20,7 @@ function lociControls(view) {
     change: () => {
       const typed = harmonics.value.split(/[\s,;×x]+/).map(Number).filter((n) => Number.isFinite(n) && n > 0);
       harmonics.value = typed.join(", ");
-      apply({ harmonics: [...new Set(typed)] });
+      apply({ harmonics: [...new Set(typed)], raysAsked: true });
     } });
   const highest = element("input", { type: "text", inputmode: "decimal", class: "short", placeholder: "all", "aria-label": "highest frequency shown",
     change: () => {
@@ -35,7 +35,7 @@ function lociControls(view) {
       highest.value = "";
       apply({ unit, unitFactor: units[unit], highest: null });
     }),
-    element("label", { title: "highest frequency of the diagram, in its unit; empty: all modes, or the highest ray" }, "up to", highest),
+    element("label", { title: "highest frequency of the diagram, in its unit; empty: all modes, or up to the highest ray" }, "up to", highest),
     checkControl("log", false, set("logarithmic"), "logarithmic frequencies"),
     selectControl("Damping", { ratio: "ratio −Re s/abs(s)", real: "Re s" }, "ratio", set("damping")),
     checkControl("real roots", settings.realRoots, set("realRoots"), "modes without a frequency in the Campbell diagram, too"),

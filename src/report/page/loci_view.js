@@ -18,7 +18,7 @@ class LociView extends LociCharts {
     this.units = { [unit]: 1 / factor, ...FREQUENCY_UNITS };
     this.settings = { unit, unitFactor: 1 / factor, frequency: "imag", damping: "ratio", eventNames: true, colourBy: datas.length > 1 ? "file" : "parameter",
       logarithmic: false, realRoots: !this.files.some((file) => file.oscillates()), highest: null,
-      harmonics: rays ? (asked.length ? asked : [1, 2, 3, 4]) : [], hasRays: Boolean(rays) };
+      harmonics: rays ? (asked.length ? asked : [1, 2, 3, 4]) : [], hasRays: Boolean(rays), raysAsked: asked.length > 0 };
     this.isolated = new Set();
     this.zoom = { campbell: null, locus: null };
     this.lines = {};
