@@ -1,6 +1,7 @@
 #include "eigentrail/modes/motion_names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -8,7 +9,8 @@
 namespace eigentrail {
 namespace {
 
-constexpr const char* velocity = " velocity";
+/// Endings of the name of a velocity, behind that of its position.
+constexpr std::array velocities{" velocity", " rate"};
 constexpr const char* cosine = " cosine";
 constexpr const char* sine = " sine";
 
@@ -34,8 +36,11 @@ std::vector<Motion> with_velocities(const std::vector<std::string>& names, const
       motions.push_back({names[i], static_cast<Eigen::Index>(i), 0.0});
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto position = known.find(before(names[i], velocity));
-    const std::size_t own = position == known.end() ? known.at(names[i]) : position->second;
+    std::size_t own = known.at(names[i]);
+    for (const char* velocity : velocities) {
+      const auto position = known.find(before(names[i], velocity));
+      if (position != known.end()) own = position->second;
+    }
     motions[own].share += shares[static_cast<Eigen::Index>(i)];
   }
   return motions;

@@ -57,16 +57,12 @@ std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Ma
 
 /// Whether the entries of left^T A right are more than rounding, for any of the matrices; within the parts.
 Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts, double magnified) {
-  // Of an entry, relative to the sum of the magnitudes of its terms.
-  const double rounding = 1e-13 * magnified;
   const Eigen::Index n = parts.right.rows();
   Matrix pattern = Matrix::Zero(n, n);
-  const Matrix left = parts.left.cwiseAbs().transpose();
-  const Matrix right = parts.right.cwiseAbs();
   for (const Matrix& A : matrices) {
-    const Matrix there = parts.left.transpose() * A * parts.right;
-    const Matrix terms = left * A.cwiseAbs() * right;
-    pattern = pattern.cwiseMax((there.cwiseAbs().array() > rounding * terms.array()).cast<double>().matrix());
+    const Matrix there = (parts.left.transpose() * A * parts.right).cwiseAbs();
+    const Matrix rounding = rounding_of_entries(parts.left, A, parts.right, magnified);
+    pattern = pattern.cwiseMax((there.array() > rounding.array()).cast<double>().matrix());
   }
   Matrix within = Matrix::Zero(n, n);
   for (const IndependentParts::Range& range : parts.ranges)

@@ -297,23 +297,32 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& searc
   return result;
 }
 
+/// Coordinates without entries that are rounding of the largest one in their column. Computed vectors have
+/// such entries in place of zeros, and nothing could tell whether they matter.
+Matrix without_rounding_of_columns(Matrix coordinates) {
+  constexpr double rounding = 2e-15;
+  for (auto column : coordinates.colwise()) {
+    const double least = rounding * column.cwiseAbs().maxCoeff();
+    column = (column.array().abs() > least).select(column, 0.0).eval();
+  }
+  return coordinates;
+}
+
 /// Whether the matrices are block diagonal in the coordinates of a splitting, up to rounding: as a whole, and
 /// every entry compared with the terms it is the sum of. The second keeps a weak coupling of freedoms with
 /// small entries, which is no rounding however large other entries are.
 bool holds(const Splitting& splitting, const std::vector<Matrix>& all, double magnified) {
-  // Of an entry, relative to the sum of the magnitudes of its terms.
-  const double rounding = 1e-13 * magnified;
   const double size = std::max(splitting.left.norm() * splitting.right.norm(), 1.0);
   return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
     Matrix there = splitting.left.transpose() * A * splitting.right;
-    const Matrix terms = splitting.left.cwiseAbs().transpose() * A.cwiseAbs() * splitting.right.cwiseAbs();
+    const Matrix rounding = rounding_of_entries(splitting.left, A, splitting.right, magnified);
     Eigen::Index at = 0;
     for (const Eigen::Index m : splitting.sizes) {
       there.block(at, at, m, m).setZero();
       at += m;
     }
     return there.norm() <= magnified * no_coupling * size &&
-           (there.cwiseAbs().array() <= rounding * terms.array()).all();
+           (there.cwiseAbs().array() <= rounding.array()).all();
   });
 }
 
@@ -367,7 +376,9 @@ Splitting split_connected(const std::vector<Matrix>& all, Search& search) {
     const bool is_one = found->sizes.size() == 1 && !found->of_pair[0];
     if (is_one && search.slack > 1.0) break;  // X is a multiple of the unit matrix
     if (is_one) continue;
-    const Splitting finer = refined(*found, all, search);
+    Splitting finer = refined(*found, all, search);
+    finer.right = without_rounding_of_columns(std::move(finer.right));
+    finer.left = without_rounding_of_columns(std::move(finer.left));
     if (finer.sizes.size() == 1 || !holds(finer, all, search.rounding)) continue;
     if (finer.sizes.size() == best.sizes.size()) break;  // twice the same
     if (finer.sizes.size() > best.sizes.size()) best = finer;
@@ -404,6 +415,11 @@ Splitting split(const std::vector<Matrix>& all, double magnified) {
   }
   result.of_pair.assign(result.sizes.size(), false);
   return result;
+}
+
+Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified) {
+  constexpr double rounding = 1e-13;
+  return magnified * rounding * (left.cwiseAbs().transpose() * A.cwiseAbs() * right.cwiseAbs());
 }
 
 }  // namespace eigentrail

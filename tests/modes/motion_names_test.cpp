@@ -20,6 +20,15 @@ TEST(MotionNames, VelocitiesBelongToTheirMotion) {
   EXPECT_EQ(found[2].name, "lag state velocity") << "without the position it is a motion of its own";
 }
 
+TEST(MotionNames, RatesBelongToTheirMotion) {
+  const auto found = motion_shares({"plunge", "plunge rate", "yaw rate"}, Vector{{0.3, 0.3, 0.4}},
+                                   ComplexVector{{1.0, i, 2.0}});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "plunge");
+  EXPECT_NEAR(found[0].share, 0.6, 1e-15);
+  EXPECT_EQ(found[1].name, "yaw rate");
+}
+
 /// q_k = cos(psi_k - w t) turns with the rotor: c = cos(w t), s = sin(w t).
 TEST(MotionNames, WavesTurnWithTheRotorOrAgainstIt) {
   const std::vector<std::string> names{"1st flap collective", "1st flap cosine", "1st flap sine"};

@@ -9,29 +9,28 @@ from scene_test_case import SceneTest
 
 HEAD = """
 [parameters]
-k = {{ value = 1000.0, unit = "N/m" }}
+k = { value = 1000.0, unit = "N/m" }
 [trace]
 parameter = "k"
 from = 500
 to = 2000
-{0}
 """
 
-BODY = HEAD.format("""
+BODY = HEAD + """
 [[body]]
 name = "hull"
 mass = 5
 inertia = [1, 2, 3]
 position = [0, 0, 0]
-{}
+CENTRE
 [[spring]]
 from = [0, 0, -1]
 to = "hull"
 stiffness = "k"
 free_length = 1
-""")
+"""
 
-MASSES = HEAD.format("""
+MASSES = HEAD + """
 [[point]]
 name = "a"
 mass = 2
@@ -45,7 +44,7 @@ from = "a"
 to = "b"
 stiffness = "k"
 free_length = 1
-""")
+"""
 
 
 def spectrum(file):
@@ -57,7 +56,7 @@ def spectrum(file):
 class FreeBodies(SceneTest):
     def test_a_body_on_one_spring(self):
         """It moves freely but along the spring: five double zeros."""
-        k, s, names = spectrum(self.trace_text(BODY.format(""), tolerance=1e-8))
+        k, s, names = spectrum(self.trace_text(BODY.replace("CENTRE", ""), tolerance=1e-8))
         zeros = np.all(s == 0.0, axis=0)
         self.assertEqual(np.count_nonzero(zeros), 10)
         self.assertEqual({name.rsplit(" ", 1)[0] for name, zero in zip(names, zeros) if zero},
@@ -66,7 +65,7 @@ class FreeBodies(SceneTest):
 
     def test_a_body_whose_centre_is_elsewhere(self):
         """Displacement and rotation are coupled by the mass; zeros remain exact."""
-        k, s, _ = spectrum(self.trace_text(BODY.format("centre = [0.3, 0.2, 0]"), tolerance=1e-8))
+        k, s, _ = spectrum(self.trace_text(BODY.replace("CENTRE", "centre = [0.3, 0.2, 0]"), tolerance=1e-8))
         self.assertEqual(np.count_nonzero(np.all(s == 0.0, axis=0)), 10)
 
     def test_two_masses_and_a_spring(self):
@@ -79,7 +78,7 @@ class FreeBodies(SceneTest):
         self.assertIn("zero throughout", text)
 
     def test_explain_names_what_is_free(self):
-        (self.folder / "hull.toml").write_text(BODY.format(""))
+        (self.folder / "hull.toml").write_text(BODY.replace("CENTRE", ""))
         text = self.run_well("explain", "hull.toml")
         self.assertIn("Free to move, with eigenvalues zero throughout: along x, along y, ", text)
         self.assertIn("a spring, a joint or another constraint holds them", text)

@@ -17,7 +17,7 @@ struct MotionShare {
 /// The motions of a mode, by descending share. `names`: of n coordinates or states; `shares`: n, adding up to
 /// one; `shape`: n, of the eigenvalue with Im s >= 0, for motions as exp(s t).
 ///
-/// * "X velocity" is a part of the motion X, if there is one.
+/// * "X velocity" and "X rate" are parts of the motion X, if there is one.
 /// * "X cosine" and "X sine" are multiblade coordinates, q_k = c cos(psi_k) + s sin(psi_k), of which |c + i
 /// s|
 ///   belongs to a wave that turns with the rotor, "X progressive", and |c - i s| to one that turns against

@@ -330,6 +330,25 @@ double first_step(const PathNode& node, const PathProblem& problem, const TraceO
   return std::max(step, shortest_first * range);
 }
 
+namespace {
+
+/// Eigenvalues that coincide at the first point get their numbers by ascending magnitude behind it. Without
+/// this, rounding would decide which is the first.
+void number_by_magnitude(Track& track) {
+  constexpr double coincide = 1e-6;  // relative distance
+  ComplexVector& behind = track.departure->roots;
+  for (std::size_t a = 0; a < track.met.size(); ++a) {
+    for (std::size_t b = a + 1; b < track.met.size(); ++b) {
+      const int i = track.met[a], j = track.met[b];
+      const bool together = std::abs(track.roots[i] - track.roots[j]) <= coincide * std::abs(track.roots[i]);
+      const bool first = track.modes[static_cast<std::size_t>(i)] < track.modes[static_cast<std::size_t>(j)];
+      if (together && (std::abs(behind[i]) < std::abs(behind[j])) != first) std::swap(behind[i], behind[j]);
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const PathFrame& frame,
                                          PathNode& node, ModeNumbers& numbers) {
   const double distance = frame.direction * beside_start * frame.range.length();
@@ -341,6 +360,8 @@ std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const P
     if (track.pair.is_real) {
       const std::vector<Birth> born = settle_real_block(track, numbers);
       births.insert(births.end(), born.begin(), born.end());
+    } else {
+      number_by_magnitude(track);
     }
     track.arriving = track.modes;
   }

@@ -45,8 +45,12 @@ class AccuracyView {
       return { type: "log", exponentformat: "power", minexponent: 0, dtick: range[1] - range[0] > 6 ? 2 : 1, ...(values.length ? { range: padded(range, 0.03) } : {}) };
     };
     const seen = (key) => traces.flatMap((trace) => trace[key]);
-    Plotly.react(this.figure, traces, figureLayout({ hovermode: "closest", margin: { l: 66, r: 16, t: 16, b: 46 },
-      legend: isNarrow() ? { orientation: "h", y: -0.16, font: { size: 11 } } : { orientation: "v", x: 1.01, y: 1, font: { size: 12 } },
+    // On a narrow page the names stand below the axis, one per line, and the figure grows by their height.
+    const names = isNarrow() ? 19 * traces.length + 12 : 0;
+    this.figure.style.height = isNarrow() ? `${400 + names}px` : "";
+    const below = { orientation: "v", x: 0, yref: "container", y: 0, yanchor: "bottom", font: { size: 11 } };
+    Plotly.react(this.figure, traces, figureLayout({ hovermode: "closest", margin: { l: 66, r: 16, t: 16, b: 46 + names },
+      legend: isNarrow() ? below : { orientation: "v", x: 1.01, y: 1, font: { size: 12 } },
       xaxis: figureAxis(this.options[work], log(seen("x"))), yaxis: figureAxis("largest error, relative", log(seen("y"))) }), figureConfig("accuracy"));
   }
 }
