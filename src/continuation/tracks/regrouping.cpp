@@ -97,11 +97,26 @@ double square_radius(const Track& track) {
   return track.size() == 1 ? 0.0 : radius;
 }
 
+/// A series in a chart; empty where it is infinite there.
+ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
+  if (track.pair.chart == chart) return series;
+  return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);
+}
+
 /// Series of the mean of a track in a chart; empty where it is infinite there.
 ComplexVector mean_in(const Track& track, Chart chart) {
-  ComplexVector mean = mean_series(track.series.Lambda);
-  if (track.pair.chart == chart) return mean;
-  return mean[0] == 0.0 ? ComplexVector() : reciprocal_series(mean);
+  return in_chart(mean_series(track.series.Lambda), track, chart);
+}
+
+/// Series of the eigenvalues of a track in a chart, as far as they are simple and finite there.
+std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
+  std::vector<ComplexVector> all;
+  for (const Complex root : track.roots) {
+    ComplexVector own = root_series(track.functions, root);
+    if (own.size() > 0) own = in_chart(std::move(own), track, chart);
+    if (own.size() > 0) all.push_back(std::move(own));
+  }
+  return all;
 }
 
 /// Replaces the tracks with the given indices by one track at the end of the list.
@@ -139,10 +154,20 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
   const Track& track = node.tracks[index];
   const double limit = reach * std::abs(h);
   const ComplexVector mean = mean_series(track.series.Lambda);
+  const std::vector<ComplexVector> members = members_in(track, track.pair.chart);
   std::vector<Partner> partners;
-  const auto consider = [&](const ComplexVector& other, double spread, Partner partner) {
-    if (other.size() == 0) return;
-    partner.distance = meeting_distance(mean, other, spread, h, limit, Doubtful::is_left_out);
+  // The mean of a block says little about its members where they are far apart.
+  const auto consider = [&](const Track& other, const ComplexVector& other_mean, double spread,
+                            Partner partner) {
+    if (other_mean.size() > 0)
+      partner.distance = meeting_distance(mean, other_mean, spread, h, limit, Doubtful::is_left_out);
+    if (track.size() + other.size() > 2) {
+      for (const ComplexVector& a : members) {
+        for (const ComplexVector& b : members_in(other, track.pair.chart))
+          partner.distance =
+              std::min(partner.distance, meeting_distance(a, b, 0.0, h, limit, Doubtful::is_left_out));
+      }
+    }
     if (partner.distance <= limit) partners.push_back(partner);
   };
   // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
@@ -154,7 +179,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const double spread =
         i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
     const ComplexVector series = mean_in(other, track.pair.chart);
-    if (i != index) consider(series, spread, {false, i});
+    if (i != index) consider(other, series, spread, {false, i, INFINITY});
     if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
     nearest_conjugate = std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h,
                                                                      limit, Doubtful::is_left_out));
