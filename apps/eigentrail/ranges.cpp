@@ -63,7 +63,7 @@ void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accurac
         "them out\n",
         zeros.c_str());
   }
-  const std::string constants = list(Permanence::constant, false);
+  const std::string constants = list(Permanence::constant, true);
   if (!constants.empty()) std::printf("  constant  modes %s\n", constants.c_str());
 }
 
