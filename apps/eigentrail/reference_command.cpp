@@ -19,8 +19,8 @@ struct ReferenceArguments {
 
 /// The heading of a table in TOML: [name] for tables that a scene may have only once, otherwise [[name]].
 std::string heading(const std::string& name) {
-  static const std::set<std::string> single = {"trace",   "events",        "modes",         "frame",
-                                               "gravity", "matrix_family", "sampled_family"};
+  static const std::set<std::string> single = {"trace",   "events", "modes",         "frame",
+                                               "gravity", "rotor",  "matrix_family", "sampled_family"};
   return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
 }
 

@@ -1,6 +1,8 @@
 #include "scene_in_words.hpp"
 
 #include <cctype>
+#include <optional>
+#include <utility>
 
 #include "eigentrail/core/text.hpp"
 
@@ -48,6 +50,23 @@ std::string prospects(const Structure& structure) {
          "(divergence).";
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
+  return text;
+}
+
+/// What the program takes for the blade and for the support of a rotor of equal blades.
+std::vector<std::string> blades_in_words(const std::optional<BladedRotor>& rotor) {
+  if (!rotor) return {};
+  return {std::to_string(rotor->blades) + " equal blades turn on '" + printable(rotor->hub) +
+              "'; one of them is " + joined(rotor->of_blade) + ". What stands: " + joined(rotor->support) +
+              ".",
+          "In multiblade coordinates (collective, cosine, sine, ...) all coefficients are constant; s is "
+          "seen from the "
+          "frame that stands."};
+}
+
 std::string equilibrium(const Structure& structure, const std::string& parameter) {
   if (structure.known_equilibrium) return "The equilibrium is zero throughout.";
   if (structure.fixed_equilibrium) return "The equilibrium does not depend on " + parameter + ".";
@@ -69,8 +88,12 @@ std::string followed(const TraceSetup& setup, const Sizes& sizes) {
 }  // namespace
 
 std::vector<std::string> in_words(const TraceSetup& setup, const Structure& structure, const Sizes& sizes) {
-  return {freedoms(*setup.model, sizes), prospects(structure),
-          equilibrium(structure, setup.options.parameter), followed(setup, sizes)};
+  std::vector<std::string> sentences = blades_in_words(setup.model->description().rotor);
+  for (std::string& sentence :
+       std::vector<std::string>{freedoms(*setup.model, sizes), prospects(structure),
+                                equilibrium(structure, setup.options.parameter), followed(setup, sizes)})
+    sentences.push_back(std::move(sentence));
+  return sentences;
 }
 
 }  // namespace eigentrail::app

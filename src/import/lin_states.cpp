@@ -6,6 +6,7 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/multiblade/harmonics.hpp"
 
 namespace eigentrail {
 

@@ -61,15 +61,4 @@ Matrix in_multiblade_coordinates(const Matrix& A, const MultibladeTransformation
                                                rotor_speed * transformation.derivative);
 }
 
-std::vector<std::string> multiblade_names(std::size_t n_blades) {
-  std::vector<std::string> names{"collective"};
-  for (std::size_t harmonic = 1; 2 * harmonic < n_blades; ++harmonic) {
-    const std::string number = harmonic == 1 ? "" : " " + std::to_string(harmonic);
-    names.push_back("cosine" + number);
-    names.push_back("sine" + number);
-  }
-  if (n_blades % 2 == 0) names.emplace_back("differential");
-  return names;
-}
-
 }  // namespace eigentrail

@@ -8,7 +8,6 @@
 // not depend on the azimuth psi.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "eigentrail/core/types.hpp"
@@ -32,9 +31,5 @@ MultibladeTransformation multiblade(Eigen::Index n, const std::vector<BladeState
 /// T^-1 (A T - rotor_speed T'), which is the A of x_mb.
 Matrix in_multiblade_coordinates(const Matrix& A, const MultibladeTransformation& transformation,
                                  double rotor_speed);
-
-/// "collective", "cosine", "sine", "cosine 2", "sine 2", ..., "differential": the order of the coordinates
-/// that replace those of N blades.
-std::vector<std::string> multiblade_names(std::size_t n_blades);
 
 }  // namespace eigentrail

@@ -2,6 +2,9 @@
 // Extended for reference solutions.
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include "model/registry.hpp"
 
 namespace eigentrail {
@@ -36,6 +39,27 @@ class Assembly {
   const MultibodyData& data_;
   PathValues<Base> values_;
 };
+
+/// Calls visit.operator()<Q>() with Q = order, for what depends on the order of series at compile time.
+template <class Visit>
+EvaluationFault with_order(int order, Visit&& visit) {
+  switch (order) {
+    case 0:
+      return visit.template operator()<0>();
+    case 1:
+      return visit.template operator()<1>();
+    case 2:
+      return visit.template operator()<2>();
+    case 3:
+      return visit.template operator()<3>();
+    case 4:
+      return visit.template operator()<4>();
+    case 5:
+      return visit.template operator()<5>();
+    default:
+      throw std::invalid_argument("order of a series: expected 0 to 5, got " + std::to_string(order));
+  }
+}
 
 extern template class Assembly<double, 0>;
 extern template class Assembly<double, 1>;

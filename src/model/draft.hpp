@@ -8,6 +8,7 @@
 #include "eigentrail/model/build.hpp"
 #include "model/assembly.hpp"
 #include "model/expression_vector.hpp"
+#include "model/multiblade/bladed_rotor_draft.hpp"
 
 namespace eigentrail {
 
@@ -52,7 +53,8 @@ struct Draft {
   SourceLocation begun_where;  ///< position of this table
   std::size_t operations = 0;  ///< number of operations in all quantities
   MultibodyData data;
-  std::vector<std::string> points;  ///< points by triple; the bodies follow them
+  std::optional<BladedRotorDraft> rotor;  ///< [rotor], if the scene has one
+  std::vector<std::string> points;        ///< points by triple; the bodies follow them
   std::vector<BodyDraft> bodies;
   std::vector<BeamDraft> beams;
   std::vector<BeamSection> beam_sections;
@@ -87,6 +89,9 @@ struct Draft {
   /// The direction with components `along` in the axes of the carrier.
   Place direction_on(const Carrier& carrier, const ExpressionVector& along);
   std::array<Place, 3> directors(int body) const;
+  /// Whether what has this triple does not turn with the frame, because it is the hub or the support of a
+  /// rotor.
+  bool stands(int triple) const { return rotor && rotor->stands[static_cast<std::size_t>(triple)]; }
 
   /// Reads a name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
   Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);

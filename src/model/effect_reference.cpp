@@ -1,6 +1,7 @@
 // Describes the keys of all effects, collected from the registry.
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
+#include "model/multiblade/read_bladed_rotor.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
 #include "model/registry.hpp"
@@ -98,6 +99,8 @@ std::vector<EffectHelp> effect_reference() {
         help.states.push_back({std::string(state.name), std::string(state.unit), std::string(state.help)});
     }
   });
+  reference.push_back({"rotor", "N equal blades, of which the scene describes one, on a support that stands",
+                       bladed_rotor_fields()});
   reference.push_back({"blade", "a beam on a hub, by the stations of a blade", blade_fields()});
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read != nullptr)

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <stdexcept>
 
 namespace eigentrail {
 namespace {
@@ -77,26 +76,6 @@ class TracedRoles {
   Enters& enters_;
 };
 
-template <class Visit>
-EvaluationFault dispatch(int order, Visit&& visit) {
-  switch (order) {
-    case 0:
-      return visit.template operator()<0>();
-    case 1:
-      return visit.template operator()<1>();
-    case 2:
-      return visit.template operator()<2>();
-    case 3:
-      return visit.template operator()<3>();
-    case 4:
-      return visit.template operator()<4>();
-    case 5:
-      return visit.template operator()<5>();
-    default:
-      throw std::invalid_argument("order of a series: expected 0 to 5, got " + std::to_string(order));
-  }
-}
-
 }  // namespace
 
 Multibody::Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess)
@@ -109,33 +88,33 @@ Vector Multibody::initial_guess(const Vector& parameters) const {
   Vector x = Vector::Zero(n_coordinates());
   for (std::size_t i = 0; i < guess_.size(); ++i)
     x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
-  if (n_coordinates() > 3 * data_.n_triples) settle_states(parameters, x);
+  settle_states(*this, n_coordinates() - 3 * data_.n_triples, parameters, x);
   return x;
 }
 
-void Multibody::settle_states(const Vector& parameters, Vector& x) const {
-  EvaluationCounts counts = new_counts();
-  const Eigen::Index n = n_coordinates() - 3 * data_.n_triples;
+void settle_states(const Model& model, Eigen::Index n_states, const Vector& parameters, Vector& x) {
+  if (n_states == 0) return;
+  EvaluationCounts counts = model.new_counts();
   for (int i = 0; i < most_settlings; ++i) {
-    const Path path{parameters, x, Vector::Zero(n_constraints())};
+    const Path path{parameters, x, Vector::Zero(model.n_constraints())};
     SteadyResidual rest;
     Linearization linearization;
-    if (residual(path, 0, rest, counts) || linearize(path, 0, linearization, counts)) return;
-    const Matrix K = linearization.K[0].dense().bottomRightCorner(n, n);
-    const Vector change = Eigen::PartialPivLU<Matrix>(K).solve(rest.force.col(0).tail(n));
+    if (model.residual(path, 0, rest, counts) || model.linearize(path, 0, linearization, counts)) return;
+    const Matrix K = linearization.K[0].dense().bottomRightCorner(n_states, n_states);
+    const Vector change = Eigen::PartialPivLU<Matrix>(K).solve(rest.force.col(0).tail(n_states));
     if (!change.allFinite()) return;
-    x.tail(n) -= change;
-    if (change.norm() <= settled * x.tail(n).norm()) return;
+    x.tail(n_states) -= change;
+    if (change.norm() <= settled * x.tail(n_states).norm()) return;
   }
 }
 
-Structure Multibody::structure(int traced_parameter) const {
+Structure structure_of(const MultibodyData& data, int traced_parameter) {
   Structure result;
   Enters changes;
   bool curved_constraints = false;
   bool turning_damping = false;
-  TracedRoles roles(data_.parameters, traced_parameter, changes);
-  data_.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+  TracedRoles roles(data.parameters, traced_parameter, changes);
+  data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
     roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
     constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
@@ -151,7 +130,7 @@ Structure Multibody::structure(int traced_parameter) const {
     result.circulatory = result.circulatory || Element::contribution.circulatory;
     turning_damping = turning_damping || depends.turning;
   });
-  for (const Constraint& constraint : data_.constraints) {
+  for (const Constraint& constraint : data.constraints) {
     roles.constraint(constraint);
     curved_constraints = curved_constraints || is_curved(constraint);
   }
@@ -165,23 +144,33 @@ Structure Multibody::structure(int traced_parameter) const {
   return result;
 }
 
+Structure Multibody::structure(int traced_parameter) const {
+  return structure_of(data_, traced_parameter);
+}
+
 EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
                                     EvaluationCounts& counts) const {
-  return dispatch(order, [&]<int Q>() { return Assembly<double, Q>(data_, path).residual(result, counts); });
+  return with_order(order,
+                    [&]<int Q>() { return Assembly<double, Q>(data_, path).residual(result, counts); });
 }
 
 EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
                                      EvaluationCounts& counts) const {
-  return dispatch(order, [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
+  return with_order(order,
+                    [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
 }
 
-std::vector<Expression> Multibody::expressions() const {
+std::vector<Expression> varying(const std::vector<Expression>& quantities) {
   std::vector<Expression> all;
-  for (const Expression& quantity : data_.quantities) {
+  for (const Expression& quantity : quantities) {
     const bool is_new = std::find(all.begin(), all.end(), quantity) == all.end();
     if (!quantity.is_constant() && is_new) all.push_back(quantity);
   }
   return all;
+}
+
+std::vector<Expression> Multibody::expressions() const {
+  return varying(data_.quantities);
 }
 
 EvaluationFault Multibody::extended_residual(const BasicPath<Extended>& path,

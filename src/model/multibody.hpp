@@ -6,6 +6,16 @@
 
 namespace eigentrail {
 
+/// Structure of the equations of these elements and constraints, as Model::structure.
+Structure structure_of(const MultibodyData& data, int traced_parameter);
+
+/// The expressions that are not constant, each once.
+std::vector<Expression> varying(const std::vector<Expression>& quantities);
+
+/// Solves the equations of the states of elements, the last `n_states` coordinates of a model, by Newton's
+/// method, with points and bodies where x has them.
+void settle_states(const Model& model, Eigen::Index n_states, const Vector& parameters, Vector& x);
+
 class Multibody final : public Model {
  public:
   Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess);
@@ -23,9 +33,6 @@ class Multibody final : public Model {
                                          BasicLinearization<Extended>& result) const override;
 
  private:
-  /// Solves the equations of the states of elements, with points and bodies where x has them.
-  void settle_states(const Vector& parameters, Vector& x) const;
-
   MultibodyData data_;
   std::vector<Expression> guess_;  ///< one per coordinate of points and bodies
 };

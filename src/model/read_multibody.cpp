@@ -5,6 +5,8 @@
 
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
+#include "model/multiblade/read_bladed_rotor.hpp"
+#include "model/multiblade/rotor_parts.hpp"
 #include "model/multibody.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
@@ -223,6 +225,8 @@ std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key,
   table.finish();
   const std::array<Quantity, 3> quantities = draft.vector(field);
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {
+    const bool stands = draft.stands(draft.masses[i].carriers[0].terms[0].triple);
+    if (std::is_same_v<Element, RotatingFrame> && stands) continue;
     add_element(draft, Element{draft.masses[i], quantities},
                 std::string(Element::name) + " on " + draft.mass_names[i]);
   }
@@ -366,6 +370,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
         scene.path +
         ": a scene needs at least one [[point]], [[body]], [[beam]] or [[blade]], or a [matrix_family]");
   }
+  draft.rotor = read_bladed_rotor(draft);
   check_without(draft);
   add_masses(draft);
   const auto rotation = read_field<RotatingFrame>(draft, "angular_velocity", "rad/s");
@@ -378,7 +383,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
   for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
   for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
-  if (rotation && !tables(scene, "spinning_disc").empty()) {
+  if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(
         scene, tables(scene, "spinning_disc")[0]->where,
         "[[spinning_disc]]: not together with [frame]; in a rotating frame the gyroscopic moments "
@@ -391,6 +396,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   ModelDescription description = describe(draft);
   description.unused_parameters = std::move(unused);
   if (rotation) description.rotation_axis = axis_of(draft, *rotation);
+  if (draft.rotor) return make_bladed_rotor(draft, std::move(description), rotor_speed(draft, rotation));
   return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
 }
 

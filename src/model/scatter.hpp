@@ -36,6 +36,15 @@ class Scatter {
     }
   }
 
+  /// Adds to the coefficient of h^k of an entry.
+  void add(int k, int row, int column, const Real& value) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!sparse_)
+      dense_[at](row, column) += value;
+    else if (value != Real(0.0))
+      entries_[at].emplace_back(row, column, value);
+  }
+
   /// The sum without trailing coefficients that are exactly zero, so a constant has one coefficient. May be
   /// called once.
   Coefficients take() {

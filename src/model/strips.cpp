@@ -43,6 +43,18 @@ Blade read_blade(Draft& draft, TableReader& table) {
   return blade;
 }
 
+/// Air that moves across the axis of a rotor meets its blades once per revolution.
+void check_axial(const Draft& draft, const TableReader& table, const ExpressionVector& inflow) {
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    const Eigen::Vector3d v = draft.vector_at(inflow, i);
+    if (v.head<2>().norm() <= 1e-12 * v.norm()) continue;
+    table.fail("inflow",
+               "must be [0, 0, w], along the axis of the [rotor]; across it, the loads of the blades change "
+               "with the azimuth, and there is no steady state" +
+                   Draft::where_on_trace(i));
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<BladeElement, std::string>> read_strips(
@@ -59,6 +71,8 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
     const Expression drag = draft.read_number(table, "profile_drag", "", Range::non_negative, 0.0);
     const Expression pitch = draft.read_number(table, "pitch", "rad", Range::any, 0.0);
     const ExpressionVector inflow = draft.read_vector(table, "inflow", "m/s", Range::any, ExpressionVector{});
+    const bool stands = draft.stands(draft.bodies[static_cast<std::size_t>(blade.body)].triple);
+    if (draft.rotor && !stands) check_axial(draft, table, inflow);
     const std::string label =
         table.has("name") ? printable(table.text("name")) : numbered(BladeElement::name, i);
     table.finish();
@@ -71,7 +85,8 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
       strip.point = draft.on_body(blade.body, blade.root + Expression(at) * span);
       strip.leading = draft.direction_on(carrier, blade.leading);
       strip.lift = draft.direction_on(carrier, blade.lift);
-      strip.angular_velocity = draft.vector(rotation.value_or(ExpressionVector{}));
+      strip.angular_velocity =
+          draft.vector(stands ? ExpressionVector{} : rotation.value_or(ExpressionVector{}));
       strip.inflow = draft.vector(inflow);
       strip.width = draft.quantity(Expression(weight) * length);
       strip.chord = draft.quantity(chord);

@@ -54,14 +54,17 @@ class SteadyProblem {
     ++report_.residual_evaluations;
     path_.x = x;
     path_.lambda = lambda;
-    return model_.residual(path_, 0, residual, counts_);
+    return noted(model_.residual(path_, 0, residual, counts_));
   }
 
   EvaluationFault linearize(const Vector& x, const Vector& lambda, Linearization& linearization) {
     path_.x = x;
     path_.lambda = lambda;
-    return model_.linearize(path_, 0, linearization, counts_);
+    return noted(model_.linearize(path_, 0, linearization, counts_));
   }
+
+  /// The last fault that has a reason of its own: why an iteration could not go on.
+  const EvaluationFault& reason() const { return reason_; }
 
   /// Residual and linearization at (at.x, at.lambda).
   EvaluationFault evaluate(Equilibrium& at, SteadyResidual& residual) {
@@ -75,9 +78,15 @@ class SteadyProblem {
   }
 
  private:
+  EvaluationFault noted(EvaluationFault fault) {
+    if (!fault.reason.empty()) reason_ = fault;
+    return fault;
+  }
+
   const Model& model_;
   EvaluationCounts& counts_;
   SteadyReport& report_;
+  EvaluationFault reason_;
   Path path_;
 };
 
@@ -182,7 +191,7 @@ std::string failure_message(const KinsolResult& kinsol, const SteadyReport& repo
 
 Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   result.status = SteadyStatus::not_finite;
-  result.report.message = "a number that is not finite came out of " + fault.source;
+  result.report.message = fault.message();
   return result;
 }
 
@@ -216,7 +225,9 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   // correction decide.
   const bool converged = polished && result.report.residual < newton_rounding_floor;
   result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
-  if (!converged) result.report.message = failure_message(kinsol, result.report);
+  if (!converged)
+    result.report.message =
+        problem.reason() ? problem.reason().message() : failure_message(kinsol, result.report);
   return result;
 }
 

@@ -77,11 +77,15 @@ void add_points(std::vector<GrowingDataset>& list, const Model& model, const std
   list.push_back(
       {"damped_frequency", ElementType::real, {"node", "mode"}, "rad/s", "damped frequency abs(Im(s))"});
   list.push_back({"damping_ratio", ElementType::real, {"node", "mode"}, "1", "-Re(s)/abs(s)"});
-  list.push_back({"mode_shape",
-                  ElementType::complex,
-                  {"node", "mode", "coordinate"},
-                  "1",
-                  "mode shape in physical coordinates, unit M-norm"});
+  list.push_back(
+      {"mode_shape",
+       ElementType::complex,
+       {"node", "mode", "coordinate"},
+       "1",
+       description.rotor
+           ? "mode shape, unit M-norm; blades in multiblade coordinates: blade k at the azimuth psi_k moves "
+             "by collective + cosine cos(psi_k) + sine sin(psi_k) + ..."
+           : "mode shape in physical coordinates, unit M-norm"});
   list.push_back({"residual",
                   ElementType::real,
                   {"node", "mode"},

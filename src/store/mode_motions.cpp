@@ -33,7 +33,8 @@ ModeMotions::ModeMotions(const Model& model, const TracePoint& first)
 
 std::vector<std::string> ModeMotions::labels() const {
   std::vector<std::string> labels;
-  for (const MassMotion& motion : shares_.motions()) labels.push_back(motion.mass + " " + motion.kind);
+  for (const MassMotion& motion : shares_.motions())
+    labels.push_back(motion.mass + " " + motion.kind + (motion.wave.empty() ? "" : " " + motion.wave));
   return labels;
 }
 
@@ -91,10 +92,11 @@ void ModeMotions::append(const TracePoint& point) {
   for (std::size_t i = 0; i < point.modes.size(); ++i)
     shapes.col(static_cast<Eigen::Index>(i)) = point.modes[i].shape;
   const Matrix shares = shares_.of(M, x, shapes);
+  const double speed = blade_rotor_speed(model_->description(), point.node.path.parameters.col(0));
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     const Vector share = shares.col(static_cast<Eigen::Index>(i));
     const auto [mode, is_new] = modes_.try_emplace(static_cast<std::size_t>(point.modes[i].mode));
-    if (is_new) mode->second = {share, share, std::abs(point.modes[i].s)};
+    if (is_new) mode->second = {share, share, std::abs(point.modes[i].s), point.modes[i].s.imag() / speed};
     mode->second.last = share;
   }
 }
@@ -146,7 +148,9 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
                 static_cast<Eigen::Index>(ascending.size()));
   for (std::size_t i = 0; i < ascending.size(); ++i)
     shares.col(static_cast<Eigen::Index>(i)) = modes_.at(ascending[i]).first;
-  const std::vector<std::string> names = shares_.names(shares);
+  std::vector<double> turns;
+  for (const std::size_t mode : ascending) turns.push_back(modes_.at(mode).turns);
+  const std::vector<std::string> names = shares_.names(shares, turns);
   for (std::size_t i = 0; i < ascending.size(); ++i) {
     if (ascending[i] < n_modes) result[ascending[i]] = names[i];
   }

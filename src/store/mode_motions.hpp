@@ -67,10 +67,11 @@ class ModeMotions {
   struct Ends {
     Vector first, last;      ///< by motion
     double frequency = 0.0;  ///< abs(s) where the mode first exists; equal names are numbered in its order
+    double turns = 0.0;      ///< Im s over the speed of a rotor of blades, likewise; NaN without one
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit& visit) {
-      visit(self.first, self.last, self.frequency);
+      visit(self.first, self.last, self.frequency, self.turns);
     }
   };
 

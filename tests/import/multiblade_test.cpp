@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/multiblade/harmonics.hpp"
+
 namespace eigentrail {
 namespace {
 

@@ -70,6 +70,11 @@ class RotorTest(SceneTest):
         for p, s in zip(places, self.spectra(file, places)):
             self.assert_same_spectrum(s, expected(p), tolerance, reference, f"{parameter} = {p}")
 
+    def assert_multipliers(self, rotor, s, tolerance=1e-9):
+        """The Floquet multipliers of a PeriodicRotor are those of the eigenvalues with Im s >= 0."""
+        s = np.concatenate([s, s[s.imag != 0].conj()])
+        self.assert_same_spectrum(rotor.multipliers(), np.exp(s * 2 * np.pi / rotor.speed), tolerance, 1.0)
+
     def special_points(self, file, kind):
         """Parameter and eigenvalue of the events of a kind."""
         with h5py.File(file) as loci:

@@ -57,6 +57,20 @@ struct Structure {
   bool known_equilibrium = false;     ///< the initial guess is the equilibrium: KINSOL is never called
 };
 
+/// How the blades of a rotor move together, in multiblade coordinates: as functions of the azimuth psi of a
+/// blade in the frame that stands.
+struct BladeWave {
+  /// "collective", "differential", or a wave: "progressive" turns with the rotor, "regressive" against it,
+  /// both in the frame that stands; with "2", "3", ... for cos(2 psi), ... Empty: not of a blade.
+  std::string name;
+  int harmonic = 0;  ///< n of cos(n psi) and sin(n psi); 0 if collective or differential
+  int sense = 0;     ///< of a wave: 1 progressive, -1 regressive
+  Eigen::Index rest_triple =
+      -1;  ///< first triple of the collective coordinates, where the blades are at rest
+  Eigen::Index sine_triple =
+      -1;  ///< of a wave: first triple of the sine coordinates; the carrier's own is the cosine
+};
+
 /// A point (one triple of coordinates) or a body (four triples: its origin and its directors) of a multibody
 /// model. Its mass matrix is the Kronecker product of its constant moments G (1 x 1 or 4 x 4) and the 3 x 3
 /// identity matrix.
@@ -64,6 +78,17 @@ struct MassCarrier {
   std::string name;
   Eigen::Index first_triple = 0;
   Eigen::Index n_triples = 1;
+  bool stands = false;  ///< whether it does not turn with the rotating frame: the support of a rotor
+  BladeWave wave = {};  ///< of the blades of a rotor
+};
+
+/// A rotor of equal blades on a support that stands, in multiblade coordinates.
+struct BladedRotor {
+  int blades = 0;
+  std::string hub;                    ///< name of the body that carries them
+  Expression speed;                   ///< about +z, rad/s
+  std::vector<std::string> of_blade;  ///< points and bodies of one blade
+  std::vector<std::string> support;   ///< points and bodies that stand, with the hub
 };
 
 /// Something that rotates about the z axis and carries nodes: a shaft. The orbits of its nodes show whether a
@@ -93,6 +118,7 @@ struct ModelDescription {
   Parameters parameters;
   std::vector<SpinningShaft> shafts = {};  ///< of a rotor
   std::vector<SpinningAxis> spins = {};    ///< of discs on the bodies of a multibody model
+  std::optional<BladedRotor> rotor = {};   ///< if the model has blades in multiblade coordinates
   /// What is known of the model's data, for users: a label and a text each ("digits", "4 significant").
   std::vector<std::pair<std::string, std::string>> data = {};
   /// Indices of the parameters on which nothing in the scene depends.
@@ -132,10 +158,14 @@ struct EvaluationCounts {
   std::vector<std::uint64_t> linearization;
 };
 
-/// Reports a number that is not finite: `source` names its origin and is empty if all numbers are finite.
+/// Reports that the equations have no values: usually a number that is not finite.
 struct EvaluationFault {
-  std::string source;
+  std::string source;       ///< origin of the number; empty: no fault
+  std::string reason = {};  ///< what is wrong in place of such a number, a sentence without its end
   explicit operator bool() const { return !source.empty(); }
+  std::string message() const {
+    return reason.empty() ? "a number that is not finite came out of " + source : reason;
+  }
 };
 
 class SampleErrors;

@@ -6,6 +6,9 @@
 // the mass is on the axis, the directions are x, y, z of the frame. Masses of one name are the nodes of a
 // beam; their directions are those of the beam as a whole: s from end to end, a the mean z axis of its
 // sections.
+//
+// Blades of a rotor in multiblade coordinates move together in waves. The two waves of a harmonic are taken
+// apart: one turns with the rotor and one against it, as the frame that stands sees them (motion_names.hpp).
 #pragma once
 
 #include <array>
@@ -20,10 +23,11 @@ namespace eigentrail {
 struct MassMotion {
   std::string mass;  ///< name of the point or body
   std::string kind;  ///< "flap", "lag", "axial", "torsion", or "along x" ... "about z"
+  std::string wave;  ///< of the blades of a rotor: see BladeWave; else empty
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.mass, self.kind);
+    visit(self.mass, self.kind, self.wave);
   }
 };
 
@@ -51,8 +55,10 @@ class EnergyShares {
   bool fits(const ModelDescription& description) const;
 
   /// A name for each mode from its shares (motions x modes): "flap", "lag 2", "flap-torsion", "hub along x
-  /// and y". Equal names are numbered in the order of the modes.
-  std::vector<std::string> names(const Matrix& shares) const;
+  /// and y". Equal names are numbered in the order of the modes. Blades of a rotor: "blade lag progressive",
+  /// and "slow progressive" if the wave turns more slowly than the rotor, which is told from `turns`: Im s of
+  /// each mode over the speed of the rotor.
+  std::vector<std::string> names(const Matrix& shares, const std::vector<double>& turns = {}) const;
 
  private:
   struct Carrier {
@@ -63,13 +69,18 @@ class EnergyShares {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit& visit) {
-      visit(self.mass.name, self.mass.first_triple, self.mass.n_triples, self.blade, self.rows, self.axes);
+      visit(self.mass.name, self.mass.first_triple, self.mass.n_triples, self.mass.stands,
+            self.mass.wave.name, self.mass.wave.harmonic, self.mass.wave.sense, self.mass.wave.rest_triple,
+            self.mass.wave.sine_triple, self.blade, self.rows, self.axes);
     }
   };
-  Eigen::Index row_of(const std::string& mass, const std::string& kind);
+  Eigen::Index row_of(const MassMotion& motion);
 
   std::vector<Carrier> carriers_;
   std::vector<MassMotion> motions_;
 };
+
+/// Speed of a rotor of blades, rad/s; NaN if the model has none. `parameters`: declared units.
+double blade_rotor_speed(const ModelDescription& description, Vector parameters);
 
 }  // namespace eigentrail

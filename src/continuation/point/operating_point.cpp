@@ -56,16 +56,26 @@ class ModeAtPoint {
   double condition_ = 0.0, backward_error_ = 0.0;
 };
 
+/// All parameters with the traced one at p, in declared units.
+Vector parameters_of(const TraceSetup& setup, double p) {
+  Vector parameters = setup.model->description().parameters.declared_values();
+  parameters[setup.traced()] = p;
+  return parameters;
+}
+
 /// Names the modes by their kinetic energy, where the masses are known.
-void name_by_energy(const ModelDescription& description, const PathPoint& point,
-                    std::vector<OperatingMode>& modes) {
+void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector<OperatingMode>& modes) {
+  const ModelDescription& description = setup.model->description();
   const SystemMatrix& M = point.equilibrium.linearization.M[0];
   const Vector& x = point.equilibrium.x;
   const EnergyShares shares(description, M, x);
   if (shares.motions().empty() || modes.empty()) return;
   ComplexMatrix shapes(x.size(), static_cast<Eigen::Index>(modes.size()));
   for (std::size_t i = 0; i < modes.size(); ++i) shapes.col(static_cast<Eigen::Index>(i)) = modes[i].shape;
-  const std::vector<std::string> names = shares.names(shares.of(M, x, shapes));
+  const double speed = blade_rotor_speed(description, parameters_of(setup, point.p));
+  std::vector<double> turns;
+  for (const OperatingMode& mode : modes) turns.push_back(mode.s.imag() / speed);
+  const std::vector<std::string> names = shares.names(shares.of(M, x, shapes), turns);
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
 }
 
@@ -73,8 +83,7 @@ void name_by_energy(const ModelDescription& description, const PathPoint& point,
 void name_by_shafts(const TraceSetup& setup, double p, std::vector<OperatingMode>& modes) {
   const std::vector<SpinningShaft>& shafts = setup.model->description().shafts;
   if (shafts.empty()) return;
-  Vector parameters = setup.scene.parameters.declared_values();
-  parameters[setup.traced()] = p;
+  const Vector parameters = parameters_of(setup, p);
   std::vector<RotorMode> described;
   for (const OperatingMode& mode : modes)
     described.push_back(rotor_mode(*setup.model, parameters, mode.s, mode.shape));
@@ -122,7 +131,7 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
       mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);
     }
   }
-  name_by_energy(description, point, result.modes);
+  name_by_energy(setup, point, result.modes);
   name_by_shafts(setup, p, result.modes);
   return result;
 }

@@ -1,0 +1,291 @@
+#include "model/multiblade/multiblade_rotor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/multibody.hpp"
+#include "model/scatter.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Distance from the axis over the size of the rotor, and sine of the inclination, up to which the hub counts
+/// as being on the axis.
+constexpr double still_on_axis = 1e-9;
+
+using SharesByHarmonic = std::vector<std::vector<std::vector<RotorShare>>>;
+
+/// Calls visit(row, column, value) for every entry that is not zero.
+template <class Real, class Visit>
+void for_each_entry(const BasicSystemMatrix<Real>& B, Visit visit) {
+  if (B.is_sparse()) {
+    const auto& values = B.sparse();
+    for (Eigen::Index j = 0; j < values.outerSize(); ++j) {
+      for (typename BasicSystemMatrix<Real>::Sparse::InnerIterator entry(values, j); entry; ++entry)
+        visit(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(entry.col()), entry.value());
+    }
+    return;
+  }
+  B.visit([&](const auto& values) {
+    for (Eigen::Index j = 0; j < values.cols(); ++j) {
+      for (Eigen::Index i = 0; i < values.rows(); ++i) {
+        const Real value = values.coeff(i, j);
+        if (value != Real(0.0)) visit(static_cast<std::size_t>(i), static_cast<std::size_t>(j), value);
+      }
+    }
+  });
+}
+
+/// The rotor at a path, as series of order Q.
+template <class Real, int Q>
+class RotorAssembly {
+ public:
+  using Columns = typename BasicPath<Real>::Columns;
+
+  RotorAssembly(const BladedRotorData& data, const SharesByHarmonic& shares, const BasicPath<Real>& path)
+      : data_(data), map_(data.map), shares_(shares), path_(path) {
+    std::vector<Series<Real, Q>> values(static_cast<std::size_t>(path.parameters.rows()));
+    for (Eigen::Index i = 0; i < path.parameters.rows(); ++i) {
+      for (int k = 0; k <= Q; ++k)
+        values[static_cast<std::size_t>(i)][k] = coefficient(path.parameters, i, k);
+    }
+    data.blade.parameters.to_si(std::span<Series<Real, Q>>(values));
+    speed_ = data.speed.evaluate(std::span<const Series<Real, Q>>(values));
+  }
+
+  /// A fault if the hub is not on the axis of rotation, or blades differ.
+  EvaluationFault check_axis() const {
+    using std::abs;
+    const auto at = [&](int i) {
+      const int own = map_.support[static_cast<std::size_t>(map_.hub_coordinate + i)];
+      return static_cast<double>(abs(path_.x(own, 0)));
+    };
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < path_.x.rows(); ++i)
+      size = std::max(size, static_cast<double>(abs(path_.x(i, 0))));
+    const double away = std::max(at(0), at(1));
+    const double inclined = std::max(at(9), at(10));  // components of its z axis across that of rotation
+    if (away <= still_on_axis * size && inclined <= still_on_axis) return {};
+    return {data_.hub,
+            "the hub '" + data_.hub + "' " + (away > still_on_axis * size ? "leaves" : "is inclined to") +
+                " the axis of rotation under a steady load across it, and the equations keep "
+                "coefficients that change with the azimuth; hold it on the z axis, or balance the load "
+                "of its support"};
+  }
+
+  EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const {
+    if (EvaluationFault fault = check_axis()) return fault;
+    result.force = Columns::Zero(map_.n_coordinates, Q + 1);
+    result.constraint = Columns::Zero(map_.n_constraints, Q + 1);
+    BasicSteadyResidual<Real> part;
+    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).residual(part, counts)) return fault;
+    for (std::size_t i = 0; i < map_.support.size(); ++i) {
+      if (map_.support[i] >= 0) result.force.row(map_.support[i]) += part.force.row(row_of(i));
+    }
+    for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+      if (map_.support_row[i] >= 0)
+        result.constraint.row(map_.support_row[i]) = part.constraint.row(row_of(i));
+    }
+    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).residual(part, counts)) return fault;
+    const Real n(map_.n_blades);
+    for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+      for (const RotorShare& share : shares_[0][i])
+        result.force.row(share.coordinate) += n * Real(share.weight) * part.force.row(row_of(i));
+    }
+    for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+      if (map_.blade_row[i] >= 0)
+        result.constraint.row(map_.blade_row[i]) = n * part.constraint.row(row_of(i));
+    }
+    return {};
+  }
+
+  EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const {
+    if (EvaluationFault fault = check_axis()) return fault;
+    LinearizationScatter<Real, Q> sum(map_.n_coordinates, map_.n_constraints);
+    BasicLinearization<Real> part;
+    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).linearize(part, counts)) return fault;
+    add_support(part, sum);
+    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).linearize(part, counts)) return fault;
+    add_blades(part, sum);
+    result = sum.take();
+    return {};
+  }
+
+ private:
+  using Coefficients = typename BasicLinearization<Real>::Coefficients;
+
+  static Eigen::Index row_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+  BasicPath<Real> empty_path() const {
+    const Eigen::Index n = static_cast<Eigen::Index>(map_.support.size());
+    const Eigen::Index m = static_cast<Eigen::Index>(map_.support_row.size());
+    return {path_.parameters, Columns::Zero(n, path_.x.cols()), Columns::Zero(m, path_.lambda.cols())};
+  }
+
+  BasicPath<Real> support_path() const {
+    BasicPath<Real> part = empty_path();
+    for (std::size_t i = 0; i < map_.support.size(); ++i) {
+      if (map_.support[i] >= 0) part.x.row(row_of(i)) = path_.x.row(map_.support[i]);
+    }
+    for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+      if (map_.support_row[i] >= 0) part.lambda.row(row_of(i)) = path_.lambda.row(map_.support_row[i]);
+    }
+    return part;
+  }
+
+  /// One blade, and the hub as it sees it, in the steady state.
+  BasicPath<Real> blade_path() const {
+    BasicPath<Real> part = empty_path();
+    for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+      for (const RotorShare& share : shares_[0][i])
+        part.x.row(row_of(i)) += Real(share.weight) * path_.x.row(share.coordinate);
+    }
+    for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+      if (map_.blade_row[i] >= 0) part.lambda.row(row_of(i)) = path_.lambda.row(map_.blade_row[i]);
+    }
+    return part;
+  }
+
+  void add_support(const BasicLinearization<Real>& part, LinearizationScatter<Real, Q>& sum) const {
+    for (const auto& [from, to] :
+         {std::pair(&part.M, &sum.M), std::pair(&part.C, &sum.C), std::pair(&part.K, &sum.K)}) {
+      for (std::size_t k = 0; k < from->size(); ++k) {
+        for_each_entry((*from)[k], [&, to = to](std::size_t i, std::size_t j, const Real& value) {
+          to->add(static_cast<int>(k), map_.support[i], map_.support[j], value);
+        });
+      }
+    }
+    for (std::size_t k = 0; k < part.A.size(); ++k) {
+      for_each_entry(part.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
+        sum.A.add(static_cast<int>(k), map_.support_row[i], map_.support[j], value);
+      });
+    }
+  }
+
+  void add_blades(const BasicLinearization<Real>& blade, LinearizationScatter<Real, Q>& sum) const {
+    const Series<Real, Q> one(1.0), twice = 2.0 * speed_, squared = speed_ * speed_;
+    fold(blade.M, one, 0, sum.M);
+    fold(blade.C, one, 0, sum.C);
+    fold(blade.M, twice, 1, sum.C);
+    fold(blade.K, one, 0, sum.K);
+    fold(blade.C, speed_, 1, sum.K);
+    fold(blade.M, squared, 2, sum.K);
+    for (std::size_t a = 0; a < map_.harmonics.size(); ++a) {
+      const Real weight(map_.n_blades * map_.harmonics[a].mean_square);
+      for (std::size_t k = 0; k < blade.A.size(); ++k) {
+        for_each_entry(blade.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
+          for (const RotorShare& share : shares_[a][j])
+            sum.A.add(static_cast<int>(k), map_.blade_row[i] + static_cast<int>(a), share.coordinate,
+                      weight * Real(share.weight) * value);
+        });
+      }
+    }
+  }
+
+  /// Adds N sum_a w_a G_a^T (factor B) (D^d G)_a, d = `derivative`.
+  void fold(const Coefficients& B, const Series<Real, Q>& factor, int derivative,
+            Scatter<Real, Q>& sum) const {
+    for (std::size_t a = 0; a < map_.harmonics.size(); ++a) {
+      const Harmonic& harmonic = map_.harmonics[a];
+      if (derivative > 0 && harmonic.partner < 0) continue;
+      std::size_t columns = a;
+      double scale = map_.n_blades * harmonic.mean_square;
+      if (derivative == 1) {
+        columns = static_cast<std::size_t>(harmonic.partner);
+        scale *= map_.harmonics[columns].slope;
+      } else if (derivative == 2) {
+        scale *= -harmonic.number * harmonic.number;
+      }
+      for (std::size_t k = 0; k < B.size(); ++k) {
+        for_each_entry(B[k], [&](std::size_t i, std::size_t j, const Real& value) {
+          for (const RotorShare& row : shares_[a][i]) {
+            for (const RotorShare& column : shares_[columns][j]) {
+              const Real entry = Real(scale * row.weight * column.weight) * value;
+              for (int l = 0; static_cast<int>(k) + l <= Q; ++l) {
+                if (factor[l] != Real(0.0))
+                  sum.add(static_cast<int>(k) + l, row.coordinate, column.coordinate, factor[l] * entry);
+              }
+            }
+          }
+        });
+      }
+    }
+  }
+
+  const BladedRotorData& data_;
+  const MultibladeMap& map_;
+  const SharesByHarmonic& shares_;
+  const BasicPath<Real>& path_;
+  Series<Real, Q> speed_;
+};
+
+}  // namespace
+
+MultibladeRotor::MultibladeRotor(ModelDescription description, BladedRotorData data)
+    : Model(std::move(description)), data_(std::move(data)) {
+  for (std::size_t a = 0; a < data_.map.harmonics.size(); ++a) shares_.push_back(data_.map.shares(a));
+}
+
+Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
+  Vector si = parameters;
+  data_.blade.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+  const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
+  Vector x = Vector::Zero(n_coordinates());
+  for (std::size_t i = 0; i < data_.guess.size(); ++i) {
+    const int blade = data_.map.blade[i];
+    x[blade >= 0 ? blade : data_.map.support[i]] = data_.guess[i].evaluate(values);
+  }
+  settle_states(*this, data_.n_states, parameters, x);
+  return x;
+}
+
+Structure MultibladeRotor::structure(int traced_parameter) const {
+  const Structure blade = structure_of(data_.blade, traced_parameter);
+  const Structure support = structure_of(data_.support, traced_parameter);
+  const bool same_speed = !data_.blade.parameters.depends_on(data_.speed, traced_parameter);
+  Structure result;
+  result.damped = blade.damped || support.damped;
+  result.gyroscopic = true;
+  // The damping of blades acts in the turning frame: Omega C (DG) is unsymmetric.
+  result.circulatory = blade.circulatory || blade.damped || support.circulatory;
+  result.constant_mass = blade.constant_mass && support.constant_mass;
+  result.constant_damping =
+      blade.constant_damping && support.constant_damping && blade.constant_mass && same_speed;
+  result.constant_stiffness = blade.constant_stiffness && support.constant_stiffness &&
+                              blade.constant_damping && blade.constant_mass && same_speed;
+  result.constant_constraints = blade.constant_constraints && support.constant_constraints;
+  result.fixed_equilibrium = blade.fixed_equilibrium && support.fixed_equilibrium;
+  return result;
+}
+
+EvaluationFault MultibladeRotor::residual(const Path& path, int order, SteadyResidual& result,
+                                          EvaluationCounts& counts) const {
+  return with_order(order, [&]<int Q>() {
+    return RotorAssembly<double, Q>(data_, shares_, path).residual(result, counts);
+  });
+}
+
+EvaluationFault MultibladeRotor::linearize(const Path& path, int order, Linearization& result,
+                                           EvaluationCounts& counts) const {
+  return with_order(order, [&]<int Q>() {
+    return RotorAssembly<double, Q>(data_, shares_, path).linearize(result, counts);
+  });
+}
+
+std::vector<Expression> MultibladeRotor::expressions() const {
+  return varying(data_.blade.quantities);
+}
+
+EvaluationFault MultibladeRotor::extended_residual(const BasicPath<Extended>& path,
+                                                   BasicSteadyResidual<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return RotorAssembly<Extended, 0>(data_, shares_, path).residual(result, counts);
+}
+
+EvaluationFault MultibladeRotor::extended_linearization(const BasicPath<Extended>& path,
+                                                        BasicLinearization<Extended>& result) const {
+  EvaluationCounts counts = new_counts();
+  return RotorAssembly<Extended, 0>(data_, shares_, path).linearize(result, counts);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,132 @@
+#include "model/multiblade/read_bladed_rotor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int fewest_blades = 3;
+constexpr int most_blades = 24;
+constexpr double exactly_on_axis = 1e-12;  ///< distance from the axis in m, and sine of the inclination
+
+int read_blade_count(TableReader& table) {
+  const Expression blades = table.expression("blades");
+  const double n = blades.is_constant() ? blades.evaluate(std::span<const double>()) : NAN;
+  if (n == 1.0 || n == 2.0) {
+    table.fail(
+        "blades",
+        "expected at least 3, found " + exact_text(n) +
+            ": the inertia of one or two blades differs along and across them, so that seen from the "
+            "support coefficients change with the azimuth in any coordinates, and averaging them would "
+            "be wrong; on a support that is the same in all directions describe the whole rotor in the "
+            "turning frame, without [rotor]");
+  }
+  if (!(n >= fewest_blades) || n > most_blades || n != std::floor(n))
+    table.fail("blades", "expected a whole number from " + std::to_string(fewest_blades) + " to " +
+                             std::to_string(most_blades));
+  return static_cast<int>(n);
+}
+
+/// Marks the triples of the point, body or beam with this name.
+bool mark_standing(const Draft& draft, const std::string& name, std::vector<bool>& stands) {
+  bool found = false;
+  for (std::size_t i = 0; i < draft.points.size(); ++i) {
+    if (draft.points[i] != name) continue;
+    stands[i] = true;
+    found = true;
+  }
+  const bool is_beam = std::any_of(draft.beams.begin(), draft.beams.end(),
+                                   [&](const BeamDraft& beam) { return beam.name == name; });
+  for (const BodyDraft& body : draft.bodies) {
+    if (body.name != name && !(is_beam && body.name.starts_with(name + "."))) continue;
+    std::fill_n(stands.begin() + body.triple, 4, true);
+    found = true;
+  }
+  return found;
+}
+
+std::vector<std::string> names_of_parts(const Draft& draft) {
+  std::vector<std::string> names = draft.points;
+  for (const BeamDraft& beam : draft.beams) names.push_back(beam.name);
+  for (const BodyDraft& body : draft.bodies) names.push_back(body.name);
+  return names;
+}
+
+void read_support(const Draft& draft, TableReader& table, std::vector<bool>& stands) {
+  if (!table.has("support")) return;
+  for (const std::string& name : table.texts("support")) {
+    if (!mark_standing(draft, name, stands))
+      table.fail("support", "no point, body or beam is called '" + name + "'; " +
+                                suggestion(name, names_of_parts(draft)));
+  }
+}
+
+/// The hub must be on the axis and upright, or its blades are not alike.
+void check_hub(const Draft& draft, const TableReader& table, const BodyDraft& hub) {
+  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
+    const Eigen::Vector3d at = draft.vector_at(hub.position, i);
+    const Eigen::Vector3d axis = draft.vector_at(hub.rotation[2], i);
+    if (at.head<2>().norm() > exactly_on_axis)
+      table.fail("hub", "'" + hub.name + "' must be at [0, 0, z], on the axis of rotation; it is not" +
+                            Draft::where_on_trace(i));
+    if (axis.head<2>().norm() > exactly_on_axis || !(axis[2] > 0.0))
+      table.fail("hub", "the z axis of '" + hub.name + "' must be that of the frame; it is not" +
+                            Draft::where_on_trace(i));
+  }
+}
+
+}  // namespace
+
+std::optional<BladedRotorDraft> read_bladed_rotor(Draft& draft) {
+  const std::vector<const Table*> found = tables(draft.scene, "rotor");
+  if (found.empty()) return std::nullopt;
+  if (found.size() > 1)
+    throw scene_error(draft.scene, found[1]->where, "[rotor]: a scene has one of these at most");
+  TableReader table = draft.reader(*found[0], "[rotor]");
+  BladedRotorDraft rotor;
+  rotor.where = found[0]->where;
+  rotor.blades = read_blade_count(table);
+  rotor.hub = draft.read_body(table, "hub");
+  rotor.stands.assign(draft.guess.size() / 3, false);
+  const BodyDraft& hub = draft.bodies[static_cast<std::size_t>(rotor.hub)];
+  mark_standing(draft, hub.name, rotor.stands);
+  read_support(draft, table, rotor.stands);
+  table.finish();
+  check_hub(draft, table, hub);
+  if (std::find(rotor.stands.begin(), rotor.stands.end(), false) == rotor.stands.end())
+    throw scene_error(
+        draft.scene, rotor.where,
+        "[rotor]: the scene has no blade; what is neither the hub nor in `support` belongs to it");
+  return rotor;
+}
+
+Expression rotor_speed(const Draft& draft, const std::optional<ExpressionVector>& rotation) {
+  if (!rotation)
+    throw scene_error(
+        draft.scene, draft.rotor->where,
+        "[rotor]: needs [frame] angular_velocity = [0, 0, speed], the frame in which its blades "
+        "are described");
+  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
+    const Eigen::Vector3d w = draft.vector_at(*rotation, i);
+    if (w.head<2>().norm() <= exactly_on_axis * w.norm()) continue;
+    throw scene_error(draft.scene, tables(draft.scene, "frame")[0]->find("angular_velocity")->where,
+                      "[frame] angular_velocity: a [rotor] turns about the z axis; expected [0, 0, speed]");
+  }
+  const auto& without = draft.request.without;
+  const bool at_rest = std::find(without.begin(), without.end(), "frame") != without.end();
+  return at_rest ? Expression(0.0) : (*rotation)[2];
+}
+
+std::vector<FieldHelp> bladed_rotor_fields() {
+  return {
+      {"blades", "", "number of equal blades, 3 to " + std::to_string(most_blades)},
+      {"hub", "name of a body",
+       "carries the blades: it turns with them for the blades, and stands for the support; on the z axis"},
+      {"support", "names",
+       "points, bodies and beams that stand, besides the hub; all others belong to the blade", "none"}};
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,292 @@
+#include "model/multiblade/rotor_parts.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "eigentrail/core/text.hpp"
+#include "model/multiblade/multiblade_rotor.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// What an element or a constraint acts on.
+class Touched {
+ public:
+  explicit Touched(const Draft& draft)
+      : stands_(draft.rotor->stands), hub_(draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].triple) {}
+
+  bool blade = false, hub = false;
+  bool support = false;  ///< the support other than the hub
+  bool frame = false;    ///< a place that is fixed in the frame
+
+  void place(std::string_view, const Place& place, std::string_view = {}) {
+    frame = frame || !place.moves();
+    moving(place);
+  }
+  void point(std::string_view, const Place& point, std::string_view) { moving(point); }
+  void direction(std::string_view, const Place& direction, std::string_view) { moving(direction); }
+  void body(std::string_view, const std::array<Place, 3>& directors, std::string_view) {
+    for (const Place& director : directors) moving(director);
+  }
+  void joint(std::string_view, const HingeAngle& angle, std::string_view) {
+    for (const Place* direction : {&angle.axis, &angle.from, &angle.to}) moving(*direction);
+  }
+  void quantity(const QuantityField&, const Quantity&) {}
+  void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
+  template <std::size_t N>
+  void matrix(const QuantityField&, const std::array<Quantity, N>&) {}
+
+  void constraint(const Constraint& constraint) {
+    for (const ConstraintRow& row : constraint.rows) {
+      // A single place, not a difference of two, is held in the frame.
+      if (!row.b && !row.a.second) frame = true;
+      for (const Difference* side : {&row.a, row.b ? &*row.b : nullptr}) {
+        if (side == nullptr) continue;
+        place("", side->first);
+        if (side->second) place("", *side->second);
+      }
+    }
+  }
+
+ private:
+  void moving(const Place& place) {
+    for (const Term& term : place.terms) {
+      const bool of_hub = term.triple >= hub_ && term.triple < hub_ + 4;
+      hub = hub || of_hub;
+      support = support || (!of_hub && stands_[static_cast<std::size_t>(term.triple)]);
+      blade = blade || !stands_[static_cast<std::size_t>(term.triple)];
+    }
+  }
+
+  const std::vector<bool>& stands_;
+  int hub_;
+};
+
+/// Where a table of this kind and label is in the scene; [rotor] if it is not found.
+SourceLocation where_is(const Draft& draft, std::string_view kind, const std::string& label) {
+  const std::vector<const Table*> all = tables(draft.scene, std::string(kind));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Value* name = all[i]->find("name");
+    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->data);
+    if (label == (text != nullptr ? printable(*text) : numbered(kind, i))) return all[i]->where;
+  }
+  return draft.rotor->where;
+}
+
+void check_ties(const Draft& draft, const Touched& touched, std::string_view kind, const std::string& label) {
+  if (!touched.blade || !(touched.support || touched.frame)) return;
+  const std::string& hub = draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].name;
+  const std::string what = "[[" + std::string(kind) + "]] '" + label + "': joins the blade of [rotor] with ";
+  const std::string advice = "; join it with a place on the hub '" + hub +
+                             "', or name in [rotor] support what belongs to the support";
+  throw scene_error(draft.scene, where_is(draft, kind, label),
+                    what + (touched.support ? "its support beside the hub" : "the turning frame") + advice);
+}
+
+/// Divides elements and constraints, and counts the states of elements.
+class Parts {
+ public:
+  explicit Parts(const Draft& draft) : draft_(draft) {
+    for (MultibodyData* part : {&blade, &support}) {
+      part->quantities = draft.data.quantities;
+      part->parameters = draft.data.parameters;
+      part->n_triples = draft.data.n_triples;
+      part->n_coordinates = draft.data.n_coordinates;
+      part->n_constraints = draft.data.n_constraints;
+    }
+    state_of_blade.assign(draft.state_names.size(), false);
+    row_of_blade.assign(draft.constraint_names.size(), false);
+    draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+      for (const Placed<Element>& placed : list) add(placed);
+    });
+    for (const Constraint& constraint : draft.data.constraints) add(constraint);
+    if (!joined_)
+      throw scene_error(draft.scene, draft.rotor->where,
+                        "[rotor] hub: nothing joins the blade with '" +
+                            draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].name + "'");
+  }
+
+  MultibodyData blade, support;
+  std::vector<bool> state_of_blade, row_of_blade;
+  std::vector<int> states;  ///< of the blade, by effect
+
+ private:
+  template <class Element>
+  void add(const Placed<Element>& placed) {
+    Touched touched(draft_);
+    Element::fields(placed.element, touched);
+    check_ties(draft_, touched, Element::name, placed.label);
+    joined_ = joined_ || (touched.blade && touched.hub);
+    if constexpr (std::is_same_v<Element, SpinningDisc>) {
+      if (touched.blade)
+        throw scene_error(
+            draft_.scene, where_is(draft_, Element::name, placed.label),
+            "[[spinning_disc]] '" + placed.label +
+                "': not on the blade of a [rotor], whose gyroscopic moments come from the inertia of "
+                "its bodies; it may be on the hub");
+    }
+    for (int i = 0; i < number_of_states<Element>(); ++i)
+      state_of_blade[static_cast<std::size_t>(placed.first_state + i)] = touched.blade;
+    MultibodyData& part = touched.blade ? blade : support;
+    std::get<std::vector<Placed<Element>>>(part.elements.lists).push_back(placed);
+  }
+
+  void add(const Constraint& constraint) {
+    Touched touched(draft_);
+    touched.constraint(constraint);
+    check_ties(draft_, touched, constraint_kinds()[static_cast<std::size_t>(constraint.kind)].name,
+               constraint.label);
+    joined_ = joined_ || (touched.blade && touched.hub);
+    for (std::size_t i = 0; i < constraint.rows.size(); ++i)
+      row_of_blade[static_cast<std::size_t>(constraint.first_row) + i] = touched.blade;
+    (touched.blade ? blade : support).constraints.push_back(constraint);
+  }
+
+  const Draft& draft_;
+  bool joined_ = false;
+};
+
+/// Numbers and names the coordinates and constraints of the rotor.
+class RotorNumbering {
+ public:
+  RotorNumbering(const Draft& draft, const Parts& parts, const ModelDescription& scene)
+      : draft_(draft),
+        scene_(scene),
+        names_(multiblade_names(static_cast<std::size_t>(draft.rotor->blades))) {
+    map.n_blades = draft.rotor->blades;
+    map.harmonics = multiblade_harmonics(map.n_blades);
+    map.hub_coordinate = 3 * draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].triple;
+    const std::size_t n = scene.coordinate_names.size();
+    map.support.assign(n, -1);
+    map.blade.assign(n, -1);
+    map.stride.assign(n, 0);
+    for (const MassCarrier& mass : scene.masses) {
+      if (stands(mass)) add_support(mass);
+    }
+    for (const MassCarrier& mass : scene.masses) {
+      if (!stands(mass)) add_blade(mass);
+    }
+    for (std::size_t i = 0; i < parts.state_of_blade.size(); ++i)
+      add_state(3 * static_cast<std::size_t>(draft.data.n_triples) + i, parts.state_of_blade[i]);
+    for (std::size_t i = 0; i < parts.row_of_blade.size(); ++i) add_row(i, parts.row_of_blade[i]);
+    map.n_coordinates = static_cast<int>(coordinate_names.size());
+    map.n_constraints = static_cast<int>(constraint_names.size());
+  }
+
+  MultibladeMap map;
+  std::vector<std::string> coordinate_names, coordinate_units, constraint_names;
+  std::vector<MassCarrier> masses;
+
+ private:
+  bool stands(const MassCarrier& mass) const {
+    return draft_.rotor->stands[static_cast<std::size_t>(mass.first_triple)];
+  }
+
+  int next() const { return static_cast<int>(coordinate_names.size()); }
+
+  void add_coordinate(std::size_t of_scene, const std::string& suffix) {
+    coordinate_names.push_back(scene_.coordinate_names[of_scene] + suffix);
+    coordinate_units.push_back(scene_.coordinate_units[of_scene]);
+  }
+
+  void add_support(const MassCarrier& mass) {
+    masses.push_back({mass.name, next() / 3, mass.n_triples, true, {}});
+    for (Eigen::Index i = 3 * mass.first_triple; i < 3 * (mass.first_triple + mass.n_triples); ++i) {
+      map.support[static_cast<std::size_t>(i)] = next();
+      add_coordinate(static_cast<std::size_t>(i), "");
+    }
+  }
+
+  /// All coordinates of a point or body of the blade for one harmonic, then those for the next.
+  void add_blade(const MassCarrier& mass) {
+    const int first = next();
+    const auto size = static_cast<int>(3 * mass.n_triples);
+    for (std::size_t a = 0; a < names_.size(); ++a) {
+      masses.push_back({mass.name, next() / 3, mass.n_triples, false, wave(a, first / 3, mass.n_triples)});
+      // Both waves of a harmonic are found from its cosine and its sine.
+      if (masses.back().wave.sense < 0) masses.back().first_triple -= mass.n_triples;
+      for (int i = 0; i < size; ++i) {
+        const auto of_scene = static_cast<std::size_t>(3 * mass.first_triple + i);
+        map.blade[of_scene] = first + i;
+        map.stride[of_scene] = size;
+        add_coordinate(of_scene, " " + names_[a]);
+      }
+    }
+  }
+
+  BladeWave wave(std::size_t a, Eigen::Index first, Eigen::Index n_triples) const {
+    const Harmonic& harmonic = map.harmonics[a];
+    if (harmonic.number == 0) return {names_[a], 0, 0, first, -1};
+    const bool is_cosine = static_cast<std::size_t>(harmonic.partner) > a;
+    const std::string number = harmonic.number == 1 ? "" : " " + std::to_string(harmonic.number);
+    const auto sine = static_cast<Eigen::Index>(is_cosine ? a + 1 : a);
+    return {(is_cosine ? "progressive" : "regressive") + number, harmonic.number, is_cosine ? 1 : -1, first,
+            first + sine * n_triples};
+  }
+
+  void add_state(std::size_t of_scene, bool of_blade) {
+    (of_blade ? map.blade : map.support)[of_scene] = next();
+    if (!of_blade) return add_coordinate(of_scene, "");
+    map.stride[of_scene] = 1;
+    for (const std::string& name : names_) add_coordinate(of_scene, " " + name);
+  }
+
+  void add_row(std::size_t of_scene, bool of_blade) {
+    const int first = static_cast<int>(constraint_names.size());
+    map.support_row.push_back(of_blade ? -1 : first);
+    map.blade_row.push_back(of_blade ? first : -1);
+    const std::string& name = scene_.constraint_names[of_scene];
+    if (!of_blade) constraint_names.push_back(name);
+    for (std::size_t a = 0; of_blade && a < names_.size(); ++a)
+      constraint_names.push_back(name + " " + names_[a]);
+  }
+
+  const Draft& draft_;
+  const ModelDescription& scene_;
+  std::vector<std::string> names_;
+};
+
+/// Every state of an element of the blade is one of each harmonic.
+void multiply_states(ModelDescription& description, const Parts& parts, int n_blades) {
+  std::size_t next = 0;
+  for (Effect& effect : description.effects) {
+    const int of_scene = effect.states;
+    for (int i = 0; i < of_scene; ++i) effect.states += parts.state_of_blade[next++] ? n_blades - 1 : 0;
+  }
+}
+
+/// Names of the points, bodies and beams that do or do not stand.
+std::vector<std::string> names_of(const std::vector<MassCarrier>& masses, bool stand) {
+  std::vector<std::string> names;
+  for (const MassCarrier& mass : masses) {
+    const bool known = std::find(names.begin(), names.end(), mass.name) != names.end();
+    if (mass.stands == stand && !known) names.push_back(mass.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription description,
+                                         const Expression& speed) {
+  Parts parts(draft);
+  RotorNumbering numbering(draft, parts, description);
+  multiply_states(description, parts, draft.rotor->blades);
+  const std::string hub = draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].name;
+  description.coordinate_names = std::move(numbering.coordinate_names);
+  description.coordinate_units = std::move(numbering.coordinate_units);
+  description.constraint_names = std::move(numbering.constraint_names);
+  description.masses = std::move(numbering.masses);
+  description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
+                                  names_of(description.masses, true)};
+  BladedRotorData data{
+      std::move(parts.blade), std::move(parts.support), std::move(numbering.map), speed, hub, draft.guess};
+  for (const Effect& effect : description.effects) data.n_states += effect.states;
+  for (SpinningAxis& spin : description.spins) {
+    for (Eigen::Index* at : {&spin.origin, &spin.director})
+      *at = data.map.support[static_cast<std::size_t>(*at)];
+  }
+  return std::make_unique<MultibladeRotor>(std::move(description), std::move(data));
+}
+
+}  // namespace eigentrail
