@@ -105,9 +105,10 @@ std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coeffici
     parts->ranges.push_back({first, splitting.sizes[i], copy_of[i]});
     first += splitting.sizes[i];
   }
-  parts->pattern_M = pattern_of(coefficients.M, *parts, magnified);
-  parts->pattern_C = pattern_of(coefficients.C, *parts, magnified);
-  parts->pattern_K = pattern_of(coefficients.K, *parts, magnified);
+  const double of_entries = magnified_by(splitting, magnified);
+  parts->pattern_M = pattern_of(coefficients.M, *parts, of_entries);
+  parts->pattern_C = pattern_of(coefficients.C, *parts, of_entries);
+  parts->pattern_K = pattern_of(coefficients.K, *parts, of_entries);
   return parts;
 }
 

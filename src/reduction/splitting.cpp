@@ -313,9 +313,10 @@ Matrix without_rounding_of_columns(Matrix coordinates) {
 /// small entries, which is no rounding however large other entries are.
 bool holds(const Splitting& splitting, const std::vector<Matrix>& all, double magnified) {
   const double size = std::max(splitting.left.norm() * splitting.right.norm(), 1.0);
+  const double of_entries = magnified_by(splitting, magnified);
   return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
     Matrix there = splitting.left.transpose() * A * splitting.right;
-    const Matrix rounding = rounding_of_entries(splitting.left, A, splitting.right, magnified);
+    const Matrix rounding = rounding_of_entries(splitting.left, A, splitting.right, of_entries);
     Eigen::Index at = 0;
     for (const Eigen::Index m : splitting.sizes) {
       there.block(at, at, m, m).setZero();
@@ -415,6 +416,11 @@ Splitting split(const std::vector<Matrix>& all, double magnified) {
   }
   result.of_pair.assign(result.sizes.size(), false);
   return result;
+}
+
+double magnified_by(const Splitting& splitting, double magnified) {
+  const double rcond = Eigen::PartialPivLU<Matrix>(splitting.right).rcond();
+  return rcond > 0.0 ? magnified / rcond : magnified;
 }
 
 Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified) {

@@ -26,6 +26,9 @@ struct Splitting {
 /// are separated without rounding. `magnified`: rounding of the matrices in units of their own, >= 1.
 Splitting split(const std::vector<Matrix>& all, double magnified);
 
+/// `magnified` times the condition number of the coordinates, by which their own rounding is larger.
+double magnified_by(const Splitting& splitting, double magnified);
+
 /// Bounds of rounding in the entries of left^T A right: a share of the terms that each is the sum of.
 Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified);
 

@@ -38,18 +38,31 @@ bool stands_for_a_mode(const Track& track, const Strand& strand) {
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
 }
 
+/// Magnitude up to which an eigenvalue of a block at a point is rounding, 1/s: a double zero is known to the
+/// root of rounding, relative to the largest eigenvalue. Zero in the reciprocal chart.
+double zero_level(const Track& block, const PathNode& node) {
+  constexpr double double_zero = 3e-8;
+  if (block.pair.chart == Chart::reciprocal) return 0.0;
+  double largest = 0.0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.chart == Chart::finite) largest = std::max(largest, track.roots.cwiseAbs().maxCoeff());
+  }
+  return double_zero * largest;
+}
+
 /// Roots of the gap of two eigenvalues of a block near a step, in shares of the step, from Chebyshev
 /// interpolants. Where the gap is not smooth, because one of the two meets a third eigenvalue, the step is
 /// halved repeatedly. On such a piece only roots up to half its length off the real axis are found.
 class RootsOnStep {
  public:
-  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis)
-      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis) {}
+  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `zero`: up to
+  /// which eigenvalues are rounding.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero)
+      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero) {}
 
   /// All roots.
   std::vector<Complex> find() {
-    if (!of_two_has_none()) search(0.0, 1.0);
+    if (!of_two_has_none() && !are_zero()) search(0.0, 1.0);
     return roots_;
   }
 
@@ -84,6 +97,17 @@ class RootsOnStep {
     return roots[a_] - roots[b_];
   }
   bool given_up() const { return pieces_ > most_pieces; }
+
+  /// Whether both eigenvalues are zero up to rounding on the whole step: rigid-body motions, whose
+  /// differences would be looked into piece by piece.
+  bool are_zero() {
+    constexpr int samples = 8;
+    for (int i = 0; i <= samples; ++i) {
+      const ComplexVector& roots = sampler_(static_cast<double>(i) / samples);
+      if (std::max(std::abs(roots[a_]), std::abs(roots[b_])) > zero_) return false;
+    }
+    return true;
+  }
 
   /// Region in which roots of a piece of that length must be excluded, in shares of the piece.
   Rectangle looked_at(double length) const {
@@ -154,7 +178,7 @@ class RootsOnStep {
 
   StrandSampler& sampler_;
   int a_, b_;
-  double off_axis_;
+  double off_axis_, zero_;
   int pieces_ = 0;
   std::vector<Complex> roots_;
 };
@@ -219,7 +243,8 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into);
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into,
+                          zero_level(track, left));
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
@@ -464,7 +489,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          widest / std::abs(length));
+                          widest / std::abs(length), zero_level(track, left));
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }
