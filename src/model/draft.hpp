@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -20,6 +21,8 @@ struct BodyDraft {
   std::map<std::string, ExpressionVector> markers;  ///< in body axes
 };
 
+struct BeamAxis;
+
 /// A beam: its nodes, with indices of Draft::masses, and its quadrature points in the order of the elements,
 /// with those of Draft::beam_sections.
 struct BeamDraft {
@@ -30,6 +33,8 @@ struct BeamDraft {
   std::size_t n_sections = 0;
   /// Damping of the beam's own: times by strain, s. Empty: none.
   std::vector<Expression> damping_times = {};
+  std::size_t first_body = 0;                      ///< its nodes are bodies from this index on
+  std::shared_ptr<const BeamAxis> axis = nullptr;  ///< nodes and elements before it is loaded
 };
 
 /// What a place or direction moves with: a body, a point, or neither (the frame).

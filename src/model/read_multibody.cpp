@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/multibody.hpp"
+#include "model/read_air.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
 #include "model/strips.hpp"
@@ -145,6 +146,16 @@ void add_element(Draft& draft, Element element, std::string label) {
   std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
 }
 
+/// Adds the strips of beams, blades and bodies in moving air.
+void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation) {
+  const std::vector<StripTable> all = read_strip_tables(draft, rotation);
+  for (const StripTable& table : all) {
+    for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
+  }
+  for (auto& [lag, label] : read_lift_lag(draft, all)) add_element(draft, lag, label);
+  for (auto& [mass, label] : read_apparent_mass(draft, all)) add_element(draft, mass, label);
+}
+
 /// The states of an element are coordinates, which the name of the element must tell apart.
 template <class Element>
 void check_own_name(const Draft& draft, const TableReader& table, const std::string& label) {
@@ -256,7 +267,7 @@ void check_without(const Draft& draft) {
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
     const std::string name(Element::name);
     const bool present = !tables(draft.scene, name).empty() || of_blades(draft, name);
-    if (present && !Element::contribution.inertia) can.push_back(name);
+    if (present && !std::is_base_of_v<PointMass, Element>) can.push_back(name);
   });
   for (const std::string& name : draft.request.without) {
     if (std::find(can.begin(), can.end(), name) != can.end()) continue;
@@ -378,6 +389,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
   for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
   for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
+  add_air(draft, rotation);
   if (rotation && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(
         scene, tables(scene, "spinning_disc")[0]->where,

@@ -103,6 +103,23 @@ const std::vector<ElementCase> cases = {
      "[[blade]]\nname = \"arm\"\nhub_radius = 0.2\nlength = \"p\"\nelements = 1\nmass = 1\nEA = 9\nGJ = 1.5\n"
      "EI_flap = \"2*p\"\nEI_lag = 3\npitch = \"0.3*p\"\nprecone = 0.1\nazimuth = 0.4\ndamping_flap = "
      "\"0.1*p\"\n"},
+    {"strips_on_a_beam",
+     "[frame]\nangular_velocity = [0, 0, \"9*p\"]\n"
+     "[[beam]]\nname = \"arm\"\nfrom = [0.2, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 2\nmass = 1\nEA = 9\n"
+     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\n"
+     "[[strips]]\non = \"arm\"\nextent = [0.1, 0.8]\nspan = [0, 1]\nchord = [0.3, \"0.2*p\"]\n"
+     "quarter_chord_y = 0.05\nincidence = [\"0.2*p\", 0.1]\nzero_lift_angle = -0.03\ndrag = 0.02\nmoment = "
+     "-0.05\nwind = [0, 0, \"-2*p\"]\nstrips = 1\n"},
+    {"strips_on_a_body",
+     "[[strips]]\non = \"c\"\nroot = [0, 0.1, \"p\"]\ntip = [1, 0, \"p\"]\nleading = [0, 1, 0.2]\nchord = "
+     "\"p\"\nlift_slope = 5\nwind = [1, \"-9*p\", 2]\ndensity = \"2*p\"\nstrips = 1\n"},
+    {"lift_lag",
+     "[[strips]]\non = \"c\"\nroot = [0, 0, 0]\ntip = [1, 0, \"p\"]\nchord = \"p\"\nwind = [1, \"-9*p\", "
+     "2]\nzero_lift_angle = 0.1\nstrips = 1\n[[lift_lag]]\nA = [\"0.2*p\", 0.3]\n"},
+    {"apparent_mass",
+     "[frame]\nangular_velocity = [0, \"0.2*p\", \"9*p\"]\n"
+     "[[strips]]\nname = \"air\"\non = \"c\"\nroot = [0, 0, 0]\ntip = [1, 0, \"p\"]\nchord = \"p\"\nwind = "
+     "[0, \"-0.4*p\", \"-18*p\"]\nstrips = 1\n[[apparent_mass]]\nstrips = \"air\"\n"},
     {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
     {"revolute_held",
      "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "
@@ -371,7 +388,8 @@ TEST(Registry, DeclaredDependencesAreComplete) {
               (rates - derivatives(elsewhere, Motion::velocity)).norm() > 1e-12 * rates.norm())
         << Element::name;
     const Vector masses = derivatives(values, Motion::acceleration);
-    EXPECT_EQ((masses - derivatives(elsewhere, Motion::acceleration)).norm(), 0.0) << Element::name;
+    EXPECT_EQ(depends.turning_mass, (masses - derivatives(elsewhere, Motion::acceleration)).norm() > 0.0)
+        << Element::name;
   });
 }
 
