@@ -66,6 +66,8 @@ struct Draft {
   std::vector<Expression> guess;         ///< starting guess, one per coordinate of points and bodies
   std::vector<std::string> state_names;  ///< coordinates of the states of elements, and their units
   std::vector<std::string> state_units;
+  std::vector<std::string> inflow_names;                   ///< their triples follow those of the bodies
+  std::vector<std::pair<std::string, std::string>> notes;  ///< ModelDescription::data
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
   std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by label of the joint

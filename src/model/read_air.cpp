@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "eigentrail/core/text.hpp"
+#include "model/coefficient_table.hpp"
 #include "model/span_line.hpp"
 #include "model/station_columns.hpp"
 
@@ -16,6 +17,8 @@ constexpr int most_points = 64;
 /// Default numbers of Gauss points. Two on an element do not lower the order of the beam's convergence.
 constexpr int points_on_element = 2;
 constexpr int points_on_body = 4;
+/// Degree of the interpolants of polars: airfoils stall, which higher degrees answer with waves.
+constexpr int polar_degree = 4;
 
 /// Keys of [[strips]] that may have a value per station.
 std::vector<FieldHelp> station_fields() {
@@ -39,7 +42,8 @@ std::vector<FieldHelp> station_fields() {
 
 class StripReader {
  public:
-  StripReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {}
+  StripReader(Draft& draft, TableReader& table, const std::vector<InflowDraft>& inflows)
+      : draft_(draft), table_(table), inflows_(inflows) {}
 
   std::vector<Strip> read(const std::optional<ExpressionVector>& rotation) {
     read_line();
@@ -118,7 +122,44 @@ class StripReader {
     common.angular_velocity = draft_.vector(rotation.value_or(ExpressionVector{}));
     common.density =
         draft_.quantity(draft_.read_number(table_, "density", "kg/m^3", Range::non_negative, 1.225));
+    if (table_.has("speed_of_sound"))
+      common.speed_of_sound =
+          draft_.quantity(draft_.read_number(table_, "speed_of_sound", "m/s", Range::positive));
+    if (table_.has("polar")) common.polar = read_polar();
+    if (table_.has("inflow")) read_inflow_of(common);
     return common;
+  }
+
+  std::shared_ptr<const Polar> read_polar() {
+    const CsvTable csv = read_csv(draft_.scene, table_, "polar");
+    const TableColumns columns{
+        "the angle of attack", "rad", {{"lift", ""}, {"drag", ""}, {"moment", ""}}, polar_degree};
+    try {
+      const CoefficientTable table = tabulate(csv, 0.0, columns);
+      std::array<std::vector<double>, 3> values;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto column = table.find(columns.known[k].first)) values[k] = column->values();
+      }
+      draft_.notes.emplace_back(table_.label() + " polar", table.in_words());
+      return std::make_shared<const Polar>(table.piece, std::move(values));
+    } catch (const TableFault& fault) {
+      table_.fail("polar", fault.what());
+    }
+  }
+
+  void read_inflow_of(Strip& common) {
+    const std::string name = table_.text("inflow");
+    std::vector<std::string> names;
+    for (const InflowDraft& inflow : inflows_) {
+      names.push_back(inflow.name);
+      if (inflow.name != name) continue;
+      common.inflow = inflow.element.velocity;
+      common.disc = inflow.disc;
+      return;
+    }
+    const auto& without = draft_.request.without;
+    if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return;
+    table_.fail("inflow", "no [[inflow]] is called '" + name + "'; " + suggestion(name, names));
   }
 
   /// A wind across the axis of a rotating frame turns in the frame, and there is no steady state.
@@ -139,6 +180,9 @@ class StripReader {
     const Column chord = columns.required("chord", "m", Range::positive);
     const Column quarter_chord = columns.optional("quarter_chord_y", "m");
     const Column incidence = columns.optional("incidence", "rad");
+    for (const char* key : {"lift_slope", "zero_lift_angle"}) {
+      if (common.polar && columns.has(key)) table_.fail(key, "is part of the polar; give one of them");
+    }
     const Column slope = columns.optional("lift_slope", "1/rad", Range::any, 2.0 * std::numbers::pi);
     const Column zero_lift = columns.optional("zero_lift_angle", "rad");
     const Column drag = columns.optional("drag", "", Range::non_negative);
@@ -172,6 +216,7 @@ class StripReader {
 
   Draft& draft_;
   TableReader& table_;
+  const std::vector<InflowDraft>& inflows_;
   std::vector<SpanPoint> points_;
   std::array<double, 2> extent_ = {0.0, 1.0};
 };
@@ -211,7 +256,8 @@ std::array<Quantity, 2> read_pair(Draft& draft, TableReader& table, const std::s
 
 }  // namespace
 
-std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation) {
+std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
+                                          const std::vector<InflowDraft>& inflows) {
   std::vector<StripTable> result;
   const std::vector<const Table*> all = tables(draft.scene, std::string(Strip::name));
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -221,7 +267,7 @@ std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<Expr
       if (other.name == strips.name)
         table.fail("name", "another [[strips]] is called '" + strips.name + "' already");
     }
-    strips.strips = StripReader(draft, table).read(rotation);
+    strips.strips = StripReader(draft, table, inflows).read(rotation);
     result.push_back(std::move(strips));
   }
   return result;
@@ -245,8 +291,10 @@ std::vector<std::pair<ApparentMass, std::string>> read_apparent_mass(Draft& draf
                                                                      const std::vector<StripTable>& all) {
   std::vector<std::pair<ApparentMass, std::string>> result;
   for_each_table(draft, ApparentMass::name, all, [&](TableReader&, const StripTable& strips) {
-    for (std::size_t i = 0; i < strips.strips.size(); ++i)
-      result.emplace_back(ApparentMass{strips.strips[i]}, strips.label(i));
+    for (std::size_t i = 0; i < strips.strips.size(); ++i) {
+      ApparentMass& mass = result.emplace_back(ApparentMass{strips.strips[i]}, strips.label(i)).first;
+      mass.inflow = {};  // small beside the speed of the section
+    }
   });
   return result;
 }
@@ -264,7 +312,15 @@ std::vector<FieldHelp> strips_fields() {
        "[0, 1, 0]"},
       {"lift", "[x, y, z]", "on a body: direction of lift; on a beam the z axis of the section", "[0, 0, 1]"},
       {"wind", "[x, y, z] m/s", "velocity of the air; in a rotating frame parallel to its axis", "[0, 0, 0]"},
-      {"density", "kg/m^3", "density of the air", "1.225"}};
+      {"density", "kg/m^3", "density of the air", "1.225"},
+      {"speed_of_sound", "m/s", "lift and moment then have the factor of Prandtl and Glauert",
+       "incompressible"},
+      {"inflow", "name of an inflow", "the [[inflow]] of the rotor", "none"},
+      {"polar", "text",
+       "CSV file with the angle of attack, `alpha [deg]`, and columns lift, drag, moment: coefficients in "
+       "place of "
+       "lift_slope and zero_lift_angle",
+       "none"}};
   for (FieldHelp& field : station_fields()) fields.push_back(std::move(field));
   return fields;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/draft.hpp"
+#include "model/read_inflow.hpp"
 
 namespace eigentrail {
 
@@ -19,7 +19,8 @@ struct StripTable {
 
 /// All [[strips]] tables; beams and bodies must have been read. `rotation` is the angular velocity of the
 /// frame.
-std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation);
+std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
+                                          const std::vector<InflowDraft>& inflows);
 
 /// What other tables add to strips, with labels.
 std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft,

@@ -148,7 +148,9 @@ void add_element(Draft& draft, Element element, std::string label) {
 
 /// Adds the strips of beams, blades and bodies in moving air.
 void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation) {
-  const std::vector<StripTable> all = read_strip_tables(draft, rotation);
+  const std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
+  for (const InflowDraft& inflow : inflows) add_element(draft, inflow.element, inflow.name);
+  const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
   for (const StripTable& table : all) {
     for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
   }
@@ -316,6 +318,13 @@ ModelDescription describe(const Draft& draft) {
     add(body.name, "m");
     for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
   }
+  for (const std::string& inflow : draft.inflow_names) {
+    for (const char* part : {".mean", ".x", ".y"}) {
+      description.coordinate_names.push_back(inflow + part);
+      description.coordinate_units.emplace_back("m/s");
+    }
+  }
+  description.data = draft.notes;
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {
     const MassDistribution& masses = draft.masses[i];
     description.masses.push_back(

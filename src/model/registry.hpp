@@ -15,6 +15,7 @@
 #include "model/elements/follower_force.hpp"
 #include "model/elements/force.hpp"
 #include "model/elements/gravity.hpp"
+#include "model/elements/inflow.hpp"
 #include "model/elements/internal_damping.hpp"
 #include "model/elements/lift_lag.hpp"
 #include "model/elements/maxwell_damper.hpp"
@@ -82,7 +83,8 @@ using Elements = ElementTable<  //
     BeamDamping,                //
     Strip,                      //
     LiftLag,                    //
-    ApparentMass>;
+    ApparentMass,               //
+    Inflow>;
 
 /// Whether every [[table]] of that name is one element. The others have their own readers: masses, the frame
 /// and gravity act on every mass, a beam is divided into elements and what is in moving air into strips.
@@ -91,6 +93,7 @@ inline constexpr bool has_own_table =
     !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RigidBody> &&
     !std::is_same_v<Element, RotatingFrame> && !std::is_same_v<Element, Gravity> &&
     !std::is_same_v<Element, BladeElement> && !std::is_same_v<Element, BeamSection> &&
-    !std::is_same_v<Element, BeamDamping> && !std::is_base_of_v<AirSection, Element>;
+    !std::is_same_v<Element, BeamDamping> && !std::is_base_of_v<AirSection, Element> &&
+    !std::is_same_v<Element, Inflow>;
 
 }  // namespace eigentrail

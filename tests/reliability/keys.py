@@ -28,6 +28,7 @@ KINDS = [
     (r"direction", '"second.x"', ("1", "[1]", "true"), "expected three numbers or expressions [x, y, z]"),
     (r"name of a body", '"blade"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a beam, blade or body", '"wing"', ("1", "[0, 0, 1]", "{}"), "a text"),
+    (r"name of an inflow", '"disc"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of strips", '"air"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a beam", '"wing"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a joint", '"hinge"', ("1", "[0, 0, 1]", "{}"), "a text"),
@@ -130,5 +131,5 @@ def rows_of(heading):
 
 SCENES = [row for heading in reference() for row in rows_of(heading)]
 
-# In still air a blade at rest has no direction of flow.
-GOOD = [scene(heading, good_lines(heading)) for heading in reference() if heading != "[[blade_element]]"]
+# In still air a blade at rest has no direction of flow, and a rotor without thrust no inflow.
+GOOD = [scene(heading, good_lines(heading)) for heading in reference() if heading not in ("[[blade_element]]", "[[inflow]]")]

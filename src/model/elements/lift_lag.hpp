@@ -49,7 +49,8 @@ struct LiftLag : AirSection {
       effective -= missing;
       at.add_to_state(i, missing - time / at.value(rates[index]) * at.state_rate(i));
     }
-    add_lift(at, air, circulation(at, air, effective) - circulation(at, air, air.downwash));
+    const Scalar change = circulation(at, air, effective) - circulation(at, air, air.downwash);
+    add_air_force(at, air, lift_of(air, change));
   }
 };
 

@@ -4,7 +4,8 @@
 //     drag   -1/2 rho c c_d |U| (U_t t + U_n n)
 //     moment  1/2 rho c^2 c_m |U|^2, nose up
 //
-// at the quarter chord. A section that does not pitch has the forces of BladeElement.
+// at the quarter chord. A section that does not pitch has the forces of BladeElement. Coefficients of a table
+// are those at the angle whose tangent is the downwash over the forward speed.
 #pragma once
 
 #include "model/elements/air_section.hpp"
@@ -32,14 +33,23 @@ struct Strip : AirSection {
   void force(ElementView<Scalar>& at) const {
     using std::sqrt;
     const AirFlow<Scalar> air = flow(at);
-    add_lift(at, air, circulation(at, air, air.downwash));
+    Vec3<Scalar> sum = lift_of(air, circulation(at, air, air.downwash));
     const Scalar half = half_mass(at);
-    if (drag.slot >= 0) {
-      const Scalar resistance = half * at.value(drag) * sqrt(air.speed_squared());
-      at.add_force(quarter_chord, -resistance * (air.forward * air.t + air.normal * air.n));
+    Scalar c_d(0.0), c_m(0.0);
+    if (polar) {
+      const PolarPoint<Scalar> table = coefficients(air, air.downwash);
+      c_d = table.drag;
+      c_m = table.moment;
     }
-    if (moment.slot >= 0)
-      at.add_force(leading, half * at.value(chord) * at.value(moment) * air.speed_squared() * air.n);
+    if (drag.slot >= 0) c_d += at.value(drag);
+    if (moment.slot >= 0) c_m += at.value(moment);
+    if (polar || drag.slot >= 0)
+      sum -= half * c_d * sqrt(air.speed_squared()) * (air.forward * air.t + air.normal * air.n);
+    add_air_force(at, air, sum);
+    if (polar || moment.slot >= 0) {
+      const Scalar nose_up = compressed(at, air, half * at.value(chord) * c_m * air.speed_squared());
+      at.add_force(leading, nose_up * air.n);
+    }
   }
 };
 
