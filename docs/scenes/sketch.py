@@ -275,6 +275,19 @@ class Sketch:
             corners = [at(list(p + k * chord * lead)) for p, k in ((root, 0.25), (tip, 0.25), (tip, -0.75), (root, -0.75))]
             self.axes.add_patch(Polygon(corners, facecolor="#cccccc", edgecolor=INK, linewidth=0.7, zorder=0.9))
 
+    def strips(self):
+        """Strips on bodies, from leading to trailing edge; those on beams are not drawn."""
+        for table in self.scene.tables("strips"):
+            if "root" not in table:
+                continue
+            root, tip = self.scene.vector(table["root"]), self.scene.vector(table["tip"])
+            lead, chord = self.scene.vector(table.get("leading", [0, 1, 0])), self.scene.number(table["chord"])
+            quarter = self.scene.number(table.get("quarter_chord_y", 0))
+            lead = lead / np.linalg.norm(lead)
+            corners = [self.flat(self.posture.place({"body": table["on"], "at": list(p + (quarter + k * chord) * lead)}))
+                       for p, k in ((root, 0.25), (tip, 0.25), (tip, -0.75), (root, -0.75))]
+            self.axes.add_patch(Polygon(corners, facecolor="#cccccc", edgecolor=INK, linewidth=0.7, zorder=0.9))
+
     def bearings(self):
         for table in self.scene.tables("bearing"):
             at = self.flat(self.posture.place(table["point"]))
@@ -318,7 +331,7 @@ class Sketch:
                                textcoords="offset points", fontsize=9, ha=label.get("align", "left"), va="center", zorder=7)
 
     def draw(self):
-        parts = [self.bodies, self.shapes, self.points, self.rods, self.joints, self.springs, self.discs, self.blades, self.bearings]
+        parts = [self.bodies, self.shapes, self.points, self.rods, self.joints, self.springs, self.discs, self.blades, self.strips, self.bearings]
         for part in parts:
             if part.__name__ not in self.settings.get("hide", []):
                 part()

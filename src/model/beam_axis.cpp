@@ -89,7 +89,7 @@ BeamAxis beam_axis(const BeamTable& table, int elements, int degree, const Expre
       tangent = {axis.length, weighted(w.slope, table.sweep), weighted(w.slope, table.prebend)};
     }
     Expression twist(0.0);
-    for (const BeamTable::Share& share : table.shares(s))
+    for (const StationShare& share : table.shares(s))
       twist = twist + Expression(share.weight) * table.twist[share.station];
     const ExpressionRotation local = section_axes(tangent, unit_vector(1), twist);
     axis.local_position.push_back(position);

@@ -141,8 +141,8 @@ class BeamBuilder {
   /// (Noor & Peters 1981).
   void add_sections() {
     const auto n_nodes = static_cast<std::size_t>(axis_.nodes());
-    draft_.beams.push_back(
-        {name_, draft_.masses.size() - n_nodes, n_nodes, draft_.beam_sections.size(), 0, damping_times_});
+    draft_.beams.push_back({name_, draft_.masses.size() - n_nodes, n_nodes, draft_.beam_sections.size(), 0,
+                            damping_times_, first_body_, std::make_shared<const BeamAxis>(axis_)});
     for (int e = 0; e < axis_.elements; ++e) {
       for (const auto& [xi, weight] : gauss_points(axis_.degree)) add_section(e, xi, weight);
     }

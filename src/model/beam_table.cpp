@@ -2,10 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 
 #include "eigentrail/core/text.hpp"
-#include "model/station_file.hpp"
+#include "model/station_columns.hpp"
 
 namespace eigentrail {
 namespace {
@@ -37,66 +36,6 @@ std::vector<FieldHelp> file_fields() {
   return fields;
 }
 
-/// Reads keys that may be one number for all stations or a list of one per station.
-class ColumnReader {
- public:
-  ColumnReader(Draft& draft, TableReader& table) : draft_(draft), table_(table) {
-    if (table.has("file")) file_ = read_station_file(draft.scene, table, file_fields());
-    read_span();
-  }
-
-  const std::vector<double>& span() const { return span_; }
-  std::size_t stations() const { return span_.size(); }
-  bool has(const std::string& key) { return table_.has(key) || file_.contains(key); }
-  bool in_file(const std::string& key) const { return file_.contains(key); }
-
-  Column required(const std::string& key, std::string_view unit, Range range) {
-    Column column = list(key, unit);
-    if (column.size() == 1) column.assign(stations(), Expression(column[0]));
-    if (column.size() != stations()) {
-      table_.fail(key, stations() == 1
-                           ? "a list needs the places of its stations; give span as well"
-                           : "expected one number, or one for each of the " + std::to_string(stations()) +
-                                 " stations of span; found " + std::to_string(column.size()));
-    }
-    for (const Expression& e : column) draft_.check_range(table_, key, e, range);
-    return column;
-  }
-
-  Column optional(const std::string& key, std::string_view unit, Range range = Range::any) {
-    return has(key) ? required(key, unit, range) : Column(stations(), Expression(0.0));
-  }
-
- private:
-  /// From the scene, or else from the file.
-  Column list(const std::string& key, WantedUnit unit) {
-    if (table_.has(key) || !file_.contains(key)) return table_.list(key, unit);
-    const std::vector<double>& values = file_.at(key);
-    return {values.begin(), values.end()};
-  }
-
-  void read_span() {
-    if (!has("span")) return;
-    span_.clear();
-    for (const Expression& e : list("span", {})) {
-      if (!e.is_constant()) table_.fail("span", "expected numbers, found an expression of parameters");
-      span_.push_back(e.evaluate(std::span<const double>()));
-      const std::size_t n = span_.size();
-      if (!std::isfinite(span_.back()) || (n > 1 && !(span_[n - 1] > span_[n - 2])))
-        table_.fail("span", "expected numbers that increase from station to station");
-    }
-    if (span_.size() < 2) table_.fail("span", "expected at least two stations");
-    const double first = span_.front();
-    const double length = span_.back() - first;
-    for (double& s : span_) s = (s - first) / length;
-  }
-
-  Draft& draft_;
-  TableReader& table_;
-  std::map<std::string, std::vector<double>> file_;
-  std::vector<double> span_ = {0.0};
-};
-
 /// Adds k v v^T.
 void add_product(BeamTable::Stiffness& S, const Expression& k, const StrainVector& v) {
   for (std::size_t i = 0; i < 6; ++i) {
@@ -113,7 +52,7 @@ StrainVector strain_unit(std::size_t i) {
 /// Stiffness from that of extension about the tension centre and of shear and twist about the shear centre.
 /// Extension at (y, z) is Gamma_x + z kappa_y - y kappa_z; shear there is Gamma_y - z kappa_x, Gamma_z + y
 /// kappa_x.
-std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns,
+std::vector<BeamTable::Stiffness> engineering_stiffness(StationColumns& columns,
                                                         const std::optional<Expression>& blade_length) {
   // Keys that have been asked for are no misprints of one that is missing.
   for (const char* key : {"EA", "GJ", "EI_flap", "EI_lag", "GA_flap", "GA_lag"}) (void)columns.has(key);
@@ -150,7 +89,7 @@ std::vector<BeamTable::Stiffness> engineering_stiffness(ColumnReader& columns,
 }
 
 /// The matrix of each station from the columns S11, S21, ... of the file. Those that are left out are zero.
-std::vector<BeamTable::Stiffness> stiffness_columns(const TableReader& table, ColumnReader& columns) {
+std::vector<BeamTable::Stiffness> stiffness_columns(const TableReader& table, StationColumns& columns) {
   std::vector<BeamTable::Stiffness> stiffness(columns.stations());
   std::vector<Eigen::Matrix<double, 6, 6>> values(columns.stations(), Eigen::Matrix<double, 6, 6>::Zero());
   for (std::size_t i = 0; i < 6; ++i) {
@@ -199,7 +138,7 @@ std::vector<BeamTable::Stiffness> full_stiffness(Draft& draft, TableReader& tabl
 }
 
 /// Moments of the mass about the axis. Without inertias the mass is spread as the stiffness is: m EI/EA.
-std::vector<BeamTable::Mass> read_mass(ColumnReader& columns,
+std::vector<BeamTable::Mass> read_mass(StationColumns& columns,
                                        const std::vector<BeamTable::Stiffness>& stiffness) {
   const Column product = columns.optional("inertia_product", "kg m");
   const Column mass = columns.required("mass", "kg/m", Range::positive);
@@ -226,14 +165,6 @@ std::vector<BeamTable::Mass> read_mass(ColumnReader& columns,
 
 }  // namespace
 
-std::vector<BeamTable::Share> BeamTable::shares(double s) const {
-  if (span.size() == 1) return {{0, 1.0}};
-  const auto above = std::upper_bound(span.begin() + 1, span.end() - 1, s);
-  const auto right = static_cast<std::size_t>(above - span.begin());
-  const double weight = (s - span[right - 1]) / (span[right] - span[right - 1]);
-  return {{right - 1, 1.0 - weight}, {right, weight}};
-}
-
 Expression blade_EA(const Expression& EI_lag, const Expression& length) {
   return Expression(1e4) * EI_lag / (length * length);
 }
@@ -243,7 +174,7 @@ Expression blade_GJ(const Expression& EI_flap, const Expression& EI_lag) {
 }
 
 BeamTable read_beam_table(Draft& draft, TableReader& table, const std::optional<Expression>& blade_length) {
-  ColumnReader columns(draft, table);
+  StationColumns columns(draft, table, file_fields());
   BeamTable result;
   result.span = columns.span();
   if (table.has("stiffness"))

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "model/draft.hpp"
+#include "model/station_columns.hpp"
 
 namespace eigentrail {
 
@@ -22,12 +22,8 @@ struct BeamTable {
   bool straight = true;                    ///< without sweep and prebend
   bool twisted = false;
 
-  struct Share {
-    std::size_t station = 0;
-    double weight = 0.0;
-  };
   /// The stations on both sides of s, with their weights in linear interpolation.
-  std::vector<Share> shares(double s) const;
+  std::vector<StationShare> shares(double s) const { return station_shares(span, s); }
 };
 
 /// Reads the keys of a [[beam]] that describe sections. If the length of a blade is given, EA and GJ have the

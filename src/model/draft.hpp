@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -21,6 +22,8 @@ struct BodyDraft {
   std::map<std::string, ExpressionVector> markers;  ///< in body axes
 };
 
+struct BeamAxis;
+
 /// A beam: its nodes, with indices of Draft::masses, and its quadrature points in the order of the elements,
 /// with those of Draft::beam_sections.
 struct BeamDraft {
@@ -31,6 +34,8 @@ struct BeamDraft {
   std::size_t n_sections = 0;
   /// Damping of the beam's own: times by strain, s. Empty: none.
   std::vector<Expression> damping_times = {};
+  std::size_t first_body = 0;                      ///< its nodes are bodies from this index on
+  std::shared_ptr<const BeamAxis> axis = nullptr;  ///< nodes and elements before it is loaded
 };
 
 /// What a place or direction moves with: a body, a point, or neither (the frame).
@@ -63,6 +68,8 @@ struct Draft {
   std::vector<Expression> guess;         ///< starting guess, one per coordinate of points and bodies
   std::vector<std::string> state_names;  ///< coordinates of the states of elements, and their units
   std::vector<std::string> state_units;
+  std::vector<std::string> inflow_names;                   ///< their triples follow those of the bodies
+  std::vector<std::pair<std::string, std::string>> notes;  ///< ModelDescription::data
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
   std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by label of the joint

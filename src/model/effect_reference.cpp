@@ -2,8 +2,10 @@
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/multiblade/read_bladed_rotor.hpp"
+#include "model/read_air.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
+#include "model/read_inflow.hpp"
 #include "model/registry.hpp"
 #include "model/strips.hpp"
 
@@ -77,6 +79,10 @@ std::vector<FieldHelp> table_fields() {
   if constexpr (std::is_same_v<Element, BladeElement>) return strip_fields();
   if constexpr (std::is_same_v<Element, BeamSection>) return beam_fields();
   if constexpr (std::is_same_v<Element, BeamDamping>) return beam_damping_fields();
+  if constexpr (std::is_same_v<Element, Inflow>) return inflow_fields();
+  if constexpr (std::is_same_v<Element, Strip>) return strips_fields();
+  if constexpr (std::is_same_v<Element, LiftLag>) return lift_lag_fields();
+  if constexpr (std::is_same_v<Element, ApparentMass>) return apparent_mass_fields();
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ struct Dependence {
   bool position = false;
   bool velocity = false;
   bool acceleration = false;
-  bool turning = false;  ///< C depends on positions and thus changes with the equilibrium
+  bool turning = false;       ///< C depends on positions and thus changes with the equilibrium
+  bool turning_mass = false;  ///< likewise M
 };
 
 enum class Motion { position, velocity, acceleration };

@@ -113,31 +113,33 @@ Structure structure_of(const MultibodyData& data, int traced_parameter) {
   Enters changes;
   bool curved_constraints = false;
   bool turning_damping = false;
+  bool turning_mass = false;
   TracedRoles roles(data.parameters, traced_parameter, changes);
   data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
     roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
     constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
+    constexpr bool only_inertia = Element::contribution.inertia && !depends.position;
     for (const Placed<Element>& placed : list) {
       Element::fields(placed.element, roles);
-      roles.strength(
-          placed.strength,
-          {.mass = depends.acceleration, .damping = damping, .force = !Element::contribution.inertia});
+      roles.strength(placed.strength,
+                     {.mass = depends.acceleration, .damping = damping, .force = !only_inertia});
     }
     if (list.empty()) return;
     result.damped = result.damped || Element::contribution.dissipative;
     result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
     result.circulatory = result.circulatory || Element::contribution.circulatory;
     turning_damping = turning_damping || depends.turning;
+    turning_mass = turning_mass || depends.turning_mass;
   });
   for (const Constraint& constraint : data.constraints) {
     roles.constraint(constraint);
     curved_constraints = curved_constraints || is_curved(constraint);
   }
-  // Masses do not depend on x. K and curved constraints (A) change with the equilibrium, and so do some
-  // damping matrices.
+  // K and curved constraints (A) change with the equilibrium, and so do some damping matrices and the mass of
+  // the air.
   result.fixed_equilibrium = !changes.force && !changes.constraint;
-  result.constant_mass = !changes.mass;
+  result.constant_mass = !changes.mass && (result.fixed_equilibrium || !turning_mass);
   result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);
   result.constant_stiffness = result.fixed_equilibrium;
   result.constant_constraints = !changes.constraint && (result.fixed_equilibrium || !curved_constraints);

@@ -8,6 +8,7 @@
 #include "model/multiblade/read_bladed_rotor.hpp"
 #include "model/multiblade/rotor_parts.hpp"
 #include "model/multibody.hpp"
+#include "model/read_air.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
 #include "model/strips.hpp"
@@ -147,6 +148,18 @@ void add_element(Draft& draft, Element element, std::string label) {
   std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
 }
 
+/// Adds the strips of beams, blades and bodies in moving air.
+void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation) {
+  const std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
+  for (const InflowDraft& inflow : inflows) add_element(draft, inflow.element, inflow.name);
+  const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
+  for (const StripTable& table : all) {
+    for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
+  }
+  for (auto& [lag, label] : read_lift_lag(draft, all)) add_element(draft, lag, label);
+  for (auto& [mass, label] : read_apparent_mass(draft, all)) add_element(draft, mass, label);
+}
+
 /// The states of an element are coordinates, which the name of the element must tell apart.
 template <class Element>
 void check_own_name(const Draft& draft, const TableReader& table, const std::string& label) {
@@ -260,7 +273,7 @@ void check_without(const Draft& draft) {
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
     const std::string name(Element::name);
     const bool present = !tables(draft.scene, name).empty() || of_blades(draft, name);
-    if (present && !Element::contribution.inertia) can.push_back(name);
+    if (present && !std::is_base_of_v<PointMass, Element>) can.push_back(name);
   });
   for (const std::string& name : draft.request.without) {
     if (std::find(can.begin(), can.end(), name) != can.end()) continue;
@@ -309,6 +322,13 @@ ModelDescription describe(const Draft& draft) {
     add(body.name, "m");
     for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
   }
+  for (const std::string& inflow : draft.inflow_names) {
+    for (const char* part : {".mean", ".x", ".y"}) {
+      description.coordinate_names.push_back(inflow + part);
+      description.coordinate_units.emplace_back("m/s");
+    }
+  }
+  description.data = draft.notes;
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {
     const MassDistribution& masses = draft.masses[i];
     description.masses.push_back(
@@ -383,6 +403,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
   for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
   for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
+  add_air(draft, rotation);
   if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(
         scene, tables(scene, "spinning_disc")[0]->where,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/constraint.hpp"
+#include "model/elements/apparent_mass.hpp"
 #include "model/elements/beam.hpp"
 #include "model/elements/bearing.hpp"
 #include "model/elements/blade_element.hpp"
@@ -14,13 +15,16 @@
 #include "model/elements/follower_force.hpp"
 #include "model/elements/force.hpp"
 #include "model/elements/gravity.hpp"
+#include "model/elements/inflow.hpp"
 #include "model/elements/internal_damping.hpp"
+#include "model/elements/lift_lag.hpp"
 #include "model/elements/maxwell_damper.hpp"
 #include "model/elements/moment.hpp"
 #include "model/elements/point_mass.hpp"
 #include "model/elements/rotating_frame.hpp"
 #include "model/elements/spinning_disc.hpp"
 #include "model/elements/spring.hpp"
+#include "model/elements/strip.hpp"
 #include "model/elements/torsion.hpp"
 #include "model/elements/transverse_force.hpp"
 
@@ -76,15 +80,20 @@ using Elements = ElementTable<  //
     SpinningDisc,               //
     BladeElement,               //
     BeamSection,                //
-    BeamDamping>;
+    BeamDamping,                //
+    Strip,                      //
+    LiftLag,                    //
+    ApparentMass,               //
+    Inflow>;
 
 /// Whether every [[table]] of that name is one element. The others have their own readers: masses, the frame
-/// and gravity act on every mass, a blade is divided into strips and a beam into elements.
+/// and gravity act on every mass, a beam is divided into elements and what is in moving air into strips.
 template <class Element>
 inline constexpr bool has_own_table =
     !std::is_same_v<Element, PointMass> && !std::is_same_v<Element, RigidBody> &&
     !std::is_same_v<Element, RotatingFrame> && !std::is_same_v<Element, Gravity> &&
     !std::is_same_v<Element, BladeElement> && !std::is_same_v<Element, BeamSection> &&
-    !std::is_same_v<Element, BeamDamping>;
+    !std::is_same_v<Element, BeamDamping> && !std::is_base_of_v<AirSection, Element> &&
+    !std::is_same_v<Element, Inflow>;
 
 }  // namespace eigentrail

@@ -276,7 +276,7 @@ class Explain(CommandTest):
             "body", "gravity", "force", "follower_force", "transverse_force", "moment", "spring", "guided_spring",
             "torsional_spring", "damper", "torsional_damper", "maxwell_damper",
             "torsional_maxwell_damper", "internal_damping", "bearing", "spinning_disc",
-            "blade_element", "beam", "beam_damping", "directors", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic",
+            "blade_element", "beam", "beam_damping", "strips", "lift_lag", "apparent_mass", "inflow", "directors", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic",
             "weld", "point_on_line", "point_on_plane"})
 
     def test_sizes_structure_and_solvers_follow(self):

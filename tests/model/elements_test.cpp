@@ -103,6 +103,36 @@ const std::vector<ElementCase> cases = {
      "[[blade]]\nname = \"arm\"\nhub_radius = 0.2\nlength = \"p\"\nelements = 1\nmass = 1\nEA = 9\nGJ = 1.5\n"
      "EI_flap = \"2*p\"\nEI_lag = 3\npitch = \"0.3*p\"\nprecone = 0.1\nazimuth = 0.4\ndamping_flap = "
      "\"0.1*p\"\n"},
+    {"strips_on_a_beam",
+     "[frame]\nangular_velocity = [0, 0, \"9*p\"]\n"
+     "[[beam]]\nname = \"arm\"\nfrom = [0.2, 0, 0]\nto = [\"p\", 0.2, 0.1]\nelements = 2\nmass = 1\nEA = 9\n"
+     "EI_flap = 2\nEI_lag = 3\nGJ = 1.5\n"
+     "[[strips]]\non = \"arm\"\nextent = [0.1, 0.8]\nspan = [0, 1]\nchord = [0.3, \"0.2*p\"]\n"
+     "quarter_chord_y = 0.05\nincidence = [\"0.2*p\", 0.1]\nzero_lift_angle = -0.03\ndrag = 0.02\nmoment = "
+     "-0.05\nwind = [0, 0, \"-2*p\"]\nstrips = 1\n"},
+    {"strips_on_a_body",
+     "[[strips]]\non = \"c\"\nroot = [0, 0.1, \"p\"]\ntip = [1, 0, \"p\"]\nleading = [0, 1, 0.2]\nchord = "
+     "\"p\"\nlift_slope = 5\nwind = [1, \"-9*p\", 2]\ndensity = \"2*p\"\nstrips = 1\n"},
+    {"lift_lag",
+     "[[strips]]\non = \"c\"\nroot = [0, 0, 0]\ntip = [1, 0, \"p\"]\nchord = \"p\"\nwind = [1, \"-9*p\", "
+     "2]\nzero_lift_angle = 0.1\nstrips = 1\n[[lift_lag]]\nA = [\"0.2*p\", 0.3]\n"},
+    {"apparent_mass",
+     "[frame]\nangular_velocity = [0, \"0.2*p\", \"9*p\"]\n"
+     "[[strips]]\nname = \"air\"\non = \"c\"\nroot = [0, 0, 0]\ntip = [1, 0, \"p\"]\nchord = \"p\"\nwind = "
+     "[0, \"-0.4*p\", \"-18*p\"]\nstrips = 1\n[[apparent_mass]]\nstrips = \"air\"\n"},
+    {"inflow",
+     "[frame]\nangular_velocity = [0, 0, \"9*p\"]\n"
+     "[[inflow]]\nname = \"disc\"\nradius = \"2*p\"\ncentre = [0, 0.1, 0]\nwind = [0, 0, \"-2*p\"]\ndensity "
+     "= "
+     "\"p\"\n[[strips]]\non = \"c\"\nroot = [0.1, 0, 0]\ntip = [1, 0, \"p\"]\nchord = 0.2\nwind = [0, 0, "
+     "\"-2*p\"]\nincidence = 0.3\ndrag = 0.01\ninflow = \"disc\"\nspeed_of_sound = \"50*p\"\nstrips = 1\n"
+     "[[lift_lag]]\n"},
+    {"uniform_inflow",
+     "[frame]\nangular_velocity = [0, 0, \"9*p\"]\n"
+     "[[inflow]]\nname = \"disc\"\nmodel = \"uniform\"\nradius = \"2*p\"\nblades = 3\nguess = 0.7\n"
+     "[[strips]]\non = \"c\"\nroot = [0.1, 0, 0]\ntip = [1, 0, \"p\"]\nchord = 0.2\ninflow = "
+     "\"disc\"\nstrips = "
+     "1\n"},
     {"ball", "[[ball]]\nfrom = \"a\"\nto = \"c.tip\"\n"},
     {"revolute_held",
      "[[revolute]]\nfrom = \"c\"\nto = \"d\"\naxis = { body = \"c\", along = [1, 1, \"p\"] }\nangle = "
@@ -299,6 +329,8 @@ TEST(Registry, EveryEffectHasACase) {
 /// Gives every field of an element a vector or a number of its own.
 class Filler {
  public:
+  static constexpr int fast = 40;
+
   explicit Filler(std::vector<Place>& arguments) : arguments_(arguments) {}
 
   void place(std::string_view, Place& place, std::string_view = {}) {
@@ -314,7 +346,10 @@ class Filler {
   void joint(std::string_view key, HingeAngle& angle, std::string_view) {
     for (Place* d : {&angle.axis, &angle.from, &angle.to}) place(key, *d);
   }
-  void quantity(const QuantityField&, Quantity& q) { q = {1.0, slot_++}; }
+  /// Sections are slower than sound.
+  void quantity(const QuantityField& field, Quantity& q) {
+    q = {1.0, field.key == "speed_of_sound" ? fast : slot_++};
+  }
   void vector(const QuantityField&, std::array<Quantity, 3>& v) {
     for (Quantity& q : v) q = {1.0, slot_++};
   }
@@ -336,6 +371,7 @@ TEST(Registry, DeclaredDependencesAreComplete) {
   for (int i = 0; i < 8; ++i)
     values.triples.push_back({Base(0.3 + 0.17 * i * i), Base(0.9 - 0.4 * i), Base(0.2 + std::sin(3.0 * i))});
   for (int i = 0; i < 40; ++i) values.values.emplace_back(1.1 + 0.3 * i + 0.2 * std::sin(5.0 * i));
+  values.values.emplace_back(1e3);  // Filler::fast
   PathValues<Base> elsewhere = values;
   for (auto& triple : elsewhere.triples) triple += Vec3<Base>(Base(0.21), Base(-0.33), Base(0.1) * triple[0]);
 
@@ -371,7 +407,8 @@ TEST(Registry, DeclaredDependencesAreComplete) {
               (rates - derivatives(elsewhere, Motion::velocity)).norm() > 1e-12 * rates.norm())
         << Element::name;
     const Vector masses = derivatives(values, Motion::acceleration);
-    EXPECT_EQ((masses - derivatives(elsewhere, Motion::acceleration)).norm(), 0.0) << Element::name;
+    EXPECT_EQ(depends.turning_mass, (masses - derivatives(elsewhere, Motion::acceleration)).norm() > 0.0)
+        << Element::name;
   });
 }
 

@@ -17,7 +17,8 @@ BASE = edited(edited(BASE, "mass = 2.0", 'mass = "omega"'), "g = 9.81\n", "")
 SPECIAL = {"from": "[0, 0, -1.5]", "to": '"second"', "cross_axis": '"second.y"', "second": "[0, 1, 0]", "lift": "[0, 0, 1]",
            "leading": "[0, 1, 0]", "root": "[0, 0, 0]", "rod from": "[0, 0, -1]", "spring from": "[0, 0, -1]",
            "damper from": "[0, 0, -1]", "follower_force from": "[0, 0, -1]", "beam from": "[0, 3, 0]", "beam to": "[1, 3, 0]",
-           "beam elements": "2", "beam_damping beam": '"wing"', "blade elements": "2"}
+           "beam elements": "2", "beam_damping beam": '"wing"', "blade elements": "2",
+           "strips on": '"wing"'}
 
 # By what the reference says of a value: a good one, wrong ones, and what is expected in their place.
 KINDS = [
@@ -26,6 +27,9 @@ KINDS = [
     (r"place", "[0, 0, 3]", ("1", "[1, 2]", "true"), "expected three numbers or expressions [x, y, z]"),
     (r"direction", '"second.x"', ("1", "[1]", "true"), "expected three numbers or expressions [x, y, z]"),
     (r"name of a body", '"blade"', ("1", "[0, 0, 1]", "{}"), "a text"),
+    (r"name of a beam, blade or body", '"wing"', ("1", "[0, 0, 1]", "{}"), "a text"),
+    (r"name of an inflow", '"disc"', ("1", "[0, 0, 1]", "{}"), "a text"),
+    (r"name of strips", '"air"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a beam", '"wing"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"name of a joint", '"hinge"', ("1", "[0, 0, 1]", "{}"), "a text"),
     (r"axis", '"x"', ("1", "[1, 0, 0]"), "a text"),
@@ -42,7 +46,7 @@ WORDS = {"1": "one", "true": "true", "false": "false", "[]": "an empty list", "{
 
 # Keys that cannot be given at will: they depend on others.
 DEPENDENT = {"torsional_spring about", "torsional_damper about", "torsional_maxwell_damper about", "body inertia",
-             "body x_axis", "body y_axis", "body z_axis"}
+             "body x_axis", "body y_axis", "body z_axis", "strips root", "strips tip", "strips leading", "strips lift"}
 
 
 # Tables that are tried elsewhere: options, families, and rotors, which stand in scenes without points and bodies
@@ -62,7 +66,14 @@ EI_flap = 1
 EI_lag = 1
 GJ = 1
 """
-BESIDE = {"[[beam_damping]]": WING}
+AIR = f"""{WING}
+[[strips]]
+name = "air"
+on = "wing"
+chord = 0.2
+wind = [0, -5, 0]
+"""
+BESIDE = {"[[beam_damping]]": WING, "[[strips]]": WING, "[[lift_lag]]": AIR, "[[apparent_mass]]": AIR}
 
 
 def kind_of(unit):
@@ -110,7 +121,7 @@ def rows_of(heading):
             continue
         _, _, wrong, expected = kind_of(unit)
         for value in wrong:
-            if value == "[1]" and (heading in ("[[beam]]", "[[blade]]") or f"{name} {key}" == "beam_damping time"):
+            if value == "[1]" and (heading in ("[[beam]]", "[[blade]]", "[[strips]]") or f"{name} {key}" == "beam_damping time"):
                 continue  # lists are values at stations, or of the strains
             bad = {**good, key: f"{PLACE}{key} = {value}"}
             yield f"{name} with {key} being {WORDS[value]}", scene(heading, bad), (f"{where} {key}: ", expected)
@@ -120,5 +131,5 @@ def rows_of(heading):
 
 SCENES = [row for heading in reference() for row in rows_of(heading)]
 
-# In still air a blade at rest has no direction of flow.
-GOOD = [scene(heading, good_lines(heading)) for heading in reference() if heading != "[[blade_element]]"]
+# In still air a blade at rest has no direction of flow, and a rotor without thrust no inflow.
+GOOD = [scene(heading, good_lines(heading)) for heading in reference() if heading not in ("[[blade_element]]", "[[inflow]]")]

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "eigentrail/core/text.hpp"
-#include "model/rotor/bearing_table.hpp"
+#include "model/coefficient_table.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
 namespace eigentrail {
@@ -56,8 +56,17 @@ const char* unit_of(const std::string& key) {
   return key[0] == 'k' ? "N/m" : key[0] == 'c' ? "N s/m" : "kg";
 }
 
+TableColumns bearing_columns(const std::string& unit) {
+  TableColumns columns{"the speed, or what 'over' says", unit, {}};
+  for (const char* name :
+       {"kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", "mxx", "mxy", "myx", "myy", "kzz", "czz"})
+    columns.known.emplace_back(name, unit_of(name));
+  return columns;
+}
+
 /// The coefficients that the scene gives as numbers or expressions. A missing one along y is that along x.
-BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table, const BearingTable* columns) {
+BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table,
+                                      const CoefficientTable* columns) {
   BearingCoefficients result;
   const auto tabulated = [&](const std::string& key) {
     return columns == nullptr ? nullptr : columns->find(key);
@@ -86,7 +95,7 @@ BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table, con
 }
 
 /// The table of a bearing over its argument: the speed of the shaft, or the expression `over`.
-std::optional<BearingTable> read_columns(RotorDraft& rotor, TableReader& table, const NodePlace& place) {
+std::optional<CoefficientTable> read_columns(RotorDraft& rotor, TableReader& table, const NodePlace& place) {
   if (!table.has("table")) {
     if (table.has("over")) table.fail("over", "is the argument of a table; there is no 'table'");
     return std::nullopt;
@@ -96,7 +105,7 @@ std::optional<BearingTable> read_columns(RotorDraft& rotor, TableReader& table, 
                                   : rotor.shafts[place.shaft].speed;
   const CsvTable csv = read_csv(rotor.draft.scene, table, "table");
   try {
-    BearingTable columns = tabulate(csv, argument, table.has("over") ? "" : "rad/s");
+    CoefficientTable columns = tabulate(csv, argument, bearing_columns(table.has("over") ? "" : "rad/s"));
     for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {
       const double at = rotor.draft.check_values(argument)[i];
       if (const std::string fault = columns.outside(at); !fault.empty())
@@ -132,7 +141,7 @@ void read_bearings(RotorDraft& rotor) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = rotor.draft.reader(*all[i], "[[bearing]] " + std::to_string(i + 1));
     const auto ends = read_ends(rotor, table);
-    const std::optional<BearingTable> columns = read_columns(rotor, table, ends.front().first);
+    const std::optional<CoefficientTable> columns = read_columns(rotor, table, ends.front().first);
     const BearingCoefficients coefficients = read_coefficients(rotor, table, columns ? &*columns : nullptr);
     if (table.has("name")) (void)table.text("name");
     table.finish();

@@ -1,4 +1,4 @@
-#include "model/rotor/bearing_table.hpp"
+#include "model/coefficient_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,16 @@
 namespace eigentrail {
 namespace {
 
-const std::vector<std::string>& coefficient_names() {
-  static const std::vector<std::string> names = {"kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx",
-                                                 "cyy", "mxx", "mxy", "myx", "myy", "kzz", "czz"};
+std::vector<std::string> names_of(const TableColumns& columns) {
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : columns.known) names.push_back(name);
   return names;
 }
 
-const char* coefficient_unit(const std::string& name) {
-  return name[0] == 'k' ? "N/m" : name[0] == 'c' ? "N s/m" : "kg";
+const std::string& unit_of_column(const TableColumns& columns, const std::string& name) {
+  return std::find_if(columns.known.begin(), columns.known.end(),
+                      [&](const auto& known) { return known.first == name; })
+      ->second;
 }
 
 std::string short_number(double x) {
@@ -85,13 +87,13 @@ double factor_of_argument(const CsvTable& csv, const std::string& wanted) {
 }
 
 /// Checks the size of the table and the names of its columns.
-void check_columns(const CsvTable& csv) {
-  const std::vector<std::string>& known = coefficient_names();
+void check_columns(const CsvTable& csv, const TableColumns& columns) {
+  const std::vector<std::string> known = names_of(columns);
   const std::string& first = csv.columns.front().name;
   if (std::find(known.begin(), known.end(), first) != known.end())
-    throw TableFault(csv.path + ": the first column is the speed, or what 'over' says; found '" + first +
-                     "'");
-  if (csv.columns.size() < 2) throw TableFault(csv.path + ": has no column of a coefficient, such as kxx");
+    throw TableFault(csv.path + ": the first column is " + columns.argument + "; found '" + first + "'");
+  if (csv.columns.size() < 2)
+    throw TableFault(csv.path + ": has no column of a coefficient, such as " + known.front());
   for (std::size_t i = 1; i < csv.columns.size(); ++i) {
     const std::string& name = csv.columns[i].name;
     if (std::find(known.begin(), known.end(), name) == known.end())
@@ -103,12 +105,12 @@ void check_columns(const CsvTable& csv) {
   if (csv.rows() < 2) throw TableFault(csv.path + ": has one row; expected two at least");
 }
 
-std::vector<std::vector<double>> coefficients_of(const CsvTable& csv) {
+std::vector<std::vector<double>> coefficients_of(const CsvTable& csv, const TableColumns& known) {
   std::vector<std::vector<double>> columns;
   for (std::size_t i = 1; i < csv.columns.size(); ++i) {
     const CsvColumn& column = csv.columns[i];
     try {
-      columns.push_back(si_values(csv, column, coefficient_unit(column.name)));
+      columns.push_back(si_values(csv, column, unit_of_column(known, column.name)));
     } catch (const InputError& error) {
       throw TableFault(error.what());
     }
@@ -118,14 +120,14 @@ std::vector<std::vector<double>> coefficients_of(const CsvTable& csv) {
 
 }  // namespace
 
-std::shared_ptr<const TabulatedFactor> BearingTable::find(const std::string& key) const {
+std::shared_ptr<const TabulatedFactor> CoefficientTable::find(const std::string& key) const {
   for (const auto& [name, column] : columns) {
     if (name == key) return column;
   }
   return nullptr;
 }
 
-std::string BearingTable::outside(double at) const {
+std::string CoefficientTable::outside(double at) const {
   const std::vector<double>& nodes = piece->interpolant.nodes();
   const double slack = 1e-12 * (nodes.back() - nodes.front());
   if (at >= nodes.front() - slack && at <= nodes.back() + slack) return "";
@@ -135,7 +137,7 @@ std::string BearingTable::outside(double at) const {
          exact_text(at / factor) + unit;
 }
 
-std::string BearingTable::in_words() const {
+std::string CoefficientTable::in_words() const {
   const std::vector<double>& nodes = piece->interpolant.nodes();
   std::string text = "table of " + std::to_string(nodes.size()) + " rows, " + first_name + " = " +
                      short_number(nodes.front() / factor) + " to " + short_number(nodes.back() / factor) +
@@ -146,19 +148,21 @@ std::string BearingTable::in_words() const {
          " at most";
 }
 
-BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std::string& unit) {
-  check_columns(csv);
+CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& known) {
+  check_columns(csv, known);
   const CsvColumn& first = csv.columns.front();
-  BearingTable table;
+  CoefficientTable table;
   table.argument = argument;
   table.first_name = first.name;
   table.first_unit = first.unit;
-  table.factor = factor_of_argument(csv, unit);
+  table.factor = factor_of_argument(csv, known.unit);
   std::vector<double> nodes = first.values;
   for (double& node : nodes) node *= table.factor;
   check_ascending(csv, nodes);
-  const std::vector<std::vector<double>> columns = coefficients_of(csv);
-  std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, std::nullopt);
+  const std::vector<std::vector<double>> columns = coefficients_of(csv, known);
+  std::optional<int> degree = known.degree;
+  if (degree) degree = std::min(*degree, static_cast<int>(nodes.size()) - 1);
+  std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, degree);
   table.piece = std::make_shared<const SamplePiece>(std::move(pieces.front()));
   table.error = std::nan("");
   for (std::size_t i = 0; i < columns.size(); ++i) {

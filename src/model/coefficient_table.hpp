@@ -1,7 +1,9 @@
-// Coefficients of a bearing over the speed, from a table, and how far their interpolants may be off.
+// Coefficients over one number, from a table, and how far their interpolants may be off: of bearings over the
+// speed, of airfoils over the angle of attack.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,7 +20,7 @@ class TableFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct BearingTable {
+struct CoefficientTable {
   Expression argument;  ///< SI
   std::shared_ptr<const SamplePiece> piece;
   std::string first_name;  ///< of the argument's column
@@ -37,8 +39,18 @@ struct BearingTable {
   std::string in_words() const;
 };
 
-/// The first column is the argument, ascending, in `unit` (empty: any) or one of its dimension; all others
-/// are coefficients. Throws TableFault.
-BearingTable tabulate(const CsvTable& csv, const Expression& argument, const std::string& unit);
+/// What columns a table may have.
+struct TableColumns {
+  std::string argument;                                    ///< what the first column is, in words
+  std::string unit;                                        ///< of the first column; empty: any
+  std::vector<std::pair<std::string, std::string>> known;  ///< coefficients and their units
+  /// Degree of the interpolant, without poles, or that of all rows if they are fewer; absent: degree and
+  /// poles with the least leave-one-out errors. These are deceived by functions that are odd or even over
+  /// rows that are symmetric: a row that is left out then has a mirror image.
+  std::optional<int> degree = std::nullopt;
+};
+
+/// The columns of a table; the first one is the argument, ascending. Throws TableFault.
+CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& columns);
 
 }  // namespace eigentrail

@@ -1,0 +1,338 @@
+#include "model/read_air.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "eigentrail/core/text.hpp"
+#include "model/coefficient_table.hpp"
+#include "model/span_line.hpp"
+#include "model/station_columns.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int most_points = 64;
+/// Default numbers of Gauss points. Two on an element do not lower the order of the beam's convergence.
+constexpr int points_on_element = 2;
+constexpr int points_on_body = 4;
+/// Degree of the interpolants of polars: airfoils stall, which higher degrees answer with waves.
+constexpr int polar_degree = 4;
+
+/// Keys of [[strips]] that may have a value per station.
+std::vector<FieldHelp> station_fields() {
+  return {
+      {"span", "list",
+       "where the stations are, from the first where the beam begins to the last where it ends, in any "
+       "unit; keys below then may be lists of a number per station, linear in between",
+       "the same for all"},
+      {"file", "text", "CSV file with columns span and any keys below, beside the scene", "none"},
+      {"chord", "m", "chord"},
+      {"quarter_chord_y", "m",
+       "from the axis of the beam, or the line on the body, to the quarter chord, along the y axis of the "
+       "section",
+       "0"},
+      {"incidence", "rad", "of the chord against the y axis of the section, nose up", "0"},
+      {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
+      {"zero_lift_angle", "rad", "angle of attack without lift", "0"},
+      {"drag", "", "drag coefficient", "0"},
+      {"moment", "", "moment coefficient about the quarter chord, nose up", "0"}};
+}
+
+class StripReader {
+ public:
+  StripReader(Draft& draft, TableReader& table, const std::vector<InflowDraft>& inflows)
+      : draft_(draft), table_(table), inflows_(inflows) {}
+
+  std::vector<Strip> read(const std::optional<ExpressionVector>& rotation) {
+    read_line();
+    const std::vector<Strip> strips = make_strips(read_air(rotation));
+    table_.finish();
+    return strips;
+  }
+
+ private:
+  using Column = StationColumns::Column;
+
+  void read_line() {
+    const std::string on = table_.text("on");
+    read_extent();
+    const auto beam = std::find_if(draft_.beams.begin(), draft_.beams.end(),
+                                   [&](const BeamDraft& b) { return b.name == on; });
+    if (beam != draft_.beams.end()) {
+      points_ = points_of_beam(draft_, *beam, read_count(points_on_element), extent_);
+      return;
+    }
+    std::vector<std::string> names;
+    for (const BeamDraft& b : draft_.beams) names.push_back(b.name);
+    for (const BodyDraft& b : draft_.bodies) names.push_back(b.name);
+    const auto body = std::find_if(draft_.bodies.begin(), draft_.bodies.end(),
+                                   [&](const BodyDraft& b) { return b.name == on; });
+    if (body == draft_.bodies.end())
+      table_.fail("on", "no beam, blade or body is called '" + on + "'; " + suggestion(on, names));
+    const BodyLine line = read_body_line(static_cast<int>(body - draft_.bodies.begin()));
+    points_ = points_of_body(draft_, line, read_count(points_on_body), extent_);
+  }
+
+  BodyLine read_body_line(int body) {
+    BodyLine line{body, draft_.read_vector(table_, "root", "m", Range::any),
+                  draft_.read_vector(table_, "tip", "m", Range::any),
+                  draft_.read_vector(table_, "leading", any_unit, Range::positive, unit_vector(1)),
+                  draft_.read_vector(table_, "lift", any_unit, Range::positive, unit_vector(2))};
+    draft_.check_range(table_, "tip", line.tip - line.root, Range::positive);
+    line.y = normalized(line.y);
+    const ExpressionVector across = line.z - dot(line.z, line.y) * line.y;
+    for (std::size_t i = 0; i < draft_.request.check_at.size(); ++i) {
+      if (draft_.vector_at(across, i).norm() <= 1e-9 * draft_.vector_at(line.z, i).norm())
+        table_.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
+    }
+    line.z = normalized(across);
+    return line;
+  }
+
+  double constant(const std::string& key, const Expression& e, const std::string& expected) {
+    if (!e.is_constant()) table_.fail(key, expected + ", found an expression of parameters");
+    return e.evaluate(std::span<const double>());
+  }
+
+  void read_extent() {
+    if (!table_.has("extent")) return;
+    const std::string expected = "expected two numbers from 0 to 1, the second one larger";
+    const std::vector<Expression> ends = table_.list("extent");
+    if (ends.size() != 2) table_.fail("extent", expected + "; found " + std::to_string(ends.size()));
+    for (std::size_t i = 0; i < 2; ++i) extent_[i] = constant("extent", ends[i], expected);
+    if (!(extent_[0] >= 0.0 && extent_[1] > extent_[0] && extent_[1] <= 1.0)) table_.fail("extent", expected);
+  }
+
+  int read_count(int otherwise) {
+    const Expression count = table_.expression_or("strips", otherwise);
+    const double n = count.is_constant() ? count.evaluate(std::span<const double>()) : 0.0;
+    if (!(n >= 1.0) || n > most_points || n != std::floor(n))
+      table_.fail("strips", "expected a whole number from 1 to " + std::to_string(most_points));
+    return static_cast<int>(n);
+  }
+
+  /// What all strips have in common.
+  Strip read_air(const std::optional<ExpressionVector>& rotation) {
+    Strip common;
+    const ExpressionVector wind = draft_.read_vector(table_, "wind", "m/s", Range::any, ExpressionVector{});
+    if (rotation) check_wind(wind, *rotation);
+    common.wind = draft_.vector(wind);
+    common.angular_velocity = draft_.vector(rotation.value_or(ExpressionVector{}));
+    common.density =
+        draft_.quantity(draft_.read_number(table_, "density", "kg/m^3", Range::non_negative, 1.225));
+    if (table_.has("speed_of_sound"))
+      common.speed_of_sound =
+          draft_.quantity(draft_.read_number(table_, "speed_of_sound", "m/s", Range::positive));
+    if (table_.has("polar")) common.polar = read_polar();
+    if (table_.has("inflow")) read_inflow_of(common);
+    return common;
+  }
+
+  std::shared_ptr<const Polar> read_polar() {
+    const CsvTable csv = read_csv(draft_.scene, table_, "polar");
+    const TableColumns columns{
+        "the angle of attack", "rad", {{"lift", ""}, {"drag", ""}, {"moment", ""}}, polar_degree};
+    try {
+      const CoefficientTable table = tabulate(csv, 0.0, columns);
+      std::array<std::vector<double>, 3> values;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto column = table.find(columns.known[k].first)) values[k] = column->values();
+      }
+      draft_.notes.emplace_back(table_.label() + " polar", table.in_words());
+      return std::make_shared<const Polar>(table.piece, std::move(values));
+    } catch (const TableFault& fault) {
+      table_.fail("polar", fault.what());
+    }
+  }
+
+  void read_inflow_of(Strip& common) {
+    const std::string name = table_.text("inflow");
+    std::vector<std::string> names;
+    for (const InflowDraft& inflow : inflows_) {
+      names.push_back(inflow.name);
+      if (inflow.name != name) continue;
+      common.inflow = inflow.element.velocity;
+      common.disc = inflow.disc;
+      return;
+    }
+    const auto& without = draft_.request.without;
+    if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return;
+    table_.fail("inflow", "no [[inflow]] is called '" + name + "'; " + suggestion(name, names));
+  }
+
+  /// A wind across the axis of a rotating frame turns in the frame, and there is no steady state.
+  void check_wind(const ExpressionVector& wind, const ExpressionVector& rotation) {
+    for (std::size_t i = 0; i < draft_.request.check_at.size(); ++i) {
+      const Eigen::Vector3d u = draft_.vector_at(wind, i);
+      const Eigen::Vector3d w = draft_.vector_at(rotation, i);
+      if (w.cross(u).norm() > 1e-12 * w.norm() * u.norm())
+        table_.fail("wind",
+                    "must be parallel to [frame] angular_velocity, or it turns in the frame and there is "
+                    "no steady state; it is not" +
+                        Draft::where_on_trace(i));
+    }
+  }
+
+  std::vector<Strip> make_strips(const Strip& common) {
+    StationColumns columns(draft_, table_, station_fields());
+    const Column chord = columns.required("chord", "m", Range::positive);
+    const Column quarter_chord = columns.optional("quarter_chord_y", "m");
+    const Column incidence = columns.optional("incidence", "rad");
+    for (const char* key : {"lift_slope", "zero_lift_angle"}) {
+      if (common.polar && columns.has(key)) table_.fail(key, "is part of the polar; give one of them");
+    }
+    const Column slope = columns.optional("lift_slope", "1/rad", Range::any, 2.0 * std::numbers::pi);
+    const Column zero_lift = columns.optional("zero_lift_angle", "rad");
+    const Column drag = columns.optional("drag", "", Range::non_negative);
+    const Column moment = columns.optional("moment", "");
+    std::vector<Strip> strips;
+    for (const SpanPoint& point : points_) {
+      const auto at = [&](const Column& column) {
+        Expression sum(0.0);
+        for (const StationShare& share : station_shares(columns.span(), point.share))
+          sum = sum + Expression(share.weight) * column[share.station];
+        return sum;
+      };
+      const auto unless_absent = [&](const char* key, const Column& column) {
+        return columns.has(key) ? draft_.quantity(at(column)) : Quantity();
+      };
+      Strip& strip = strips.emplace_back(common);
+      const Expression angle = at(incidence);
+      const Expression c = cos(angle), s = sin(angle);
+      strip.quarter_chord = place_of(draft_, sum_of({{1.0, point.position}, {at(quarter_chord), point.y}}));
+      strip.leading = place_of(draft_, sum_of({{c, point.y}, {s, point.z}}));
+      strip.lift = place_of(draft_, sum_of({{c, point.z}, {Expression(0.0) - s, point.y}}));
+      strip.width = draft_.quantity(point.width);
+      strip.chord = draft_.quantity(at(chord));
+      strip.lift_slope = draft_.quantity(at(slope));
+      strip.zero_lift = unless_absent("zero_lift_angle", zero_lift);
+      strip.drag = unless_absent("drag", drag);
+      strip.moment = unless_absent("moment", moment);
+    }
+    return strips;
+  }
+
+  Draft& draft_;
+  TableReader& table_;
+  const std::vector<InflowDraft>& inflows_;
+  std::vector<SpanPoint> points_;
+  std::array<double, 2> extent_ = {0.0, 1.0};
+};
+
+/// Calls read(table, strips) for every table of a kind, with the tables of strips that it is for.
+void for_each_table(Draft& draft, std::string_view kind, const std::vector<StripTable>& all,
+                    const std::function<void(TableReader&, const StripTable&)>& add) {
+  std::vector<std::string> names, done;
+  for (const StripTable& strips : all) names.push_back(strips.name);
+  const std::vector<const Table*> found = tables(draft.scene, std::string(kind));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    TableReader table = draft.reader(*found[i], "[[" + std::string(kind) + "]] " + std::to_string(i + 1));
+    const std::string name = table.has("strips") ? table.text("strips") : "";
+    if (names.empty()) table.fail("strips", "the scene has no [[strips]]");
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      table.fail("strips", "no [[strips]] is called '" + name + "'; " + suggestion(name, names));
+    for (const StripTable& strips : all) {
+      if (!name.empty() && strips.name != name) continue;
+      if (std::find(done.begin(), done.end(), strips.name) != done.end())
+        table.fail("strips", "'" + strips.name + "' has a [[" + std::string(kind) + "]] already");
+      done.push_back(strips.name);
+      add(table, strips);
+    }
+    table.finish();
+  }
+}
+
+/// Two numbers; those of Jones by default.
+std::array<Quantity, 2> read_pair(Draft& draft, TableReader& table, const std::string& key, Range range,
+                                  const std::array<double, 2>& otherwise) {
+  std::vector<Expression> values = {otherwise[0], otherwise[1]};
+  if (table.has(key)) values = table.list(key, "");
+  if (values.size() != 2) table.fail(key, "expected two numbers, found " + std::to_string(values.size()));
+  for (const Expression& value : values) draft.check_range(table, key, value, range);
+  return {draft.quantity(values[0]), draft.quantity(values[1])};
+}
+
+}  // namespace
+
+std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
+                                          const std::vector<InflowDraft>& inflows) {
+  std::vector<StripTable> result;
+  const std::vector<const Table*> all = tables(draft.scene, std::string(Strip::name));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = draft.reader(*all[i], "[[strips]] " + std::to_string(i + 1));
+    StripTable strips{table.has("name") ? printable(table.text("name")) : numbered(Strip::name, i), {}};
+    for (const StripTable& other : result) {
+      if (other.name == strips.name)
+        table.fail("name", "another [[strips]] is called '" + strips.name + "' already");
+    }
+    strips.strips = StripReader(draft, table, inflows).read(rotation);
+    result.push_back(std::move(strips));
+  }
+  return result;
+}
+
+std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const std::vector<StripTable>& all) {
+  std::vector<std::pair<LiftLag, std::string>> result;
+  for_each_table(draft, LiftLag::name, all, [&](TableReader& table, const StripTable& strips) {
+    LiftLag lag;
+    lag.shares = read_pair(draft, table, "A", Range::any, {0.165, 0.335});
+    lag.rates = read_pair(draft, table, "b", Range::positive, {0.0455, 0.3});
+    for (std::size_t i = 0; i < strips.strips.size(); ++i) {
+      static_cast<AirSection&>(lag) = strips.strips[i];
+      result.emplace_back(lag, strips.label(i));
+    }
+  });
+  return result;
+}
+
+std::vector<std::pair<ApparentMass, std::string>> read_apparent_mass(Draft& draft,
+                                                                     const std::vector<StripTable>& all) {
+  std::vector<std::pair<ApparentMass, std::string>> result;
+  for_each_table(draft, ApparentMass::name, all, [&](TableReader&, const StripTable& strips) {
+    for (std::size_t i = 0; i < strips.strips.size(); ++i) {
+      ApparentMass& mass = result.emplace_back(ApparentMass{strips.strips[i]}, strips.label(i)).first;
+      mass.inflow = {};  // small beside the speed of the section
+    }
+  });
+  return result;
+}
+
+std::vector<FieldHelp> strips_fields() {
+  std::vector<FieldHelp> fields = {
+      {"on", "name of a beam, blade or body", "what the strips are on"},
+      {"extent", "two numbers", "the part of it that has strips, as shares of its length", "[0, 1]"},
+      {"strips", "", "number of strips: on each element of a beam, or on the body", "2; 4"},
+      {"root", "[x, y, z] m", "on a body: where the strips begin, in the body's axes", "none"},
+      {"tip", "[x, y, z] m", "on a body: where they end", "none"},
+      {"leading", "[x, y, z]",
+       "on a body: direction from trailing to leading edge; on a beam the y axis of "
+       "the section",
+       "[0, 1, 0]"},
+      {"lift", "[x, y, z]", "on a body: direction of lift; on a beam the z axis of the section", "[0, 0, 1]"},
+      {"wind", "[x, y, z] m/s", "velocity of the air; in a rotating frame parallel to its axis", "[0, 0, 0]"},
+      {"density", "kg/m^3", "density of the air", "1.225"},
+      {"speed_of_sound", "m/s", "lift and moment then have the factor of Prandtl and Glauert",
+       "incompressible"},
+      {"inflow", "name of an inflow", "the [[inflow]] of the rotor", "none"},
+      {"polar", "text",
+       "CSV file with the angle of attack, `alpha [deg]`, and columns lift, drag, moment: coefficients in "
+       "place of "
+       "lift_slope and zero_lift_angle",
+       "none"}};
+  for (FieldHelp& field : station_fields()) fields.push_back(std::move(field));
+  return fields;
+}
+
+std::vector<FieldHelp> lift_lag_fields() {
+  return {{"strips", "name of strips", "the strips whose lift lags", "all"},
+          {"A", "two numbers", "shares of the exponentials in Wagner's function", "[0.165, 0.335]"},
+          {"b", "two numbers", "their rates, per half chord of way", "[0.0455, 0.3]"}};
+}
+
+std::vector<FieldHelp> apparent_mass_fields() {
+  return {{"strips", "name of strips", "the strips that move air", "all"}};
+}
+
+}  // namespace eigentrail

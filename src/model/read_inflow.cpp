@@ -1,0 +1,117 @@
+#include "model/read_inflow.hpp"
+
+#include <algorithm>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Starting guess of the mean inflow: this part of the speed of the tips, and of the wind.
+constexpr double of_tip_speed = 0.05, of_wind = 0.25;
+
+/// Directions x and y so that x, y and the axis are at right angles, x along the least component of the axis.
+std::array<ExpressionVector, 2> across(const Draft& draft, const ExpressionVector& axis) {
+  const Eigen::Vector3d a = draft.vector_at(axis, 0);
+  Eigen::Index least = 0;
+  a.cwiseAbs().minCoeff(&least);
+  const ExpressionVector e = unit_vector(static_cast<std::size_t>(least));
+  const ExpressionVector x = normalized(e - dot(e, axis) * axis);
+  return {x, cross(axis, x)};
+}
+
+void check_axis(const Draft& draft, const TableReader& table, const std::string& key,
+                const ExpressionVector& axis, const ExpressionVector& vector) {
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    const Eigen::Vector3d v = draft.vector_at(vector, i);
+    if (draft.vector_at(axis, i).cross(v).norm() > 1e-9 * v.norm())
+      table.fail(key, (key == "axis" ? "[frame] angular_velocity must be parallel to it"
+                                     : "must be parallel to axis: only axial flow has a steady inflow") +
+                          std::string("; it is not") + Draft::where_on_trace(i));
+  }
+}
+
+InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& rotation) {
+  InflowDraft inflow;
+  inflow.name = table.text("name");
+  if (inflow.name.empty()) table.fail("name", "must not be empty");
+  const std::string model = table.has("model") ? table.text("model") : "pitt_peters";
+  if (model != "uniform" && model != "pitt_peters")
+    table.fail("model", "expected \"uniform\" or \"pitt_peters\", found \"" + model + "\"");
+  const Expression radius = draft.read_number(table, "radius", "m", Range::positive);
+  const ExpressionVector centre = draft.read_vector(table, "centre", "m", Range::any, ExpressionVector{});
+  const ExpressionVector axis =
+      normalized(draft.read_vector(table, "axis", any_unit, Range::positive, unit_vector(2)));
+  const ExpressionVector wind = draft.read_vector(table, "wind", "m/s", Range::any, ExpressionVector{});
+  check_axis(draft, table, "wind", axis, wind);
+  check_axis(draft, table, "axis", axis, rotation);
+  if (table.has("blades") && model != "uniform")
+    table.fail("blades", "needs model = \"uniform\"; with pitt_peters the scene has all blades");
+  const Expression blades = draft.read_number(table, "blades", "", Range::positive, 1.0);
+  const Expression tip = Expression(of_tip_speed) * radius * dot(rotation, axis);
+  const Expression drift = Expression(of_wind) * dot(wind, axis);
+  Expression guess = sqrt(tip * tip + drift * drift);
+  if (table.has("guess")) guess = draft.read_number(table, "guess", "m/s", Range::any);
+  const Expression density = draft.read_number(table, "density", "kg/m^3", Range::positive, 1.225);
+  table.finish();
+
+  inflow.element.velocity = draft.point_place(static_cast<int>(draft.guess.size()) / 3);
+  for (const Expression& e : {guess, Expression(0.0), Expression(0.0)}) draft.guess.push_back(e);
+  inflow.element.axis = inflow.disc.axis = draft.vector(axis);
+  inflow.element.wind = draft.vector(wind);
+  inflow.element.angular_velocity = draft.vector(rotation);
+  inflow.element.radius = draft.quantity(radius);
+  inflow.element.density = draft.quantity(density);
+  const auto [x, y] = across(draft, axis);
+  inflow.disc.centre = draft.vector(centre);
+  inflow.disc.x = draft.vector((Expression(1.0) / radius) * x);
+  inflow.disc.y = draft.vector((Expression(1.0) / radius) * y);
+  inflow.disc.blades = draft.quantity(blades);
+  if (model == "pitt_peters") return inflow;
+  std::vector<ConstraintRow> rows;
+  for (int i = 1; i < 3; ++i) rows.push_back({{inflow.element.velocity, {}}, {}, i, draft.quantity(0.0)});
+  draft.add_constraint("fixed", inflow.name + " uniform", std::move(rows));
+  return inflow;
+}
+
+}  // namespace
+
+std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<ExpressionVector>& rotation) {
+  std::vector<InflowDraft> result;
+  const auto& without = draft.request.without;
+  if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return result;
+  const std::vector<const Table*> all = tables(draft.scene, std::string(Inflow::name));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = draft.reader(*all[i], "[[inflow]] " + std::to_string(i + 1));
+    InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
+    for (const InflowDraft& other : result) {
+      if (other.name == inflow.name)
+        table.fail("name", "another [[inflow]] is called '" + inflow.name + "' already");
+    }
+    result.push_back(std::move(inflow));
+    draft.inflow_names.push_back(result.back().name);
+  }
+  return result;
+}
+
+std::vector<FieldHelp> inflow_fields() {
+  return {
+      {"name", "text", "what [[strips]] call it"},
+      {"model", "\"uniform\" or \"pitt_peters\"",
+       "mean inflow alone, by momentum theory with the inertia of the air; or with gradients over the disc, "
+       "three states",
+       "pitt_peters"},
+      {"radius", "m", "of the rotor"},
+      {"centre", "[x, y, z] m", "of the rotor, in the frame", "[0, 0, 0]"},
+      {"axis", "[x, y, z]", "of the rotor, in the frame, in the direction of thrust", "[0, 0, 1]"},
+      {"wind", "[x, y, z] m/s",
+       "velocity of the air along the axis: against it in climb, along it at a "
+       "turbine",
+       "[0, 0, 0]"},
+      {"blades", "", "with uniform inflow: the number of blades for which every strip stands", "1"},
+      {"density", "kg/m^3", "density of the air", "1.225"},
+      {"guess", "m/s", "of the mean inflow, from which the equilibrium is found",
+       "by speeds of tips and wind"}};
+}
+
+}  // namespace eigentrail
