@@ -1,5 +1,6 @@
 // Model of points and rigid bodies with elements and constraints. Coordinates: x, y, z of every point in the
-// order of the scene, then origin and three directors of every body, then the states of elements.
+// order of the scene, then origin and three directors of every body, inflows of rotors, and states of
+// elements.
 #pragma once
 
 #include "model/assembly.hpp"
