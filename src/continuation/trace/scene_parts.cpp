@@ -35,6 +35,7 @@ std::shared_ptr<const IndependentParts> parts_on_range(const PathProblem& proble
   const bool gives_coefficients = !known.M.empty() || !known.C.empty() || !known.K.empty();
   const bool rests = structure.fixed_equilibrium && structure.constant_constraints;
   if (gives_coefficients || !rests || problem.basis != BasisChoice::aligned) return nullptr;
+  if (model.n_coordinates() - model.n_constraints() > most_freedoms) return nullptr;
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
   Linearization there;
