@@ -238,11 +238,15 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const Structure structure = model->structure(traced);
 
   if (!scene.title.empty()) std::fprintf(to, "%s\n", printable(scene.title).c_str());
-  if (const SparseFamily* large = large_family(*model, options)) {
+  if (is_large(*model, options)) {
     print_parameters(to, *model, traced);
     print_data(to, *model);
     print_effects(to, *model);
-    print_route(estimate_projection(*large, options, solver), options, to);
+    print_states(to, *model);
+    const SparseFamily* family = large_family(*model, options);
+    print_route(family != nullptr ? estimate_projection(*family, options, solver)
+                                  : estimate_projection(*model, options, solver),
+                options, to);
     if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return;
   }

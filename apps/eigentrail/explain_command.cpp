@@ -22,7 +22,7 @@ int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solv
   const TraceSetup setup = prepare_trace(given_scene(arguments), options);
   warn_of_unused(setup.scene, *setup.model);
   explain(stdout, setup, options, arguments.sensitivity, solver);
-  if (large_family(*setup.model, setup.options) == nullptr)
+  if (!is_large(*setup.model, setup.options))
     std::printf("next: eigentrail trace %s -o %s\n", setup.scene.path.c_str(),
                 std::filesystem::path(setup.scene.path).stem().replace_extension(".h5").c_str());
   return done;

@@ -17,7 +17,7 @@ void print_projection(const Projection& projection, const std::string& parameter
       "  projected from %lld freedoms: %d sparse factorizations by %s, %.3g MB, %ld solutions;\n"
       "        modes of the large model at %s = %s;\n"
       "        error of the projection %.1e (asked for %.1e) where it is worst, at %s = %s\n",
-      static_cast<long long>(projection.basis.rows()), projection.factorizations, projection.method.c_str(),
+      static_cast<long long>(projection.freedoms), projection.factorizations, projection.method.c_str(),
       static_cast<double>(projection.peak_bytes) / 1e6, projection.solutions, parameter.c_str(), list.c_str(),
       projection.error, projection.target, parameter.c_str(), rounded(projection.error_at, 5).c_str());
   for (const std::string& note : projection.notes) std::printf("        %s\n", note.c_str());
@@ -26,21 +26,39 @@ void print_projection(const Projection& projection, const std::string& parameter
 void print_route(const ProjectionEstimate& estimate, const TraceOptions& options, std::FILE* to) {
   const auto megabytes = [](double bytes) { return rounded(bytes / 1e6, 3) + " MB"; };
   const std::string followed = in_words(options.modes);
+  const bool scene = estimate.coordinates > 0;
+  std::string model = std::to_string(estimate.freedoms) + " freedoms";
+  if (scene) {
+    model += ": " + std::to_string(estimate.coordinates) + " coordinates, " +
+             std::to_string(estimate.coordinates - estimate.freedoms) + " constraints";
+  }
+  model += ", " + std::to_string(estimate.nonzeros) +
+           (scene ? " nonzeros in M, C, K and A together" : " nonzeros in M, C and K together");
+  std::vector<std::vector<std::string>> rows{
+      {"  model", model},
+      {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
+                           ", at both ends of the range of " + options.parameter +
+                           " and where residuals are largest"},
+      {"  factorization", estimate.method + " at each, " + megabytes(estimate.factor_bytes) + ", " +
+                              rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
+      {"  memory", megabytes(estimate.total_bytes) + " with the vectors"}};
+  if (scene) {
+    rows.push_back({"  equilibrium",
+                    estimate.moves ? "of all coordinates, followed: such a factorization for each correction"
+                                   : "of all coordinates, solved once"});
+    rows.push_back({"  trace",
+                    "of the scene on the motions of the projection, some tens, by the dense engine; a "
+                    "scene with less than " +
+                        std::to_string(smallest_large_scene) + " coordinates has all its freedoms there"});
+  } else {
+    rows.push_back(
+        {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"});
+  }
+  rows.push_back({"  error", "of the projection below " + rounded(estimate.target, 3) +
+                                 " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
+                                 " is that of the large model"});
   std::fprintf(to, "route\n");
-  print_table(
-      {{"  model", std::to_string(estimate.freedoms) + " freedoms, " + std::to_string(estimate.nonzeros) +
-                       " nonzeros in M, C and K together"},
-       {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
-                            ", at both ends of the range of " + options.parameter +
-                            " and where residuals are largest"},
-       {"  factorization", estimate.method + " at each, " + megabytes(estimate.factor_bytes) + ", " +
-                               rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
-       {"  memory", megabytes(estimate.total_bytes) + " with the vectors"},
-       {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"},
-       {"  error", "of the projection below " + rounded(estimate.target, 3) +
-                       " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
-                       " is that of the large model"}},
-      to);
+  print_table(rows, to);
 }
 
 }  // namespace eigentrail::app

@@ -147,8 +147,8 @@ void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
   const auto* family = dynamic_cast<const ProjectedFamily*>(setup.model.get());
   if (family == nullptr)
     throw InputError(
-        "--save-reduced: the model is not projected; it is for sparse families of which some modes "
-        "are followed");
+        "--save-reduced: it is for sparse families of which some modes are followed; other models have no "
+        "projected matrices with the same factors");
   const std::string scene = write_projected(arguments.save_reduced, setup.scene, *family, arguments.force);
   if (!arguments.quiet)
     std::printf("wrote %s and its scene %s\n", arguments.save_reduced.c_str(), scene.c_str());

@@ -27,7 +27,8 @@ std::string seed_fault(const std::string& text) {
 int run_verify(const VerifyArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
   const VerifyReport report = verify_loci(loci, arguments.options);
-  std::printf("  %d random values of %s, each solved afresh by QZ", report.samples, loci.parameter.c_str());
+  std::printf("  %d random values of %s, each solved afresh %s", report.samples, loci.parameter.c_str(),
+              report.large ? "by shift-invert of the whole model" : "by QZ");
   if (report.unsolved > 0) std::printf("; %d could not be solved", report.unsolved);
   std::printf("\n");
   if (report.worst.mode >= 0) {
@@ -60,9 +61,10 @@ void add_verify(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("verify", "independent check of a loci file at random parameters");
   command->add_option("FILE", arguments->file, "loci file")->required();
-  command->add_option("--samples", arguments->options.samples, "number of random parameters")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  command
+      ->add_option("--samples", arguments->options.samples,
+                   "number of random parameters; else 100, of a large model 10")
+      ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->options.seed, "seed of their choice")
       ->check(seed_fault)
       ->capture_default_str();

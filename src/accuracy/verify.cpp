@@ -14,10 +14,14 @@
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/projection/large_spectrum.hpp"
 #include "eigentrail/projection/project.hpp"
 
 namespace eigentrail {
 namespace {
+
+constexpr int usual_samples = 100;
+constexpr int samples_of_large_model = 10;
 
 /// The text that a key of a table has; empty if it has none.
 std::string text_of(const Table& table, const char* key) {
@@ -91,7 +95,8 @@ TraceSetup rebuild(const LociFile& loci) {
   Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
   find_matrices(scene, loci.path);
   TraceSetup setup = prepare_trace(std::move(scene), options);
-  project_if_large(setup.model, setup.options);
+  // The points of a projected family are at x = 0.
+  if (large_family(*setup.model, setup.options) != nullptr) return setup;
   const bool same = setup.model->n_coordinates() == loci.equilibrium.cols() &&
                     setup.model->n_constraints() == loci.multiplier.cols();
   if (!same) {
@@ -138,27 +143,58 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   return guess;
 }
 
-/// The whole spectrum at a place of the path; empty if it cannot be computed. The stored equilibria are only
-/// starting values, because they are checked as well.
-std::optional<Spectrum> fresh_spectrum(const PathProblem& problem, const LociFile& loci,
-                                       const LociFile::Position& position, double p) {
-  RunCounts counts;
+/// Starting value for the equilibrium at a place of the path. The stored equilibria are no more than that,
+/// because they are checked as well.
+EquilibriumGuess guess_at(const PathProblem& problem, const LociFile& loci,
+                          const LociFile::Position& position, double p) {
   const auto node = static_cast<Eigen::Index>(position.step);
   const double t = position.t;
   const auto between = [&](const Matrix& rows) {
     if (rows.cols() == 0) return Vector(0);  // no coordinates, or no constraints
     return Vector(((1.0 - t) * rows.row(node) + t * rows.row(node + 1)).transpose());
   };
-  const EquilibriumGuess guess =
-      follows_parameter(loci.steps[position.step])
-          ? EquilibriumGuess{between(loci.equilibrium), between(loci.multiplier), false}
-          : guess_on_chord(problem, loci, position.step, p);
-  const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
-  if (point.status != PointStatus::computed) return std::nullopt;
-  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  if (spectrum.status != SpectrumStatus::complete) return std::nullopt;
-  return spectrum;
+  return follows_parameter(loci.steps[position.step])
+             ? EquilibriumGuess{between(loci.equilibrium), between(loci.multiplier), false}
+             : guess_on_chord(problem, loci, position.step, p);
 }
+
+/// The whole spectrum at a place of the path; empty if it cannot be computed.
+std::vector<Complex> fresh_spectrum(const PathProblem& problem, const LociFile& loci,
+                                    const LociFile::Position& position, double p) {
+  RunCounts counts;
+  const EquilibriumGuess guess = guess_at(problem, loci, position, p);
+  const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
+  if (point.status != PointStatus::computed) return {};
+  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  if (spectrum.status != SpectrumStatus::complete) return {};
+  std::vector<Complex> exact;
+  for (const StartingMode& found : spectrum.modes) exact.push_back(found.s);
+  return exact;
+}
+
+/// Solves the scene of a loci file afresh: as a whole, or beside the followed modes if it is large.
+class FreshSolver {
+ public:
+  FreshSolver(const TraceSetup& setup, const PathProblem& problem, const LociFile& loci)
+      : problem_(problem), loci_(loci) {
+    if (is_large(*setup.model, setup.options)) large_.emplace(*setup.model, setup.options);
+  }
+
+  bool is_of_large_model() const { return large_.has_value(); }
+
+  /// Exact eigenvalues at a place where the file has the values s; empty if they cannot be computed.
+  std::vector<Complex> at(const LociFile::Position& position, double p, const ComplexVector& s) {
+    if (!large_) return fresh_spectrum(problem_, loci_, position, p);
+    if (problem_.model.n_coordinates() != loci_.equilibrium.cols()) return large_->beside(s, p, {}, {});
+    const EquilibriumGuess guess = guess_at(problem_, loci_, position, p);
+    return large_->beside(s, p, guess.x, guess.lambda);
+  }
+
+ private:
+  const PathProblem& problem_;
+  const LociFile& loci_;
+  std::optional<LargeSpectrum> large_;
+};
 
 /// rebuild(), with messages that name the loci file: errors in the scene and the options are those of the
 /// stored text, not of a scene file that may have changed since.
@@ -229,15 +265,13 @@ double largest_of(const LociFile& loci) {
 }
 
 /// Whether eigenvalues that were solved at stored points are off there already: then the matrices are others.
-bool differs_at_points(const PathProblem& problem, const LociFile& loci, double tolerance, double reference) {
+bool differs_at_points(FreshSolver& solver, const LociFile& loci, double tolerance, double reference) {
   const std::size_t last = loci.steps.size() - 1;
   for (const std::size_t step : {std::size_t{0}, last / 2, last}) {
     const double p = loci.p[step];
-    const auto spectrum = fresh_spectrum(problem, loci, {step, 0.0}, p);
-    if (!spectrum) continue;
-    std::vector<Complex> exact;
-    for (const StartingMode& found : spectrum->modes) exact.push_back(found.s);
     const ComplexVector s = loci.eigenvalues_at(LociFile::Position{step, 0.0});
+    const std::vector<Complex> exact = solver.at({step, 0.0}, p, s);
+    if (exact.empty()) continue;
     if (discrepancies(loci, {step, 0.0}, s, exact, tolerance, reference).maxCoeff() > tolerance) return true;
   }
   return false;
@@ -253,23 +287,24 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   const double reference = std::stod(loci.attribute("reference"));
   const bool follows_all = setup.options.modes.is_all();
   const double largest_finite = largest_of(loci);
+  FreshSolver solver(setup, problem, loci);
   VerifyReport report;
+  report.large = solver.is_of_large_model();
   report.tolerance = setup.options.tolerance;
+  const int samples = options.samples.value_or(report.large ? samples_of_large_model : usual_samples);
 
   std::mt19937_64 engine(options.seed);
   std::uniform_real_distribution<double> uniform(loci.lowest(), loci.highest());
-  for (; report.samples < options.samples; ++report.samples) {
+  for (; report.samples < samples; ++report.samples) {
     const double p = uniform(engine);
     for (const LociFile::Position& position : loci.positions(p)) {
-      const auto spectrum = fresh_spectrum(problem, loci, position, p);
-      if (!spectrum) {
+      const ComplexVector s = loci.eigenvalues_at(position);
+      const std::vector<Complex> exact = solver.at(position, p, s);
+      if (exact.empty()) {
         ++report.unsolved;
         continue;
       }
       Eigen::Index mode = 0;
-      std::vector<Complex> exact;
-      for (const StartingMode& found : spectrum->modes) exact.push_back(found.s);
-      const ComplexVector s = loci.eigenvalues_at(position);
       const double worst =
           discrepancies(loci, position, s, as_pairs_or_real(exact), report.tolerance, reference)
               .maxCoeff(&mode);
@@ -282,7 +317,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   }
   const std::string matrices = file_of_matrices(setup.scene);
   if (!report.passed() && !matrices.empty() && !loci.steps.empty() &&
-      differs_at_points(problem, loci, report.tolerance, reference))
+      differs_at_points(solver, loci, report.tolerance, reference))
     report.other_matrices = (std::filesystem::path(setup.scene.path).parent_path() / matrices).string();
   return report;
 }

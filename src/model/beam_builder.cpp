@@ -12,7 +12,7 @@ namespace {
 /// Points per element and station at which the mass is integrated: exact for products of quadratic shape
 /// functions with mass that is linear between stations, if elements are straight.
 constexpr int mass_points = 2;
-constexpr int most_elements = 200;
+constexpr int most_elements = 2000;
 
 /// A whole number from 1 to `most`.
 int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most) {

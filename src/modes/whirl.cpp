@@ -79,7 +79,7 @@ std::vector<std::array<Complex, 2>> displacements(const Model& model, const Spin
   const Projection* projection = model.projection();
   const auto component = [&](Eigen::Index coordinate) -> Complex {
     if (coordinate < 0) return 0.0;
-    if (projection == nullptr) return shape[coordinate];
+    if (projection == nullptr || projection->basis.size() == 0) return shape[coordinate];
     return (projection->basis.row(coordinate).cast<Complex>() * shape)(0);
   };
   std::vector<std::array<Complex, 2>> result;

@@ -16,6 +16,57 @@ namespace {
 /// eigenvalue, and the solutions lose as many digits of the others.
 constexpr double on_an_eigenvalue = 1e-5;
 
+/// Solves with a shifted pencil: right sides and solutions are those of its coordinates, without multipliers.
+class PencilSolver {
+ public:
+  PencilSolver(const SparseSolver& factors, const SparsePencil& pencil)
+      : factors_(factors), n_(pencil.size()), m_(pencil.A.rows()) {}
+
+  template <class Vectors>
+  Vectors solve(const Vectors& B) const {
+    return m_ == 0 ? factors_.solve(B) : Vectors(factors_.solve(padded(B)).topRows(n_));
+  }
+  template <class Vectors>
+  Vectors solve_transposed(const Vectors& B) const {
+    return m_ == 0 ? factors_.solve_transposed(B) : Vectors(factors_.solve_transposed(padded(B)).topRows(n_));
+  }
+
+ private:
+  template <class Vectors>
+  Vectors padded(const Vectors& B) const {
+    Vectors result = Vectors::Zero(n_ + m_, B.cols());
+    result.topRows(n_) = B;
+    return result;
+  }
+
+  const SparseSolver& factors_;
+  Eigen::Index n_, m_;
+};
+
+/// P with the constraints; P itself if there are none.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> bordered(Eigen::SparseMatrix<Scalar> P, const SparseMatrix& A) {
+  P.makeCompressed();
+  if (A.rows() == 0) return P;
+  const Eigen::Index n = P.rows();
+  const double size = P.coeffs().cwiseAbs().maxCoeff();
+  const Vector norms = SystemMatrix(A).row_norms();
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  entries.reserve(static_cast<std::size_t>(P.nonZeros() + 2 * A.nonZeros()));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(P, j); entry; ++entry)
+      entries.emplace_back(entry.row(), j, entry.value());
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const Scalar value = size / norms[entry.row()] * entry.value();
+      entries.emplace_back(n + entry.row(), j, value);
+      entries.emplace_back(j, n + entry.row(), value);
+    }
+  }
+  Eigen::SparseMatrix<Scalar> matrix(n + A.rows(), n + A.rows());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 /// The inverse of the shifted pencil, in the form that Spectra's solvers use. Three linearizations:
 /// - without C: the square of s is the eigenvalue, size n;
 /// - without M: first order, size n;
@@ -25,7 +76,7 @@ class Inverse {
   using Scalar = double;
   enum class Form { undamped, first_order, quadratic };
 
-  Inverse(const SparsePencil& pencil, const SparseSolver& factors, const Shift& shift, bool transposed,
+  Inverse(const SparsePencil& pencil, const PencilSolver& factors, const Shift& shift, bool transposed,
           double scale, long& solutions)
       : pencil_(pencil),
         factors_(factors),
@@ -92,7 +143,7 @@ class Inverse {
   }
 
   const SparsePencil& pencil_;
-  const SparseSolver& factors_;
+  const PencilSolver& factors_;
   Complex shift_;
   bool transposed_;
   double scale_;
@@ -175,7 +226,7 @@ double complete_radius(const Shift& shift, Inverse::Form form, double least) {
 
 /// Frequency (rad/s) of the lowest modes, roughly: one step of inverse iteration. That of rigid-body motions
 /// is rounding; then a shift beside them is a better measure.
-double frequency_scale(const SparsePencil& pencil, const SparseSolver& factors, const Shift& shift) {
+double frequency_scale(const SparsePencil& pencil, const PencilSolver& factors, const Shift& shift) {
   const Vector start = Vector::Ones(pencil.size());
   const ComplexVector x = factors.solve(ComplexVector((pencil.M * start).cast<Complex>()));
   const double inertia = std::abs(x.dot(pencil.M * x)), stiffness = std::abs(x.dot(pencil.K * x));
@@ -193,7 +244,7 @@ Shift close_to_zero(const SparsePencil& pencil) {
 
 /// A shift between the rigid-body motions and the lowest other modes, by subspace iteration with factors at a
 /// shift close to zero: 0.3 of the lowest frequency. Damping is left out of it.
-Shift beside_rigid_motions(const SparsePencil& pencil, const SparseSolver& factors, const Shift& close) {
+Shift beside_rigid_motions(const SparsePencil& pencil, const PencilSolver& factors, const Shift& close) {
   constexpr Eigen::Index block = 12;    // six rigid-body motions and a few other modes
   constexpr int rounds = 3;             // a rough frequency is enough
   constexpr double rigid_share = 1e-8;  // of the largest eigenvalue of the block
@@ -253,6 +304,12 @@ NearestModes sorted(const Found& found, const Shift& shift, Eigen::Index n) {
 
 }  // namespace
 
+ComplexMatrix SparsePencil::allowed(const ComplexMatrix& vectors) const {
+  if (!constraints) return vectors;
+  return constraints->allowed_part(vectors.real()).cast<Complex>() +
+         Complex(0.0, 1.0) * constraints->allowed_part(vectors.imag()).cast<Complex>();
+}
+
 ComplexMatrix SparsePencil::times(Complex s, const ComplexMatrix& Z) const {
   return s * s * (M * Z) + s * (C * Z) + K * Z;
 }
@@ -264,8 +321,8 @@ ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) 
 ShiftedMatrix shifted_matrix(const SparsePencil& pencil, const Shift& shift) {
   const double square = shift.real * shift.real - shift.frequency * shift.frequency;
   // Zero factors keep the pattern of the sum, so that it is analyzed once.
-  ShiftedMatrix shifted{square * pencil.M + shift.real * pencil.C + pencil.K};
-  shifted.matrix.makeCompressed();
+  ShiftedMatrix shifted{bordered<double>(square * pencil.M + shift.real * pencil.C + pencil.K, pencil.A)};
+  if (pencil.A.rows() > 0) return shifted;  // indefinite
   if (pencil.symmetric || (pencil.one_sided && shift.real == 0.0)) shifted.kind = SparseKind::symmetric;
   return shifted;
 }
@@ -278,10 +335,9 @@ bool ModeFinder::factor(const SparsePencil& pencil, const Shift& shift) {
     regular = factors_->factor(shifted.matrix, shifted.kind);
   } else {
     const Complex s = shift.value();
-    ComplexSparseMatrix shifted =
-        s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() + pencil.K.cast<Complex>();
-    shifted.makeCompressed();
-    regular = factors_->factor(shifted);
+    regular = factors_->factor(bordered<Complex>(
+        s * s * pencil.M.cast<Complex>() + s * pencil.C.cast<Complex>() + pencil.K.cast<Complex>(),
+        pencil.A));
   }
   peak_bytes_ = std::max(peak_bytes_, factors_->bytes());
   return regular;
@@ -291,6 +347,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
   const double tolerance = request.tolerance.value_or(tolerance_);
   const Inverse::Form form = Inverse::form_of(pencil);
   const int per_mode = form == Inverse::Form::undamped ? 1 : 2;
+  const PencilSolver solver(*factors_, pencil);
   Shift shift = request.shift;
   int count = request.count;
   bool moved = false;  ///< away from the requested shift, on which an eigenvalue lies here
@@ -310,12 +367,12 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
       if (moved) return std::nullopt;
       const Shift close = close_to_zero(pencil);
       if (!factor(pencil, close)) return std::nullopt;
-      shift = beside_rigid_motions(pencil, *factors_, close);
+      shift = beside_rigid_motions(pencil, solver, close);
       moved = true;
       continue;
     }
-    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, *factors_, shift) : 1.0;
-    Inverse inverse(pencil, *factors_, shift, false, scale, solutions_);
+    const double scale = form == Inverse::Form::quadratic ? frequency_scale(pencil, solver, shift) : 1.0;
+    Inverse inverse(pencil, solver, shift, false, scale, solutions_);
     std::optional<Found> right = arnoldi(inverse, pencil, shift, per_mode * count, tolerance);
     if (!right || right->s.empty()) return std::nullopt;
     const bool beside_singular = remembered && moved_->beside_singular;
@@ -340,7 +397,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
     if (pencil.one_sided) return modes;
-    Inverse transposed(pencil, *factors_, shift, true, scale, solutions_);
+    Inverse transposed(pencil, solver, shift, true, scale, solutions_);
     const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance);
     if (!left) return std::nullopt;
     modes.left = columns(left->vectors, pencil.size());

@@ -6,18 +6,24 @@
 #include <optional>
 
 #include "core/sparse_factors.hpp"
+#include "eigentrail/core/constraint_factorization.hpp"
 #include "eigentrail/model/affine_family.hpp"
 
 namespace eigentrail {
 
-/// (M s^2 + C s + K) z = 0 at one place.
+/// (M s^2 + C s + K) z + A^T mu = 0, A z = 0 at one place.
 struct SparsePencil {
   SparseMatrix M, C, K;    ///< n x n
   bool symmetric = false;  ///< M, C and K are symmetric
   /// Left vectors span the same real space as right ones: M and K are symmetric, C is symmetric or skew.
   bool one_sided = false;
+  SparseMatrix A = {};  ///< m x n, of full rank; 0 x 0 if there are no constraints
+  std::shared_ptr<const ConstraintFactorization> constraints = {};  ///< of A; null if there are none
 
   Eigen::Index size() const { return K.rows(); }
+  Eigen::Index freedoms() const { return K.rows() - A.rows(); }
+  /// The parts of vectors, n x k, that the constraints allow; of forces, what constraint forces leave.
+  ComplexMatrix allowed(const ComplexMatrix& vectors) const;
   /// M s^2 + C s + K times Z, n x k.
   ComplexMatrix times(Complex s, const ComplexMatrix& Z) const;
   ComplexMatrix transposed_times(Complex s, const ComplexMatrix& Z) const;
@@ -41,7 +47,8 @@ struct ModeRequest {
   std::optional<double> tolerance = std::nullopt;  ///< in place of that of the finder
 };
 
-/// The matrix that is factored for a real shift, and whether it is symmetric.
+/// The matrix that is factored for a real shift, and whether it is symmetric: P = M s^2 + C s + K, or with
+/// constraints [P, S^T; S, 0] with S = A, rows scaled to the magnitude of P.
 struct ShiftedMatrix {
   SparseMatrix matrix;
   SparseKind kind = SparseKind::general;

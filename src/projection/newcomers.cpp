@@ -12,11 +12,6 @@ namespace {
 /// Eigenvalues of the projected pencil with a larger relative indicator stand for none of the large one.
 constexpr double closeness = 1e-3;
 
-/// The matrices of a projected family at a place.
-struct SmallPencil {
-  Matrix M, C, K;
-};
-
 /// Whether an eigenvalue of the projected pencil is close to one of the large pencil, as those of the kept
 /// modes are.
 bool is_exact(const SmallPencil& small, const SparsePencil& large, const Matrix& basis, Complex s,
@@ -50,18 +45,18 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, C
 
 /// Eigenvalues that are not followed and nearer to the centre than the farthest followed one, the farthest of
 /// them last.
-std::vector<Complex> among_the_followed(const FamilyPencils& large, const ProjectedFamily& model,
+std::vector<Complex> among_the_followed(const LargeModel& large, const Model& model,
                                         const ProjectedPlace& place, Complex centre, double reference) {
-  const AffinePencil<Matrix> at = model.at(place.parameters);
-  const SmallPencil small{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+  const SmallPencil& small = place.small;
   Others others = without_followed(small, place, centre);
   std::erase_if(others.s, [&](Complex s) {
     return std::abs(s - centre) >= others.farthest || std::abs(s) <= rigid * others.largest;
   });
   if (others.s.empty()) return {};
-  const SparsePencil pencil = large.at(place.parameters);
-  std::erase_if(others.s,
-                [&](Complex s) { return !is_exact(small, pencil, model.projection()->basis, s, reference); });
+  const SparsePencil pencil = large.pencil(place.at);
+  const auto basis = large.basis(model, pencil);
+  if (!basis) return {};
+  std::erase_if(others.s, [&](Complex s) { return !is_exact(small, pencil, *basis, s, reference); });
   std::sort(others.s.begin(), others.s.end(),
             [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
   return others.s;
@@ -69,7 +64,7 @@ std::vector<Complex> among_the_followed(const FamilyPencils& large, const Projec
 
 }  // namespace
 
-Newcomers find_newcomers(const FamilyPencils& large, const ProjectedFamily& model,
+Newcomers find_newcomers(const LargeModel& large, const Model& model,
                          const std::vector<ProjectedPlace>& places, Complex centre, double reference) {
   Newcomers found;
   std::size_t known = 0;
@@ -79,8 +74,8 @@ Newcomers find_newcomers(const FamilyPencils& large, const ProjectedFamily& mode
     known = there.size();
     if (!enters) continue;
     if (++found.count == 1) {
-      found.from = places[i - 1].p;
-      found.to = places[i].p;
+      found.from = places[i - 1].at.p;
+      found.to = places[i].at.p;
       found.frequency = there.back().imag();
     }
   }

@@ -5,7 +5,7 @@
 
 #include "eigentrail/continuation/trace_result.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "projection/family_pencils.hpp"
+#include "projection/large_model.hpp"
 
 namespace eigentrail {
 
@@ -14,8 +14,8 @@ inline constexpr double rigid = 1e-6;
 
 /// A place on the path of a projected family, with its followed modes; shapes are in projected coordinates.
 struct ProjectedPlace {
-  double p = 0.0;
-  Vector parameters;  ///< declared units
+  LargePlace at;
+  SmallPencil small;
   std::vector<ModeState> modes;
 };
 
@@ -27,7 +27,7 @@ struct Newcomers {
 
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
-Newcomers find_newcomers(const FamilyPencils& large, const ProjectedFamily& model,
+Newcomers find_newcomers(const LargeModel& large, const Model& model,
                          const std::vector<ProjectedPlace>& places, Complex centre, double reference);
 
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
 #include "projection/projection_error.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -39,16 +40,43 @@ double EigenvalueError::relative_to(double size) const {
   return distance / size * std::min(1.0, (distance + 2.0 * half_gap) / size);
 }
 
+namespace {
+
+/// Length of a force in the dual of the norm v^T D v of the motions v that the constraints allow: with
+/// constraints, the least length of r + A^T mu, by normal equations.
+class DualNorm {
+ public:
+  DualNorm(const SparseMatrix& A, const Vector& D) : weights_(D.cwiseSqrt().cwiseInverse()) {
+    if (A.rows() == 0) return;
+    const SparseMatrix weighted = A * weights_.asDiagonal();
+    S_ = SystemMatrix(weighted).row_norms().cwiseInverse().asDiagonal() * weighted;
+    normal_.compute(S_ * SparseMatrix(S_.transpose()));
+  }
+
+  double operator()(const ComplexVector& r) const {
+    Matrix parts(r.size(), 2);
+    parts << r.real(), r.imag();
+    parts = weights_.asDiagonal() * parts;
+    for (int pass = 0; pass < 2 && S_.rows() > 0; ++pass)
+      parts -= S_.transpose() * normal_.solve(Matrix(S_ * parts));
+    return parts.norm();
+  }
+
+ private:
+  Vector weights_;
+  SparseMatrix S_;  ///< 0 x 0 without constraints
+  Eigen::SimplicialLDLT<SparseMatrix> normal_;
+};
+
+}  // namespace
+
 EigenvalueError eigenvalue_error(const SparsePencil& pencil, const ProjectedMode& mode) {
   const double s = std::abs(mode.s);
   const Vector scale = s * s * pencil.M.diagonal().cwiseAbs() + s * pencil.C.diagonal().cwiseAbs() +
                        pencil.K.diagonal().cwiseAbs();
-  const double floor = 1e-12 * scale.maxCoeff();
-  const auto size = [&](const ComplexMatrix& residual) {
-    return std::sqrt((residual.col(0).cwiseAbs2().array() / (scale.array() + floor)).sum());
-  };
+  const DualNorm size(pencil.A, (scale.array() + 1e-12 * scale.maxCoeff()).matrix());
   const double residual =
-      size(pencil.times(mode.s, mode.right)) * size(pencil.transposed_times(mode.s, mode.left));
+      size(pencil.times(mode.s, mode.right).col(0)) * size(pencil.transposed_times(mode.s, mode.left).col(0));
   const ComplexVector inertia = 2.0 * (pencil.M * mode.right);
   const double slope = std::abs(mode.left.cwiseProduct(mode.s * inertia + pencil.C * mode.right).sum());
   const double curvature = std::abs(mode.left.cwiseProduct(inertia).sum());

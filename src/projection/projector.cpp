@@ -9,7 +9,7 @@
 
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
-#include "projection/family_pencils.hpp"
+#include "projection/large_model.hpp"
 #include "projection/newcomers.hpp"
 #include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
@@ -47,25 +47,24 @@ struct Worst {
 
 class Projector {
  public:
-  Projector(const SparseFamily& family, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
+  Projector(LargeModel& large, const TraceOptions& trace, const std::vector<ParameterValues>& lines,
             const ProjectionOptions& options)
-      : family_(family),
-        pencils_(family),
+      : large_(large),
         trace_(trace),
         lines_(lines),
         options_(options),
-        space_(family.n_coordinates()),
+        space_(large.model().n_coordinates()),
         target_(options.share_of_tolerance * trace.tolerance),
         finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver) {
     if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
 
-  std::unique_ptr<ProjectedFamily> along_the_lines() {
+  std::unique_ptr<Model> along_the_lines() {
     first_samples(lines_.front());
     if (lines_.size() > 1) first_samples(lines_.back());
     while (true) {
-      const std::unique_ptr<ProjectedFamily> model = reduced();
+      const std::unique_ptr<Model> model = reduced();
       std::vector<ProjectedPlace> places;
       for (const ParameterValues& line : lines_) scout(*model, line, places);
       const Worst worst = find_worst(*model, places);
@@ -73,11 +72,11 @@ class Projector {
         return give_up(worst, worst.indicator * factor_,
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it was.
-      const double error = error_at(*model, *worst.place);
+      const double error = error_at(*worst.place);
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
-      projection_.error_at = worst.place->p;
+      projection_.error_at = worst.place->at.p;
       const bool stuck = error > target_ && stays(*worst.place, error);
       if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
       if (lines_.size() == 1) note_newcomers(*model, places);
@@ -88,8 +87,11 @@ class Projector {
   }
 
   /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
-  std::unique_ptr<ProjectedFamily> at(const std::vector<double>& values) {
-    for (const double p : values) add(find_chosen(pencils_.at(parameters_at(p, lines_.front()))), p);
+  std::unique_ptr<Model> at(const std::vector<double>& values) {
+    for (const double p : values) {
+      const auto place = large_.place_at(p, parameters_at(p, lines_.front()));
+      if (place) add(find_chosen(large_.pencil(*place)), p);
+    }
     return reduced();
   }
 
@@ -103,30 +105,22 @@ class Projector {
 
   void check_choice() const {
     if (trace_.modes.count || trace_.modes.band) return;
-    throw InputError(
-        "a large model with " + std::to_string(family_.n_coordinates()) +
-        " freedoms, of which all modes are asked for: follow some of them, with modes = 6 or modes = "
-        "{ band = [\"0 Hz\", \"50 Hz\"] } in [trace], or --modes 6");
+    throw InputError("a large model with " + std::to_string(large_.model().n_coordinates()) +
+                     (large_.model().n_constraints() > 0 ? " coordinates" : " freedoms") +
+                     ", of which all modes are asked for: follow some of them, with modes = 6 or modes = "
+                     "{ band = [\"0 Hz\", \"50 Hz\"] } in [trace], or --modes 6");
   }
 
   Vector parameters_at(double p, const ParameterValues& line) const {
-    const Parameters& parameters = family_.description().parameters;
+    const Parameters& parameters = large_.model().description().parameters;
     Vector values = parameters.declared_values();
     for (const auto& [name, value] : line) values[parameters.index(name).value()] = value;
     values[parameters.index(trace_.parameter).value()] = p;
     return values;
   }
 
-  Shift usual_shift() const {
-    const ModeChoice& choice = trace_.modes;
-    if (choice.near) return {0.0, *choice.near};
-    if (choice.band && choice.band->lowest > 0.0)
-      return {0.0, 0.5 * (choice.band->lowest + choice.band->highest)};
-    return {};
-  }
-
   NearestModes find(const SparsePencil& pencil, ModeRequest request, double p) {
-    const int most = static_cast<int>(pencil.size()) - 2;
+    const int most = static_cast<int>(pencil.freedoms()) - 2;
     for (const int more : {0, 6, 20}) {
       request.count = std::min(request.count + more, most);
       request.most = std::min(request.most, most);
@@ -143,9 +137,9 @@ class Projector {
   NearestModes find_chosen(const SparsePencil& pencil, std::optional<double> tolerance = std::nullopt) {
     count_ = trace_.modes.count.value_or(8) + options_.spare_modes;
     while (true) {
-      NearestModes modes = find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, trace_.from);
-      const int missing = missing_modes(modes, usual_shift());
-      if (missing == 0 || count_ >= static_cast<int>(pencil.size()) / 2) return modes;
+      NearestModes modes = find(pencil, {usual_shift(trace_.modes), count_, 0.0, 0, tolerance}, trace_.from);
+      const int missing = missing_modes(modes, usual_shift(trace_.modes));
+      if (missing == 0 || count_ >= static_cast<int>(pencil.freedoms()) / 2) return modes;
       count_ += missing;
     }
   }
@@ -164,8 +158,8 @@ class Projector {
 
   void add(const NearestModes& modes, double p) {
     frequency_ = std::max(frequency_, modes.s.cwiseAbs().maxCoeff());
-    space_.add(modes.right);
-    if (options_.left_vectors && modes.left.cols() > 0) space_.add(modes.left);
+    space_.add(large_.for_space(modes.right));
+    if (options_.left_vectors && modes.left.cols() > 0) space_.add(large_.for_space(modes.left));
     projection_.sampled_at.push_back(p);
   }
 
@@ -177,48 +171,30 @@ class Projector {
       // Chebyshev places with the ends: dense where interpolation is worst.
       const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
       const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
-      const SparsePencil pencil = pencils_.at(parameters_at(p, line));
+      const auto place = large_.place_at(p, parameters_at(p, line));
+      if (!place) return;  // the path turns back: the trace will show where
+      const SparsePencil pencil = large_.pencil(*place);
       add(count_ == 0 ? find_chosen(pencil, tolerance)
-                      : find(pencil, {usual_shift(), count_, 0.0, 0, tolerance}, p),
+                      : find(pencil, {usual_shift(trace_.modes), count_, 0.0, 0, tolerance}, p),
           p);
     }
   }
 
-  /// The family on the space of the vectors, without what these need less than the target.
-  std::unique_ptr<ProjectedFamily> reduced() {
-    const AffinePencil<Matrix> whole = project_onto(space_.basis(), family_.pencil());
-    const Matrix principal = space_.principal(energy(whole), accuracy_of_vectors());
-    basis_ = space_.basis() * principal;
-    ModelDescription description = family_.description();
-    projection_.names = description.coordinate_names;
-    projection_.basis = basis_;
+  /// The model on the space of the vectors, without what these need less than the target.
+  std::unique_ptr<Model> reduced() {
     projection_.solutions = finder_.solutions();
     projection_.peak_bytes = finder_.peak_bytes();
     projection_.method = finder_.method();
     projection_.target = target_;
-    description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < basis_.cols(); ++i)
-      description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.assign(static_cast<std::size_t>(basis_.cols()), "1");
-    return std::make_unique<ProjectedFamily>(std::move(description), project_onto(principal, whole),
-                                             projection_);
+    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
+    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_, projection_);
   }
 
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
 
-  /// Energy of motion at the middle of the range: K and M weighted by a frequency that was found.
-  Matrix energy(const AffinePencil<Matrix>& pencil) const {
-    ModelDescription description = family_.description();
-    description.coordinate_names.assign(static_cast<std::size_t>(space_.basis().cols()), "");
-    const AffineFamily<Matrix> family(std::move(description), pencil);
-    const AffinePencil<Matrix> at = family.at(parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()));
-    const Matrix sum = at.K.front().matrix + frequency_ * frequency_ * at.M.front().matrix;
-    return 0.5 * (sum + sum.transpose());
-  }
-
-  /// A rough trace of the projected family along a line; its points are added to `places`.
-  void scout(const ProjectedFamily& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
+  /// A rough trace of the projected model along a line; its points are added to `places`.
+  void scout(const Model& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
     TraceOptions options = trace_;
     options.values = line;
     options.tolerance = std::max(trace_.tolerance, scout_tolerance);
@@ -230,11 +206,15 @@ class Projector {
     TraceObserver observer;
     observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
     observer.point = [&](const TracePoint& point) {
-      ProjectedPlace& place =
-          places.emplace_back(ProjectedPlace{point.node.p, point.node.path.parameters.col(0), point.modes});
-      const AffinePencil<Matrix> at = model.at(place.parameters);
-      for (ModeState& mode : place.modes)
-        refine(at.M.front().matrix, at.C.front().matrix, at.K.front().matrix, mode);
+      const Path& path = point.node.path;
+      ProjectedPlace& place = places.emplace_back(
+          ProjectedPlace{{point.node.p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)},
+                         large_.small(model, point),
+                         point.modes});
+      for (ModeState& mode : place.modes) {
+        if (mode.shape.size() > 0) mode.shape = large_.coordinates(point, mode.shape);
+        refine(place.small.M, place.small.C, place.small.K, mode);
+      }
       return true;
     };
     const TraceResult result = trace(model, options, observer);
@@ -256,7 +236,7 @@ class Projector {
 
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
-  Worst find_worst(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) const {
+  Worst find_worst(const Model& model, const std::vector<ProjectedPlace>& places) const {
     Worst worst{&places.front(), -1.0};
     for (const ProjectedPlace& place : places) {
       const double indicator = indicator_at(model, place);
@@ -266,15 +246,16 @@ class Projector {
   }
 
   /// The largest indicator of the modes at a place.
-  double indicator_at(const ProjectedFamily& model, const ProjectedPlace& place) const {
-    const SparsePencil pencil = pencils_.at(place.parameters);
-    const AffinePencil<Matrix> at = model.at(place.parameters);
-    const Matrix &M = at.M.front().matrix, &C = at.C.front().matrix, &K = at.K.front().matrix;
+  double indicator_at(const Model& model, const ProjectedPlace& place) const {
+    const SparsePencil pencil = large_.pencil(place.at);
+    const auto basis = large_.basis(model, pencil);
+    if (!basis) return 0.0;
+    const auto& [M, C, K] = place.small;
     double largest = 0.0;
     for (const ModeState& mode : moving_modes(place)) {
-      ProjectedMode one{mode.s, (basis_ * mode.shape).normalized(), {}};
+      ProjectedMode one{mode.s, (*basis * mode.shape).normalized(), {}};
       if (!pencil.one_sided) {
-        one.left = (basis_ * left_vector(M, C, K, mode.s)).normalized();
+        one.left = (*basis * left_vector(M, C, K, mode.s)).normalized();
       } else {
         one.left = pencil.symmetric ? one.right : one.right.conjugate();
       }
@@ -285,9 +266,9 @@ class Projector {
 
   /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
   /// size; the vectors of these are added to the space.
-  double error_at(const ProjectedFamily& model, const ProjectedPlace& place) {
-    const SparsePencil pencil = pencils_.at(place.parameters);
-    const Complex centre = usual_shift().value();
+  double error_at(const ProjectedPlace& place) {
+    const SparsePencil pencil = large_.pencil(place.at);
+    const Complex centre = usual_shift(trace_.modes).value();
     const std::vector<ModeState> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
@@ -297,16 +278,15 @@ class Projector {
     }
     // More modes cost less than a second shift with its factorization.
     const NearestModes exact =
-        find(pencil, {usual_shift(), count_, 1.01 * farthest, 3 * count_ / 2}, place.p);
-    add(exact, place.p);
+        find(pencil, {usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2}, place.at.p);
+    add(exact, place.at.p);
     std::vector<Complex> known(exact.s.begin(), exact.s.end());
-    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.p)) known.push_back(s);
-    const AffinePencil<Matrix> small = model.at(place.parameters);
+    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.at.p)) known.push_back(s);
     double largest = 0.0;
     for (const ModeState& mode : modes) {
       EigenvalueError error{std::numeric_limits<double>::infinity()};
       for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
-      error.half_gap = half_gap(small.M.front().matrix, small.C.front().matrix, small.K.front().matrix, mode);
+      error.half_gap = half_gap(place.small.M, place.small.C, place.small.K, mode);
       largest = std::max(largest, error.relative_to(size(mode.s)));
     }
     return largest;
@@ -318,7 +298,7 @@ class Projector {
     double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
     int count = 0;
     for (const Complex s : followed) {
-      if (std::abs(s - usual_shift().value()) <= radius) continue;
+      if (std::abs(s - usual_shift(trace_.modes).value()) <= radius) continue;
       lowest = std::min(lowest, s.imag());
       highest = std::max(highest, std::abs(s));
       ++count;
@@ -332,8 +312,9 @@ class Projector {
     return modes.s;
   }
 
-  void note_newcomers(const ProjectedFamily& model, const std::vector<ProjectedPlace>& places) {
-    const Newcomers found = find_newcomers(pencils_, model, places, usual_shift().value(), reference_);
+  void note_newcomers(const Model& model, const std::vector<ProjectedPlace>& places) {
+    const Newcomers found =
+        find_newcomers(large_, model, places, usual_shift(trace_.modes).value(), reference_);
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -350,29 +331,27 @@ class Projector {
     constexpr double same_place = 1e-9;  // of the range: where events are located again
     const double close = same_place * std::abs(trace_.to - trace_.from);
     const auto before = std::find_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
-      return (visit.parameters - place.parameters).cwiseAbs().maxCoeff() <= close;
+      return (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close;
     });
     const bool stayed = before != visits_.end() && error > 0.5 * before->error;
-    visits_.push_back({place.parameters, error});
+    visits_.push_back({place.at.parameters, error});
     return stayed;
   }
 
-  std::unique_ptr<ProjectedFamily> give_up(const Worst& worst, double error, const std::string& why) {
+  std::unique_ptr<Model> give_up(const Worst& worst, double error, const std::string& why) {
     projection_.error = error;
-    projection_.error_at = worst.place->p;
+    projection_.error_at = worst.place->at.p;
     projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
-                                trace_.parameter + " = " + exact_text(worst.place->p) + " " + why +
+                                trace_.parameter + " = " + exact_text(worst.place->at.p) + " " + why +
                                 "; asked for were " + digits(target_, 2));
     return reduced();
   }
 
-  const SparseFamily& family_;
-  FamilyPencils pencils_;
+  LargeModel& large_;
   const TraceOptions& trace_;
   std::vector<ParameterValues> lines_;
   const ProjectionOptions& options_;
   ProjectionSpace space_;
-  Matrix basis_;   ///< of the projected family, n x r
   double target_;  ///< error of the eigenvalues by the projection, relative to their size
   ModeFinder finder_;
   Projection projection_;
@@ -388,18 +367,39 @@ class Projector {
   int count_ = 0;  ///< modes that are looked for at a place
 };
 
+std::unique_ptr<ProjectedFamily> as_family(std::unique_ptr<Model> model) {
+  return std::unique_ptr<ProjectedFamily>(dynamic_cast<ProjectedFamily*>(model.release()));
+}
+
 }  // namespace
+
+Shift usual_shift(const ModeChoice& choice) {
+  if (choice.near) return {0.0, *choice.near};
+  if (choice.band && choice.band->lowest > 0.0)
+    return {0.0, 0.5 * (choice.band->lowest + choice.band->highest)};
+  return {};
+}
 
 std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
                                          const std::vector<ParameterValues>& lines,
                                          const ProjectionOptions& options) {
-  return Projector(family, trace, lines, options).along_the_lines();
+  return as_family(Projector(*large_model_of(family), trace, lines, options).along_the_lines());
 }
 
 std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
                                             const std::vector<double>& values,
                                             const ProjectionOptions& options) {
-  return Projector(family, trace, {}, options).at(values);
+  return as_family(Projector(*large_model_of(family), trace, {}, options).at(values));
+}
+
+std::unique_ptr<Model> project(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+                               const std::vector<ParameterValues>& lines, const ProjectionOptions& options) {
+  return Projector(*large_model_of(std::move(scene), trace), trace, lines, options).along_the_lines();
+}
+
+std::unique_ptr<Model> project_at(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+                                  const std::vector<double>& values, const ProjectionOptions& options) {
+  return Projector(*large_model_of(std::move(scene), trace), trace, {}, options).at(values);
 }
 
 }  // namespace eigentrail

@@ -8,7 +8,7 @@
 
 #include "core/positive_or_one.hpp"
 #include "eigentrail/steady/relaxation.hpp"
-#include "steady/kinsol_solver.hpp"
+#include "steady/error_oriented_newton.hpp"
 #include "steady/rounding.hpp"
 
 namespace eigentrail {
@@ -17,6 +17,14 @@ namespace {
 /// Residuals below this fraction of their scale are at the rounding level.
 constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
+/// Iterations of KINSOL after which the error-oriented method tries from the guess. Where KINSOL's line
+/// search works it takes fewer.
+constexpr int patience = 25;
+/// From this number of coordinates on the error-oriented method is the first one: the longer a chain of stiff
+/// elements, the shorter the steps of KINSOL's line search.
+constexpr Eigen::Index many_coordinates = 1000;
+/// Relaxation works with dense matrices of the size of all freedoms.
+constexpr Eigen::Index largest_relaxed = 5000;
 
 /// Typical magnitudes at the guess. All coordinates of a model have the same unit, so one scale serves them.
 struct Scales {
@@ -106,14 +114,46 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
   }
 }
 
-KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const SteadyOptions& options, Vector& x,
+/// KINSOL; where that takes long at a first guess, the error-oriented method from the same guess. Large
+/// models by the error-oriented method first. On the path (no `options.relax`) only a solution beside the
+/// guess will do.
+NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, const SteadyOptions& options,
+                               Vector& u) {
+  const Vector guess = u;
+  const bool large = n >= many_coordinates;
+  NonlinearResult result;
+  if (large) {
+    result = solve_error_oriented(problem, n, {.least_damping = options.relax ? 1e-6 : 1.0}, u);
+    if (result.converged || !options.relax) return result;
+    u = guess;
+  }
+  const int first = options.relax ? std::min(patience, options.max_iterations) : options.max_iterations;
+  const int before = result.iterations;
+  result = solve_with_kinsol(problem, options.tolerance, first, u);
+  result.iterations += before;
+  if (result.converged || !options.relax || large) return result;
+  Vector other = guess;
+  NonlinearResult damped = solve_error_oriented(problem, n, {}, other);
+  damped.iterations += result.iterations;
+  if (damped.converged) {
+    u = std::move(other);
+    return damped;
+  }
+  if (first == options.max_iterations) return result;
+  result = solve_with_kinsol(problem, options.tolerance, options.max_iterations - first, u);
+  result.iterations += damped.iterations;
+  return result;
+}
+
+/// Solves from (x, lambda).
+NonlinearResult iterate(SteadyProblem& problem, const Scales& scales, const SteadyOptions& options, Vector& x,
                         Vector& lambda) {
   const Eigen::Index n = x.size();
   const Eigen::Index m = lambda.size();
   KktFactorization kkt;
   SteadyResidual residual;
   Linearization linearization;
-  KinsolProblem nonlinear;
+  NonlinearProblem nonlinear;
   nonlinear.residual = [&](const Vector& u, Vector& f) {
     if (problem.evaluate(u.head(n), u.tail(m), residual)) return false;
     f.resize(n + m);
@@ -138,7 +178,7 @@ KinsolResult run_kinsol(SteadyProblem& problem, const Scales& scales, const Stea
 
   Vector u(n + m);
   u << x, lambda;
-  KinsolResult result = solve_with_kinsol(nonlinear, options.tolerance, options.max_iterations, u);
+  NonlinearResult result = solve_by_turns(nonlinear, n, options, u);
   x = u.head(n);
   lambda = u.tail(m);
   return result;
@@ -178,7 +218,7 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
   return last < floor(residual);
 }
 
-std::string failure_message(const KinsolResult& kinsol, const SteadyReport& report) {
+std::string failure_message(const NonlinearResult& kinsol, const SteadyReport& report) {
   std::ostringstream message;
   message << "no equilibrium found: largest residual " << report.residual << " of its scale, in the "
           << report.worst_equation
@@ -210,7 +250,7 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   }
   if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
   const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual);
-  const KinsolResult kinsol = run_kinsol(problem, scales, options, result.x, result.lambda);
+  const NonlinearResult kinsol = iterate(problem, scales, options, result.x, result.lambda);
   result.report.iterations = kinsol.iterations;
   const auto last = std::pair(result.x, result.lambda);
   const bool polished = polish(problem, scales, result);
@@ -236,7 +276,7 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts) {
   Equilibrium result = solve_from(model, parameters, x, lambda, options, counts);
-  if (result.status == SteadyStatus::converged || !options.relax) return result;
+  if (result.status == SteadyStatus::converged || !options.relax || x.size() > largest_relaxed) return result;
   SteadyReport report = result.report;
   Vector rested = x;
   Vector reactions;

@@ -17,7 +17,7 @@ namespace {
 
 /// Data for the C callbacks.
 struct Session {
-  const KinsolProblem& problem;
+  const NonlinearProblem& problem;
   std::exception_ptr exception = nullptr;
   std::string message = {};
 };
@@ -109,8 +109,8 @@ void free_kinsol(void* memory) {
 
 }  // namespace
 
-KinsolResult solve_with_kinsol(const KinsolProblem& problem, double tolerance, int max_iterations,
-                               Vector& u) {
+NonlinearResult solve_with_kinsol(const NonlinearProblem& problem, double tolerance, int max_iterations,
+                                  Vector& u) {
   Session session{problem};
   SUNContext raw_context = nullptr;
   check(SUNContext_Create(nullptr, &raw_context), "SUNContext_Create");
@@ -142,7 +142,7 @@ KinsolResult solve_with_kinsol(const KinsolProblem& problem, double tolerance, i
   const int flag = KINSol(memory.get(), unknowns.get(), KIN_LINESEARCH, u_scale.get(), f_scale.get());
   if (session.exception) std::rethrow_exception(session.exception);
 
-  KinsolResult result;
+  NonlinearResult result;
   long iterations = 0;
   check(KINGetNumNonlinSolvIters(memory.get(), &iterations), "KINGetNumNonlinSolvIters");
   result.iterations = static_cast<int>(iterations);

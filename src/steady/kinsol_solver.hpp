@@ -8,7 +8,7 @@
 
 namespace eigentrail {
 
-struct KinsolProblem {
+struct NonlinearProblem {
   /// Computes F(u); returns false if F is undefined there (the line search then shortens the step).
   std::function<bool(const Vector& u, Vector& f)> residual;
   /// Factors the Jacobian at u; returns false if that is impossible.
@@ -19,13 +19,14 @@ struct KinsolProblem {
   Vector f_scale;  ///< 1 / typical |F_i|
 };
 
-struct KinsolResult {
+struct NonlinearResult {
   bool converged = false;
   int iterations = 0;
   std::string message;  ///< KINSOL's reason when it did not converge
 };
 
 /// Solves from u in place. An exception thrown by a callback is passed on after KINSOL has returned.
-KinsolResult solve_with_kinsol(const KinsolProblem& problem, double tolerance, int max_iterations, Vector& u);
+NonlinearResult solve_with_kinsol(const NonlinearProblem& problem, double tolerance, int max_iterations,
+                                  Vector& u);
 
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
 #include "eigentrail/steady/kkt_factorization.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "steady/sparse_kkt.hpp"
 
@@ -9,6 +10,9 @@ namespace {
 
 /// Reciprocal condition of the tangent stiffness up to which it counts as singular: the rounding level.
 constexpr double singular = 1e-14;
+
+/// Larger systems are not solved through the null space, whose matrices are dense.
+constexpr Eigen::Index largest_dense = 5000;
 
 double one_norm(const Matrix& matrix) {
   return matrix.cwiseAbs().colwise().sum().maxCoeff();
@@ -21,6 +25,10 @@ KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A)
     sparse_ = SparseKkt::factor(K.sparse(), A.sparse());
   if (sparse_) {
     reciprocal_condition_ = sparse_->reciprocal_condition();
+    return;
+  }
+  if (K.rows() > largest_dense) {
+    reciprocal_condition_ = 0.0;
     return;
   }
   K_ = K;
@@ -46,6 +54,11 @@ void KktFactorization::factor_tangent() {
 void KktFactorization::solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const {
   if (sparse_) {
     sparse_->solve(r, g, dx, dl);
+    return;
+  }
+  if (!can_solve()) {
+    dx = Vector::Constant(r.size(), std::numeric_limits<double>::quiet_NaN());
+    dl = Vector::Constant(g.size(), std::numeric_limits<double>::quiet_NaN());
     return;
   }
   const Matrix& Q2 = constraints_.null_basis();

@@ -175,7 +175,7 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
                                    traced, force, constraint, counts))
     return fault;
   follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
-  load = force + linearization.K[0].dense() * follow;
+  load = force + linearization.K[0] * follow;
   return {};
 }
 

@@ -42,8 +42,7 @@ std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const 
   result->row_scale_ = SystemMatrix(A).row_norms().unaryExpr(
       [magnitude](double norm) { return magnitude / positive_or_one(norm); });
   result->matrix_ = bordered(K, A, result->row_scale_);
-  result->lu_.compute(result->matrix_);
-  if (result->lu_.info() != Eigen::Success) return nullptr;
+  if (!result->lu_.factor(result->matrix_, SparseKind::general)) return nullptr;
   const double condition = result->norm_of_tangent_inverse() * magnitude;
   if (!(condition < 1.0 / least_reciprocal_condition)) return nullptr;
   result->reciprocal_condition_ = 1.0 / std::max(1.0, condition);
@@ -58,18 +57,18 @@ double SparseKkt::norm_of_tangent_inverse() {
   Vector right = Vector::Zero(matrix_.rows());
   for (int i = 0; i < power_iterations; ++i) {
     right.head(n_) = x.normalized();
-    x = Vector(lu_.solve(right)).head(n_);
+    x = Vector(lu_.solve(Matrix(right))).head(n_);
     norm = x.norm();
     if (!std::isfinite(norm) || norm == 0.0) break;
     right.head(n_) = x / norm;
-    x = Vector(lu_.transpose().solve(right)).head(n_);
+    x = Vector(lu_.solve_transposed(Matrix(right))).head(n_);
   }
   return norm;
 }
 
 Vector SparseKkt::refined_solution(const Vector& right) const {
-  Vector solution = lu_.solve(right);
-  solution += lu_.solve(right - matrix_ * solution).eval();
+  Vector solution = lu_.solve(Matrix(right));
+  solution += Vector(lu_.solve(Matrix(right - matrix_ * solution)));
   return solution;
 }
 

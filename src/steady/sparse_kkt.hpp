@@ -3,21 +3,20 @@
 //     [ K     c S^T ] [ dx     ]   [ r       ]
 //     [ c S   0     ] [ dl / c ] = [ c D g   ]      S = D A with rows of unit length, c the magnitude of K
 //
-// by sparse LU with column ordering and partial pivoting.
+// by sparse LU (core/sparse_factors.hpp).
 #pragma once
 
-#include <Eigen/SparseLU>
 #include <memory>
 
-#include "eigentrail/core/system_matrix.hpp"
+#include "core/sparse_factors.hpp"
 
 namespace eigentrail {
 
 class SparseKkt {
  public:
-  /// Below this reciprocal condition of Q2^T K Q2 the null-space method is used, which separates the singular
-  /// part.
-  static constexpr double least_reciprocal_condition = 1e-11;
+  /// Below this reciprocal condition of Q2^T K Q2, the rounding level, it counts as singular, and the
+  /// null-space method is used, which separates the singular part. A beam of a thousand elements has 1e-12.
+  static constexpr double least_reciprocal_condition = 1e-14;
 
   /// Factors the system; null if it is singular or its condition is beyond the limit.
   static std::shared_ptr<const SparseKkt> factor(const SparseMatrix& K, const SparseMatrix& A);
@@ -39,7 +38,7 @@ class SparseKkt {
   Eigen::Index n_ = 0;
   Vector row_scale_;  ///< c D
   SparseMatrix matrix_;
-  Eigen::SparseLU<SparseMatrix> lu_;
+  SparseFactors lu_;
   double reciprocal_condition_ = 0.0;
 };
 

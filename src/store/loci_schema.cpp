@@ -231,7 +231,7 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
   add_events(list, parameter, unit);
   if (!description.masses.empty()) add_motions(list);
   if (!description.masses.empty() || !description.shafts.empty() || named_by_coordinates(description) ||
-      !options.mode_names.empty())
+      named_by_freedoms(model) != nullptr || !options.mode_names.empty())
     list.push_back(
         {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
   return list;

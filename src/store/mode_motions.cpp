@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "eigentrail/model/projection.hpp"
 #include "eigentrail/modes/participation.hpp"
 
 namespace eigentrail {
@@ -18,6 +19,13 @@ constexpr std::size_t most_coordinates = 400;
 constexpr double zero_share = 1e-9;
 
 }  // namespace
+
+const Projection* named_by_freedoms(const Model& model) {
+  const Projection* projection = model.projection();
+  const bool lifts = projection != nullptr && projection->basis.size() > 0;
+  return lifts && model.description().shafts.empty() && has_own_names(projection->names) ? projection
+                                                                                         : nullptr;
+}
 
 bool named_by_coordinates(const ModelDescription& description) {
   return description.masses.empty() && description.constraint_names.empty() && description.shafts.empty() &&
@@ -82,9 +90,21 @@ void ModeMotions::describe_rotor_modes(const TracePoint& point) {
   }
 }
 
+/// Shapes of a projected family are those of its coordinates; names are those of the large model's.
+void ModeMotions::name_by_freedoms(const Projection& projection, const TracePoint& point) {
+  for (const ModeState& mode : point.modes) {
+    const auto number = static_cast<std::size_t>(mode.mode);
+    if (by_participation_.contains(number) || !mode.shape.allFinite() || mode.shape.size() == 0) continue;
+    const ComplexVector shape = projection.basis * mode.shape;
+    by_participation_[number] =
+        largest_names(shape.cwiseAbs2() / shape.squaredNorm(), shape, projection.names);
+  }
+}
+
 void ModeMotions::append(const TracePoint& point) {
   if (!model_->description().shafts.empty()) describe_rotor_modes(point);
   if (!coordinates_.empty()) name_by_coordinates(point);
+  if (const Projection* projection = named_by_freedoms(*model_)) name_by_freedoms(*projection, point);
   if (shares_.motions().empty() || point.modes.empty()) return;
   const SystemMatrix& M = point.node.linearization.M[0];
   const Vector x = point.node.path.x.col(0);
@@ -108,11 +128,15 @@ void ModeMotions::give_names(const std::vector<GivenName>& names, const TracePoi
   for (const ModeState& mode : first.modes)
     n_modes = std::max(n_modes, static_cast<std::size_t>(mode.mode) + 1);
   const std::vector<std::string> own = own_names(n_modes);
+  const Projection* projection = model_->projection();
+  const bool lifts = projection != nullptr && projection->basis.size() > 0;
   std::vector<NamedMode> modes;
-  for (const ModeState& mode : first.modes)
-    modes.push_back({mode.s, mode.shape, own[static_cast<std::size_t>(mode.mode)]});
+  for (const ModeState& mode : first.modes) {
+    modes.push_back({mode.s, lifts ? ComplexVector(projection->basis * mode.shape) : mode.shape,
+                     own[static_cast<std::size_t>(mode.mode)]});
+  }
   const std::vector<std::size_t> chosen =
-      modes_of_names(names, modes, model_->description().coordinate_names, label);
+      modes_of_names(names, modes, lifts ? projection->names : model_->description().coordinate_names, label);
   for (std::size_t i = 0; i < names.size(); ++i)
     given_[static_cast<std::size_t>(first.modes[chosen[i]].mode)] = names[i].name;
 }
@@ -159,7 +183,7 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
 
 void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
   const std::size_t motions = shares_.motions().size();
-  if (motions == 0 && coordinates_.empty() && rotor_modes_.empty() && given_.empty()) return;
+  if (motions == 0 && by_participation_.empty() && rotor_modes_.empty() && given_.empty()) return;
   std::vector<double> values;
   for (const bool first : {true, false}) {
     for (std::size_t mode = 0; mode < n_modes; ++mode) {

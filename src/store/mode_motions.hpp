@@ -18,6 +18,10 @@ namespace eigentrail {
 /// matrices without constraints and shafts, with names of its own, and not too large.
 bool named_by_coordinates(const ModelDescription& description);
 
+/// The projection by whose freedoms the modes of a family are named: those of a large model, if they have
+/// names of their own. Null else.
+const Projection* named_by_freedoms(const Model& model);
+
 /// Collects the shares of kinetic energy of every mode at the first and the last point where it exists.
 class ModeMotions {
  public:
@@ -62,6 +66,7 @@ class ModeMotions {
  private:
   std::vector<std::string> own_names(std::size_t n_modes) const;
   void name_by_coordinates(const TracePoint& point);
+  void name_by_freedoms(const Projection& projection, const TracePoint& point);
   void describe_rotor_modes(const TracePoint& point);
 
   struct Ends {

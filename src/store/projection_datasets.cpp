@@ -9,11 +9,13 @@ bool is_projection_dataset(const std::string& name) {
 }
 
 void write_projection(Hdf5File& file, const Projection& projection) {
-  write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
-  using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajorReal basis = projection.basis;
-  write_dataset(file, {"projection_basis", "1", "the large model's vectors are this times the coordinates"},
-                {"freedom", "coordinate"}, std::vector<double>(basis.data(), basis.data() + basis.size()));
+  if (projection.basis.size() > 0) {
+    write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
+    using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const RowMajorReal basis = projection.basis;
+    write_dataset(file, {"projection_basis", "1", "the large model's vectors are this times the coordinates"},
+                  {"freedom", "coordinate"}, std::vector<double>(basis.data(), basis.data() + basis.size()));
+  }
   write_dimension(file, {"projection_place", "1", "values of the parameter whose modes span the space"},
                   projection.sampled_at);
   file.set_attribute("projection_error", projection.error);

@@ -9,8 +9,8 @@ namespace eigentrail {
 namespace {
 
 /// atan(u) = 0: Newton's method without damping diverges from |u| > 1.39.
-KinsolProblem arctangent(double& slope) {
-  KinsolProblem problem;
+NonlinearProblem arctangent(double& slope) {
+  NonlinearProblem problem;
   problem.residual = [](const Vector& u, Vector& f) {
     f = u.array().atan();
     return true;
@@ -37,7 +37,7 @@ TEST(KinsolSolver, LineSearchConvergesWherePlainNewtonDiverges) {
 }
 
 TEST(KinsolSolver, GivesAReasonWhenThereIsNoRoot) {
-  KinsolProblem problem;
+  NonlinearProblem problem;
   problem.residual = [](const Vector& u, Vector& f) {
     f = Vector{{u[0] * u[0] + 1.0}};
     return true;
@@ -50,14 +50,14 @@ TEST(KinsolSolver, GivesAReasonWhenThereIsNoRoot) {
   problem.solve = [&](const Vector& b, Vector& du) { du = b / slope; };
   problem.u_scale = problem.f_scale = Vector::Ones(1);
   Vector u{{1.0}};
-  const KinsolResult result = solve_with_kinsol(problem, 1e-12, 50, u);
+  const NonlinearResult result = solve_with_kinsol(problem, 1e-12, 50, u);
   EXPECT_FALSE(result.converged);
   EXPECT_NE(result.message.find("KIN_"), std::string::npos) << result.message;
 }
 
 TEST(KinsolSolver, PassesAnExceptionThroughTheCLibrary) {
   double slope = 0.0;
-  KinsolProblem problem = arctangent(slope);
+  NonlinearProblem problem = arctangent(slope);
   problem.residual = [](const Vector&, Vector&) -> bool { throw std::domain_error("from the model"); };
   Vector u{{1.0}};
   EXPECT_THROW(solve_with_kinsol(problem, 1e-12, 50, u), std::domain_error);
@@ -65,7 +65,7 @@ TEST(KinsolSolver, PassesAnExceptionThroughTheCLibrary) {
 
 TEST(KinsolSolver, ShortensTheStepWhereTheResidualIsNotDefined) {
   // log(u) = 0 from u = 3: the full Newton step lands at a negative u.
-  KinsolProblem problem;
+  NonlinearProblem problem;
   problem.residual = [](const Vector& u, Vector& f) {
     if (u[0] <= 0.0) return false;
     f = u.array().log();

@@ -1,9 +1,11 @@
 // Independent check of a loci file. At random parameter values the stored scene is solved again and its
 // whole spectrum is computed by QZ. Each value of the dense output is compared with the eigenvalue assigned
-// to it, one to one.
+// to it, one to one. Of a large model, which was projected for the trace, the whole model is solved by
+// shift-invert iterations for the eigenvalues nearest to the followed ones.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "eigentrail/store/loci_file.hpp"
@@ -11,7 +13,8 @@
 namespace eigentrail {
 
 struct VerifyOptions {
-  int samples = 100;       ///< number of random parameter values, >= 1
+  /// Number of random parameter values, >= 1; absent: 100, of a large model 10, with a factorization each.
+  std::optional<int> samples = {};
   std::uint64_t seed = 1;  ///< of the random numbers
 };
 
@@ -26,6 +29,7 @@ struct Discrepancy {
 };
 
 struct [[nodiscard]] VerifyReport {
+  bool large = false;  ///< the model was projected for the trace, and is solved as a whole here
   int samples = 0;
   int unsolved = 0;  ///< number of places without an equilibrium or a spectrum
   Discrepancy worst;

@@ -2,16 +2,29 @@
 // the difference.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/core/system_matrix.hpp"
 
 namespace eigentrail {
 
+/// Few motions to which the linearized equations of a large scene are restricted: at a place where the
+/// constraints have the Jacobian A, the motions that they allow and whose part that was allowed at the
+/// reference is one of these.
+struct Motions {
+  Matrix basis;              ///< n x k, orthonormal; allowed at the reference
+  SparseMatrix constraints;  ///< m x n, A at the reference; 0 x 0 if there are none
+};
+
 struct Projection {
-  Matrix basis;                    ///< n x k, orthonormal columns: x = basis times reduced coordinates
-  std::vector<std::string> names;  ///< n, of the coordinates of the large model
+  /// n x k, orthonormal columns: x = basis times reduced coordinates. Empty for a scene: its shapes are those
+  /// of all its coordinates.
+  Matrix basis;
+  std::optional<Motions> motions = {};  ///< only of a scene
+  Eigen::Index freedoms = 0;            ///< of the large model
+  std::vector<std::string> names;       ///< n, of the coordinates of the large model
   std::vector<double>
       sampled_at;              ///< values of the traced parameter (declared unit), in the order of sampling
   int factorizations = 0;      ///< of the large pencil

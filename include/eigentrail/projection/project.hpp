@@ -48,6 +48,38 @@ class ProjectedFamily final : public AffineFamily<Matrix> {
   Projection projection_;
 };
 
+/// A scene whose linearized equations are restricted to few motions. Its equilibrium is that of the whole
+/// scene.
+class ProjectedScene final : public Model {
+ public:
+  /// `first`: an equilibrium that is known, with the parameters that belong to it.
+  ProjectedScene(std::shared_ptr<const Model> scene, Projection projection, Path first);
+
+  const Projection* projection() const override { return &projection_; }
+
+  Vector initial_guess(const Vector& parameters) const override;
+  Structure structure(int traced_parameter) const override { return scene_->structure(traced_parameter); }
+  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
+                           EvaluationCounts& counts) const override;
+  EvaluationFault linearize(const Path& path, int order, Linearization& result,
+                            EvaluationCounts& counts) const override;
+  std::vector<Expression> expressions() const override { return scene_->expressions(); }
+  std::vector<double> kinks(int traced_parameter) const override { return scene_->kinks(traced_parameter); }
+  EvaluationFault extended_residual(const BasicPath<Extended>& path,
+                                    BasicSteadyResidual<Extended>& result) const override {
+    return scene_->extended_residual(path, result);
+  }
+  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
+                                         BasicLinearization<Extended>& result) const override {
+    return scene_->extended_linearization(path, result);
+  }
+
+ private:
+  std::shared_ptr<const Model> scene_;
+  Projection projection_;
+  Path first_;
+};
+
 /// Values of parameters that replace the declared ones, in their units.
 using ParameterValues = std::map<std::string, double>;
 
@@ -69,6 +101,15 @@ std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const Tr
                                             const std::vector<double>& values,
                                             const ProjectionOptions& options = {});
 
+/// The same for a scene of bodies with sparse matrices. Its path is followed with the whole equilibrium, one
+/// sparse factorization of the steady equations per point. Throws NotProjected also if there is no
+/// equilibrium or if constraints are redundant.
+std::unique_ptr<Model> project(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+                               const std::vector<ParameterValues>& lines = {},
+                               const ProjectionOptions& options = {});
+std::unique_ptr<Model> project_at(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+                                  const std::vector<double>& values, const ProjectionOptions& options = {});
+
 /// Up to this size the dense engine traces sparse families: it knows all modes, and takes less than a second
 /// for a few of them. The projection is as quick from about 60 freedoms on (docs, performance.md).
 inline constexpr Eigen::Index largest_dense_size = 150;
@@ -77,10 +118,23 @@ inline constexpr Eigen::Index largest_dense_size = 150;
 /// freedoms, or if all modes are asked for and the dense engine can hold it (limits::matrix_rows).
 const SparseFamily* large_family(const Model& model, const TraceOptions& trace);
 
+/// Scenes of bodies with fewer coordinates are solved with all their freedoms.
+inline constexpr Eigen::Index smallest_large_scene = 1000;
+
+/// Whether the model is a scene of bodies that is to be projected: one with at least `smallest_large_scene`
+/// coordinates of which some modes are followed. Throws InputError if all are asked for and it has more than
+/// limits::matrix_rows coordinates.
+bool is_large_scene(const Model& model, const TraceOptions& trace);
+
+/// Whether the model is to be projected.
+bool is_large(const Model& model, const TraceOptions& trace);
+
 /// What a projection will need, from the symbolic analysis of the pencil where the trace begins.
 struct ProjectionEstimate {
   Eigen::Index freedoms = 0;
-  Eigen::Index nonzeros = 0;       ///< of M, C and K together
+  Eigen::Index coordinates = 0;    ///< of a scene; 0: a family
+  Eigen::Index nonzeros = 0;       ///< of M, C, K and A together
+  bool moves = false;              ///< the equilibrium is followed: a factorization per point of the trace
   bool two_sided = false;          ///< left vectors are needed
   std::string method;              ///< of the factorization
   double factor_bytes = 0.0;       ///< of one factorization; one is kept at a time
@@ -89,6 +143,9 @@ struct ProjectionEstimate {
   double target = 0.0;             ///< error of the projection, relative to the eigenvalues
 };
 ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace,
+                                       const SparseSolverMaker& solver = {});
+/// The same for a scene, at its starting guess.
+ProjectionEstimate estimate_projection(const Model& scene, const TraceOptions& trace,
                                        const SparseSolverMaker& solver = {});
 
 /// Replaces a large model by its projection; leaves others as they are.

@@ -125,7 +125,8 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();
-    if (const Projection* projection = setup.model->projection()) {
+    const Projection* projection = setup.model->projection();
+    if (projection != nullptr && projection->basis.size() > 0) {
       mode.what_moves = name_by_freedoms(*projection, shape);
     } else if (unconstrained) {
       mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "eigentrail/continuation/point_modes.hpp"
+#include "eigentrail/reduction/restricted_basis.hpp"
 
 namespace eigentrail {
 namespace {
@@ -93,7 +94,21 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
     point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
     return;
   }
-  point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
+  const Projection* projection = problem.model.projection();
+  if (projection != nullptr && projection->motions) {
+    auto basis = restricted_basis(*projection->motions, point.equilibrium.linearization.A[0],
+                                  point.equilibrium.kkt.constraints());
+    if (!basis) {
+      point.status = PointStatus::no_equilibrium;
+      point.message =
+          "bodies have turned by about 90 degrees since the reference of the projected model; trace "
+          "the range in two parts";
+      return;
+    }
+    point.basis = std::move(*basis);
+  } else {
+    point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
+  }
   if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
   point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
 }

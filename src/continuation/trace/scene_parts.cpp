@@ -50,6 +50,7 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   const CoefficientMatrices known = model.coefficient_matrices(problem.parameters, problem.traced);
   const bool gives_coefficients = !known.M.empty() || !known.C.empty() || !known.K.empty();
   if (gives_coefficients || leaves_its_path(options) || problem.basis != BasisChoice::aligned) return {};
+  if (model.n_coordinates() - model.n_constraints() > most_freedoms) return {};
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
   Linearization there;

@@ -162,7 +162,7 @@ std::optional<StartFailure> Start::find_modes() {
       options_.modes.count && few_share * *options_.modes.count < static_cast<double>(pencil.size());
   Spectrum spectrum = few ? compute_eigenvalues(pencil) : compute_spectrum(pencil);
   ++result_.counts.spectra;
-  result_.n_infinite = spectrum.n_infinite - structural_infinities();
+  result_.n_infinite = std::max(0, spectrum.n_infinite - structural_infinities());
   result_.n_available = static_cast<int>(spectrum.modes.size());
   if (auto failure = check_spectrum(spectrum)) return failure;
   if (options_.constant_modes == "list") mark_permanent_zeros(spectrum);

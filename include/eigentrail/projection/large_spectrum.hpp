@@ -1,0 +1,31 @@
+// Eigenvalues of a large model at single places, by shift-invert iterations of the whole model. They know
+// nothing of a projection, and serve to check one.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/core/sparse_solver.hpp"
+#include "eigentrail/model/model.hpp"
+
+namespace eigentrail {
+
+class LargeSpectrum {
+ public:
+  /// `model`: a sparse family or a scene of bodies, as is_large says; it must outlive this.
+  LargeSpectrum(const Model& model, const TraceOptions& trace, const SparseSolverMaker& solver = {});
+  ~LargeSpectrum();
+
+  /// Eigenvalues (Im s >= 0) at the value p of the traced parameter, among them all that are closest to the
+  /// finite ones of `wanted`. `x`, `lambda`: a guess of the equilibrium; a family needs none. Empty if there
+  /// is no equilibrium or the iterations do not converge. One factorization, and one for each of `wanted`
+  /// that is far from the others.
+  std::vector<Complex> beside(const ComplexVector& wanted, double p, const Vector& x, const Vector& lambda);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace eigentrail

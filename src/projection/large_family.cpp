@@ -1,0 +1,68 @@
+#include "projection/family_pencils.hpp"
+#include "projection/large_model.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A family of sparse matrices at rest: its projection is a family of the same factors.
+class LargeFamily final : public LargeModel {
+ public:
+  explicit LargeFamily(const SparseFamily& family) : family_(family), pencils_(family) {}
+
+  const Model& model() const override { return family_; }
+
+  std::optional<LargePlace> place_at(double p, const Vector& parameters) override {
+    return LargePlace{p, parameters, {}, {}};
+  }
+  std::optional<LargePlace> place_near(const LargePlace& guess) override { return guess; }
+  SparsePencil pencil(const LargePlace& place) const override { return pencils_.at(place.parameters); }
+  ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return vectors; }
+
+  std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
+                                 double frequency, Projection& projection) const override {
+    const AffinePencil<Matrix> whole = project_onto(space.basis(), family_.pencil());
+    const Matrix principal = space.principal(energy(whole, middle, frequency), accuracy);
+    ModelDescription description = family_.description();
+    projection.freedoms = family_.n_coordinates();
+    projection.names = std::move(description.coordinate_names);
+    projection.basis = space.basis() * principal;
+    description.coordinate_names.clear();
+    for (Eigen::Index i = 0; i < principal.cols(); ++i)
+      description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_units.assign(static_cast<std::size_t>(principal.cols()), "1");
+    return std::make_unique<ProjectedFamily>(std::move(description), project_onto(principal, whole),
+                                             projection);
+  }
+
+  SmallPencil small(const Model& reduced, const TracePoint& point) const override {
+    const AffinePencil<Matrix> at =
+        dynamic_cast<const ProjectedFamily&>(reduced).at(point.node.path.parameters.col(0));
+    return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+  }
+  ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
+
+  std::shared_ptr<const Matrix> basis(const Model& reduced, const SparsePencil&) const override {
+    return {std::shared_ptr<const Matrix>(), &reduced.projection()->basis};
+  }
+
+ private:
+  /// Energy of motion at the middle of the range: K and M weighted by a frequency that was found.
+  Matrix energy(const AffinePencil<Matrix>& pencil, const Vector& middle, double frequency) const {
+    ModelDescription description = family_.description();
+    description.coordinate_names.assign(static_cast<std::size_t>(pencil.K.front().matrix.cols()), "");
+    const AffinePencil<Matrix> at = AffineFamily<Matrix>(std::move(description), pencil).at(middle);
+    const Matrix sum = at.K.front().matrix + frequency * frequency * at.M.front().matrix;
+    return 0.5 * (sum + sum.transpose());
+  }
+
+  const SparseFamily& family_;
+  FamilyPencils pencils_;
+};
+
+}  // namespace
+
+std::unique_ptr<LargeModel> large_model_of(const SparseFamily& family) {
+  return std::make_unique<LargeFamily>(family);
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,65 @@
+// What the projection asks of a large model: a sparse family, or a scene of bodies with constraints.
+#pragma once
+
+#include "eigentrail/continuation/trace_result.hpp"
+#include "eigentrail/projection/project.hpp"
+#include "projection/nearest_modes.hpp"
+#include "projection/projection_space.hpp"
+
+namespace eigentrail {
+
+/// A place on the path of a large model.
+struct LargePlace {
+  double p = 0.0;     ///< traced parameter
+  Vector parameters;  ///< all of them, declared units
+  Vector x, lambda;   ///< the equilibrium of a scene; empty for a family
+};
+
+/// The matrices of a projected model at a place, k x k.
+struct SmallPencil {
+  Matrix M, C, K;
+};
+
+class LargeModel {
+ public:
+  LargeModel() = default;
+  virtual ~LargeModel() = default;
+  LargeModel(const LargeModel&) = delete;
+  LargeModel& operator=(const LargeModel&) = delete;
+
+  virtual const Model& model() const = 0;
+
+  /// The place of the path at these parameters, followed from the last one. Empty if the path does not reach
+  /// it. Throws NotProjected if there is no equilibrium to begin with.
+  virtual std::optional<LargePlace> place_at(double p, const Vector& parameters) = 0;
+
+  /// The place at the parameters of `guess`, with the equilibrium that its x and lambda lead to. Empty if
+  /// there is none.
+  virtual std::optional<LargePlace> place_near(const LargePlace& guess) = 0;
+
+  virtual SparsePencil pencil(const LargePlace& place) const = 0;
+
+  /// Vectors as they are added to the space.
+  virtual ComplexMatrix for_space(const ComplexMatrix& vectors) const = 0;
+
+  /// The model on the part of the space that the vectors need up to the relative error `accuracy` in the norm
+  /// of the energy K + frequency^2 M. Completes the projection by what it knows of the space.
+  virtual std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
+                                         double frequency, Projection& projection) const = 0;
+
+  /// The projected matrices at a traced point, and the reduced coordinates of one of its shapes.
+  virtual SmallPencil small(const Model& reduced, const TracePoint& point) const = 0;
+  virtual ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const = 0;
+
+  /// Basis of the motions of the reduced model at the place of a pencil, n x k; it lives as long as `reduced`
+  /// and the result do. Null if the motions have turned too far.
+  virtual std::shared_ptr<const Matrix> basis(const Model& reduced, const SparsePencil& pencil) const = 0;
+};
+
+/// The shift for a choice of modes: the middle of those that are wanted, or zero.
+Shift usual_shift(const ModeChoice& choice);
+
+std::unique_ptr<LargeModel> large_model_of(const SparseFamily& family);
+std::unique_ptr<LargeModel> large_model_of(std::shared_ptr<const Model> scene, const TraceOptions& trace);
+
+}  // namespace eigentrail
