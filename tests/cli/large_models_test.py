@@ -74,22 +74,6 @@ class LargeModels(ProgramTest):
         self.assertEqual(run.returncode, 1)
         self.assertIn("has this file changed since the trace?", run.stderr)
 
-    def test_scenes_of_many_beams(self):
-        self.write("scene.toml", ladder(7))
-        explained = self.run_program("explain", "scene.toml", "--modes", "3").stdout
-        self.assertRegex(explained, r"model +\d+ freedoms: \d{4} coordinates, \d+ constraints")
-        self.assertRegex(explained, r"equilibrium +of all coordinates, followed")
-        self.assertRegex(explained, r"memory +[\d.]+ MB with the vectors")
-        summary = self.trace("--modes", "3")
-        self.assertIn("projected from", summary)
-        run = self.verify()
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
-        self.assertIn("shift-invert of the whole model", run.stdout)
-        with h5py.File(self.folder / "loci.h5") as file:
-            names = [name.decode() for name in file["mode_name"][...]]
-            self.assertEqual(file["mode_shape"].shape[-1], file["coordinate"].shape[0])
-        self.assertTrue(all(names), names)
-
     def test_all_modes_of_a_very_large_scene_are_refused(self):
         self.write("scene.toml", ladder(26))
         run = self.run_program("trace", "scene.toml", "-o", "loci.h5")

@@ -125,42 +125,6 @@ TEST(LargeScenes, ARotatingCantileverAgreesWithTheWholeScene) {
   EXPECT_NEAR(traced.record.eigenvalues_of_node(0)[0].imag(), 3.5160152685, 1e-2);
 }
 
-/// The weight bends the blade: its nodes turn, and their constraints with them.
-TEST(LargeScenes, TheEquilibriumMayMoveFar) {
-  const OptionTexts options{{"modes", "3"}, {"parameter", "weight"}, {"from", "0"}, {"to", "6"}};
-  const Traced traced = project_and_trace(cantilever(options, "1"));
-  const Vector x = traced.record.nodes.back().path.x.col(0);
-  EXPECT_LT(x[x.size() - 10], -0.5);  // z of the tip
-  EXPECT_LT(error(cantilever(options, "1"), traced, 3), 1e-6);
-  EXPECT_LE(traced.projection().factorizations, 12);
-}
-
-TEST(LargeScenes, ALadderOfFiveThousandCoordinatesAgreesWithTheWholeScene) {
-  const Setting scene = make_setting(ladder(26), {{"modes", "4"}});
-  EXPECT_GE(scene.model->n_coordinates(), 5000);
-  const Traced traced = project_and_trace(make_setting(ladder(26), {{"modes", "4"}}));
-  EXPECT_LT(error(scene, traced, 1), 1e-6);
-  EXPECT_LE(traced.projection().factorizations, 12);
-}
-
-TEST(LargeScenes, TheWholeModelIsSolvedBesideWantedEigenvalues) {
-  const Setting scene = make_setting(ladder(6), {{"modes", "3"}});
-  const Vector parameters = scene.problem().parameters;
-  const AffinePencil<SparseMatrix> pencil = whole(scene, 0.7);
-  const std::vector<Complex> exact = eigenvalues_near(pencil, Complex(0.0, 0.01), 3);
-  LargeSpectrum spectrum(*scene.model, scene.options);
-  ComplexVector wanted(2);
-  wanted << exact[0], exact[2];
-  const std::vector<Complex> found =
-      spectrum.beside(wanted, 0.7, scene.model->initial_guess(parameters), Vector());
-  for (const Complex s : wanted) {
-    const auto nearest = std::min_element(
-        found.begin(), found.end(), [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
-    ASSERT_NE(nearest, found.end());
-    EXPECT_LT(std::abs(*nearest - s), 1e-8 * std::abs(s));
-  }
-}
-
 TEST(LargeScenes, AreThoseOfAThousandCoordinatesWithSomeModes) {
   const auto is_large = [](int bays, const OptionTexts& options) {
     const Setting setting = make_setting(ladder(bays), options);

@@ -188,11 +188,6 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
   pencil.K = {{1.0, stiffness + shaft.bearing_stiffness * bearings},
               {omega(), shaft.bearing_damping * from_triplets(n, J)},
               {omega() * omega(), from_triplets(n, softening)}};
-  if (shaft.film_stiffness == 0.0 && shaft.film_damping == 0.0) return pencil;
-  const Expression film = Expression(1.0) / (Expression(1.0) + omega() / Expression(shaft.film_speed));
-  pencil.C.push_back({film, shaft.film_damping * bearings});
-  pencil.K.push_back({film, shaft.film_stiffness * bearings});
-  pencil.K.push_back({omega() * film, shaft.film_damping * from_triplets(n, J)});
   return pencil;
 }
 

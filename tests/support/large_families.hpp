@@ -35,10 +35,6 @@ struct SolidShaft {
   std::vector<int> discs{10, 26};  ///< first layers of the discs; each is two layers thick
   double bearing_stiffness = 2e8, bearing_damping = 2e4;  ///< N/m, N s/m
   double internal_damping = 2e-6;                         ///< s, times the stiffness
-  /// Oil films of the bearings: stiffness and damping that fall with the speed as the
-  /// Sommerfeld number grows, film / (1 + omega / film_speed), beside those of the bearings. N/m, N s/m,
-  /// rad/s.
-  double film_stiffness = 0.0, film_damping = 0.0, film_speed = 100.0;
 };
 AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft);
 
