@@ -50,7 +50,8 @@ class LargeFamily final : public LargeModel {
   Matrix energy(const AffinePencil<Matrix>& pencil, const Vector& middle, double frequency) const {
     ModelDescription description = family_.description();
     description.coordinate_names.assign(static_cast<std::size_t>(pencil.K.front().matrix.cols()), "");
-    const AffinePencil<Matrix> at = AffineFamily<Matrix>(std::move(description), pencil).at(middle);
+    const AffineFamily<Matrix> reduced(std::move(description), pencil);
+    const AffinePencil<Matrix> at = reduced.at(middle);
     const Matrix sum = at.K.front().matrix + frequency * frequency * at.M.front().matrix;
     return 0.5 * (sum + sum.transpose());
   }

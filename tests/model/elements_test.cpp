@@ -319,6 +319,8 @@ INSTANTIATE_TEST_SUITE_P(Registry, Elements, testing::ValuesIn(cases),
 TEST(Registry, EveryEffectHasACase) {
   for (const EffectHelp& effect : effect_reference()) {
     if (effect.name == "point") continue;  // in every case
+    if (effect.name == "rotor")
+      continue;  // makes blades of what others are: tests/scenes/hammond_ground_resonance_test.py
     const bool found = std::any_of(cases.begin(), cases.end(), [&](const ElementCase& c) {
       return c.tables.find("[" + effect.name + "]") != std::string::npos;
     });

@@ -63,6 +63,15 @@ TEST(RestrictedBasis, HoldsTheMotionsWhosePartAtTheReferenceIsKnown) {
   EXPECT_GT((projected * (projected.transpose() * elsewhere) - elsewhere).norm(), 0.05);
 }
 
+TEST(RestrictedBasis, EndsWhereAConstraintHasTurnedByARightAngle) {
+  Motions all = motions();
+  const double right_angle = 0.5 * 3.14159265358979 / m;  // of the last pair
+  all.basis = Matrix::Zero(n, 1);
+  all.basis(2 * m - 1, 0) = 1.0;
+  const SystemMatrix A = constraints_at(right_angle);
+  EXPECT_FALSE(restricted_basis(all, A, ConstraintFactorization(A)));
+}
+
 TEST(RestrictedBasis, IsThatOfTheMotionsWithoutConstraints) {
   const Matrix motions = Matrix::Identity(n, 2);
   const SystemMatrix none = SparseMatrix(0, n);

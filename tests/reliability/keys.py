@@ -49,9 +49,9 @@ DEPENDENT = {"torsional_spring about", "torsional_damper about", "torsional_maxw
              "body x_axis", "body y_axis", "body z_axis", "strips root", "strips tip", "strips leading", "strips lift"}
 
 
-# Tables that are tried elsewhere: options, families, and rotors, which stand in scenes without points and bodies
-# (tests/cli/mistakes_test.py, mode_names_test.py).
-APART = {"[trace]", "[events]", "[modes]", "[matrix_family]", "[sampled_family]", "[[shaft]]", "[[disc]]", "[[support]]"}
+# Tables that are tried elsewhere: options, families, rotors, which stand in scenes without points and bodies
+# (tests/cli/mistakes_test.py, mode_names_test.py), and rotors of several blades (hammond_ground_resonance_test.py).
+APART = {"[trace]", "[events]", "[modes]", "[matrix_family]", "[sampled_family]", "[[shaft]]", "[[disc]]", "[[support]]", "[rotor]"}
 
 # What a table needs beside it.
 WING = """
