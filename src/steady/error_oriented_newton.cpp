@@ -6,6 +6,9 @@
 namespace eigentrail {
 namespace {
 
+/// Changes of the damping in one iteration after which a step that leads closer is taken as it is.
+constexpr int most_changes = 8;
+
 /// The corrections and their sizes.
 class Corrections {
  public:
@@ -53,7 +56,7 @@ NonlinearResult solve_error_oriented(const NonlinearProblem& problem, Eigen::Ind
       const double foreseen = length_before * corrections.size(before) / curvature * damping;
       damping = std::isfinite(foreseen) ? std::clamp(foreseen, options.least_damping, 1.0) : 1.0;
     }
-    for (bool shortened = false;;) {
+    for (int changes = 0;; ++changes) {
       if (damping < options.least_damping) {
         result.message = "no step along the correction leads closer to a solution";
         return result;
@@ -64,11 +67,10 @@ NonlinearResult solve_error_oriented(const NonlinearProblem& problem, Eigen::Ind
       const double foreseen = finite ? 0.5 * length * damping * damping / bend : 0.0;
       if (!(next <= (1.0 - 0.25 * damping) * length)) {
         damping = std::min(foreseen, 0.5 * damping);
-        shortened = true;
         continue;
       }
       const double longer = std::min(1.0, foreseen);
-      if (shortened || longer < 4.0 * damping) break;
+      if (changes >= most_changes || longer < 4.0 * damping) break;
       damping = longer;
     }
     u += damping * du;
