@@ -230,17 +230,23 @@ std::optional<Stability> verdict(const AxisStretch& stretch) {
   return result;
 }
 
+/// Largest number of stretches between two events that were found. More sign changes than that between them
+/// are noise; looking for each takes a walk along the dense output.
+constexpr std::size_t most_between_events = 32;
+
 /// Appends the stretch between two cuts. Where the samples show that a cut is missing, the stretch is split
-/// there and both parts are treated likewise.
+/// there and both parts are treated likewise, while there are fewer than `most` stretches. This number and
+/// the depth limit the search where noise makes signs alternate.
 void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut& to, const Judging& judging,
-                   int depth, std::vector<AxisStretch>& stretches) {
-  constexpr int deepest = 12;  // limits the recursion where noise makes signs alternate
+                   int depth, std::size_t most, std::vector<AxisStretch>& stretches) {
+  constexpr int deepest = 12;
   AxisStretch stretch{from, to};
   add_samples(path, judging, stretch);
   if (stretch.samples.empty()) return;  // the sign change lies at a cut that exists already
-  if (const auto cut = depth < deepest ? missing_cut(path, stretch, judging) : std::nullopt) {
-    add_stretches(path, from, *cut, judging, depth + 1, stretches);
-    add_stretches(path, *cut, to, judging, depth + 1, stretches);
+  const bool may_split = depth < deepest && stretches.size() < most;
+  if (const auto cut = may_split ? missing_cut(path, stretch, judging) : std::nullopt) {
+    add_stretches(path, from, *cut, judging, depth + 1, most, stretches);
+    add_stretches(path, *cut, to, judging, depth + 1, most, stretches);
     return;
   }
   const auto told = verdict(stretch);
@@ -317,7 +323,7 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   const Judging judging = judging_of(path, accuracy);
   std::vector<AxisStretch> stretches;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches);
+    add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches.size() + most_between_events, stretches);
   settle_unseen(stretches);
   return stretches;
 }
