@@ -47,7 +47,8 @@ class StripReader {
 
   std::vector<Strip> read(const std::optional<ExpressionVector>& rotation) {
     read_line();
-    const std::vector<Strip> strips = make_strips(read_air(rotation));
+    const bool turns = !draft_.stands(triple_);
+    const std::vector<Strip> strips = make_strips(read_air(turns ? rotation : std::nullopt));
     table_.finish();
     return strips;
   }
@@ -61,6 +62,7 @@ class StripReader {
     const auto beam = std::find_if(draft_.beams.begin(), draft_.beams.end(),
                                    [&](const BeamDraft& b) { return b.name == on; });
     if (beam != draft_.beams.end()) {
+      triple_ = draft_.bodies[beam->first_body].triple;
       points_ = points_of_beam(draft_, *beam, read_count(points_on_element), extent_);
       return;
     }
@@ -71,6 +73,7 @@ class StripReader {
                                    [&](const BodyDraft& b) { return b.name == on; });
     if (body == draft_.bodies.end())
       table_.fail("on", "no beam, blade or body is called '" + on + "'; " + suggestion(on, names));
+    triple_ = body->triple;
     const BodyLine line = read_body_line(static_cast<int>(body - draft_.bodies.begin()));
     points_ = points_of_body(draft_, line, read_count(points_on_body), extent_);
   }
@@ -217,6 +220,7 @@ class StripReader {
   Draft& draft_;
   TableReader& table_;
   const std::vector<InflowDraft>& inflows_;
+  int triple_ = 0;  ///< the first one of what the strips are on
   std::vector<SpanPoint> points_;
   std::array<double, 2> extent_ = {0.0, 1.0};
 };

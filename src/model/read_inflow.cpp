@@ -81,6 +81,11 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
   const auto& without = draft.request.without;
   if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return result;
   const std::vector<const Table*> all = tables(draft.scene, std::string(Inflow::name));
+  if (draft.rotor && !all.empty())
+    throw scene_error(
+        draft.scene, all[0]->where,
+        "[[inflow]]: not together with [rotor]; leave it out, or describe all blades in one turning "
+        "frame, without [rotor], on a support that is the same in all directions");
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[inflow]] " + std::to_string(i + 1));
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));

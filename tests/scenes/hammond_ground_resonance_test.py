@@ -109,6 +109,40 @@ class HammondGroundResonance(RotorTest):
             for s in whirls:
                 self.assertLess(np.min(abs(candidates - s)), CLOSE * abs(s))
 
+    def test_on_an_isotropic_support_blades_in_air_are_those_in_one_turning_frame(self):
+        """Drag gives the blades a steady lag angle, and damps."""
+        air = '''
+[[strips]]
+on = "{}"
+root = [0.5, 0, 0]
+tip = [6, 0, 0]
+chord = 0.4
+drag = 0.02
+incidence = 0.1
+'''
+        fixed = self.changed(hub_mass_x=8026.6, hub_mass_y=8026.6, damper_x=51079.0, damper_y=51079.0, gear=1.2405e6,
+                             lag_damper=1000.0) + air.format("blade")
+        turning = (SCENES / "ground_resonance.toml").read_text(encoding="utf-8")
+        turning += "".join(air.format(f"blade {k}") for k in (1, 2, 3, 4))
+        places = [150.0, 310.0]
+        here = self.spectra(self.trace_text(fixed, output="fixed.h5"), places)
+        there = self.spectra(self.trace_text(turning, output="turning.h5"), places)
+        for rpm, whirls, seen in zip(places, here, there):
+            turn = 1j * rpm * RPM
+            candidates = np.concatenate([seen, seen + turn, seen - turn, seen.conj() + turn])
+            self.assertEqual(len(whirls), 6)
+            for s in whirls:
+                self.assertLess(np.min(abs(candidates - s)), CLOSE * abs(s))
+
+    def test_strips_of_the_support_do_not_turn(self):
+        """A wing on the hub that stands, along the wind: as strips, and as blade elements, which know the support."""
+        wing = "root = [0, -1, 0]\ntip = [0, 1, 0]\nleading = [0, 0, 1]\nlift = [1, 0, 0]\nchord = 0.5\n"
+        spectra = []
+        for kind, on, wind in (("strips", "on", "wind"), ("blade_element", "body", "inflow")):
+            text = self.scene_text() + f'\n[[{kind}]]\n{on} = "hub"\n{wing}{wind} = [0, 0, -20]\n'
+            spectra.append(self.spectra(self.trace_text(text, output=f"{kind}.h5"), [250.0])[0])
+        self.assert_same_spectrum(*spectra, CLOSE)
+
     @staticmethod
     def without(s, spectrum):
         return spectrum[abs(spectrum - s) > 1e-6 * abs(s)]
@@ -201,6 +235,10 @@ chord = 0.4
 inflow = [10, 0, 0]
 """)
         self.assertIn("along the axis of the [rotor]", message)
+
+    def test_inflow(self):
+        message = self.refusal(self.scene_text() + '\n[[inflow]]\nname = "disc"\nradius = 6\n')
+        self.assertIn("[[inflow]]: not together with [rotor]", message)
 
     def test_another_axis(self):
         message = self.refusal(self.scene_text().replace('angular_velocity = [0, 0, "omega"]',

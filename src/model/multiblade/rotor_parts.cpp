@@ -19,8 +19,9 @@ class Touched {
   bool support = false;  ///< the support other than the hub
   bool frame = false;    ///< a place that is fixed in the frame
 
+  /// A place without value is one that the element can do without.
   void place(std::string_view, const Place& place, std::string_view = {}) {
-    frame = frame || !place.moves();
+    frame = frame || (!place.moves() && place.fixed[0].slot >= 0);
     moving(place);
   }
   void point(std::string_view, const Place& point, std::string_view) { moving(point); }
