@@ -34,9 +34,7 @@ struct Evaluated {
 /// Each value p in `at`, each passage of the path there, and each mode that exists.
 std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double>& at) {
   std::vector<Evaluated> values;
-  const auto accuracy = accuracy_of(loci);
-  const std::vector<Permanence> permanence =
-      accuracy ? permanence_of_modes(loci, *accuracy) : std::vector<Permanence>(loci.modes.size());
+  const std::vector<Permanence> permanence = permanence_of_modes(loci);
   for (const double p : at) {
     const std::vector<ComplexVector> passages = loci.eigenvalues_at(p);
     const auto positions = loci.positions(p);

@@ -70,7 +70,7 @@ std::vector<std::string> free_shafts_in_words(const ModelDescription& descriptio
 Matrix free_motions(const IndependentParts& parts) {
   std::vector<Eigen::Index> free;
   for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.size == 1 && parts.pattern_K(range.first, range.first) == 0.0) free.push_back(range.first);
+    if (parts.is_free(range)) free.push_back(range.first);
   }
   return parts.right(Eigen::all, free);
 }

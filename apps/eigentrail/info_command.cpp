@@ -100,9 +100,7 @@ void print_for_people(const LociFile& loci) {
               rounded(std::stod(attribute(loci, "reference")), 4).c_str(), order_of_series(loci).c_str());
   std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
                                               "certified", "worst residual", "worst condition"}};
-  const auto accuracy = accuracy_of(loci);
-  const std::vector<Permanence> permanence =
-      accuracy ? permanence_of_modes(loci, *accuracy) : std::vector<Permanence>(loci.modes.size());
+  const std::vector<Permanence> permanence = permanence_of_modes(loci);
   const auto end_value = [&](Eigen::Index node, std::size_t mode) {
     if (permanence[mode] == Permanence::zero) return std::string("0");
     const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
@@ -118,7 +116,7 @@ void print_for_people(const LociFile& loci) {
   }
   print_table(rows);
   print_uncertified(loci);
-  if (accuracy) print_permanent(loci, *accuracy, loci.mode_names);
+  print_permanent(permanence, loci.mode_names);
   if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
   if (!loci.events.empty())
     std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());

@@ -36,16 +36,14 @@ std::optional<double> number_in(const LociFile& loci, const std::string& name) {
 
 }  // namespace
 
-std::optional<EigenvalueAccuracy> accuracy_of(const LociFile& loci) {
+std::vector<Permanence> permanence_of_modes(const LociFile& loci) {
   const auto tolerance = number_in(loci, "tolerance");
   const auto reference = number_in(loci, "reference");
-  if (!tolerance || !reference) return std::nullopt;
-  return EigenvalueAccuracy{*tolerance, *reference};
+  if (!tolerance || !reference) return std::vector<Permanence>(loci.modes.size(), Permanence::none);
+  return eigentrail::permanence_of_modes(loci, {*tolerance, *reference});
 }
 
-void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accuracy,
-                     const std::vector<std::string>& names) {
-  const std::vector<Permanence> all = permanence_of_modes(path, accuracy);
+void print_permanent(const std::vector<Permanence>& all, const std::vector<std::string>& names) {
   const auto list = [&](Permanence wanted, bool with_names) {
     std::string text;
     for (std::size_t mode = 0; mode < all.size(); ++mode) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +11,13 @@
 
 namespace eigentrail::app {
 
-/// Tolerance and reference of the trace in a loci file; empty where the file does not tell.
-std::optional<EigenvalueAccuracy> accuracy_of(const LociFile& loci);
+/// The permanence of every mode of a loci file; none is permanent where the file does not tell tolerance and
+/// reference of its trace.
+std::vector<Permanence> permanence_of_modes(const LociFile& loci);
 
 /// Prints which modes do not move with the parameter, and what moves in those that are zero throughout, which
 /// the stable ranges leave out. Nothing if all modes move. `names`: what moves, per mode; may be empty.
-void print_permanent(const RecordedPath& path, const EigenvalueAccuracy& accuracy,
-                     const std::vector<std::string>& names);
+void print_permanent(const std::vector<Permanence>& all, const std::vector<std::string>& names);
 
 /// Prints the ranges, one line each, under a heading. `whose`: the modes to which they refer, if not to all,
 /// for example "4 of 10 modes followed".

@@ -73,14 +73,13 @@ std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, doub
           rounded(-100.0 * s.real() / std::abs(s) + 0.0, 4) + " %"};
 }
 
-void print_modes(const TraceSummary& trace, const FrequencyUnit& unit) {
+void print_modes(const TraceSummary& trace, const std::vector<Permanence>& permanence,
+                 const FrequencyUnit& unit) {
   const Matrix::Index last = trace.path.eigenvalues.rows() - 1;
   std::vector<std::vector<std::string>> rows{
       {"mode", unit.name + " at " + exact_text(trace.setup.options.from), "damping",
        unit.name + " at " + exact_text(trace.result.reached), "damping", "what moves"}};
   // A mode that was found on the step at which the trace was stopped has no column yet.
-  const std::vector<Permanence> permanence =
-      permanence_of_modes(trace.path, {trace.setup.options.tolerance, trace.result.s_ref});
   const int columns = std::min(trace.result.n_columns, static_cast<int>(trace.path.eigenvalues.cols()));
   for (int mode = 0; mode < columns; ++mode) {
     // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
@@ -127,9 +126,7 @@ bool is_onset(EventKind kind) {
 
 /// "forward", "backward", "mixed" or "" for the mode of an event.
 std::string whirl_at(const TraceSetup& setup, const Event& event) {
-  Vector values = setup.scene.parameters.declared_values();
-  values[setup.traced()] = event.p;
-  return whirl_in_words(whirl_of(*setup.model, values, event.shape));
+  return whirl_in_words(whirl_of(*setup.model, setup.parameters_at(event.p), event.shape));
 }
 
 /// "1x, forward" for a resonance with the first harmonic; its mode, frequency and damping.
@@ -225,10 +222,12 @@ void print_summary(const TraceSummary& trace, bool verbose) {
   const FrequencyUnit unit =
       frequency_unit(trace.setup.model->description().parameters.at(options.parameter));
   print_heading(trace);
-  print_modes(trace, unit);
+  const std::vector<Permanence> permanence =
+      permanence_of_modes(trace.path, {options.tolerance, trace.result.s_ref});
+  print_modes(trace, permanence, unit);
   if (trace.errors != nullptr) print_data_errors(*trace.errors, trace.path, trace.result.s_ref);
   print_special_points(trace, unit);
-  print_permanent(trace.path, {options.tolerance, trace.result.s_ref}, trace.mode_names);
+  print_permanent(permanence, trace.mode_names);
   print_ranges(trace.ranges, options.parameter, followed_modes(trace.result));
   std::printf("  work  %d points, %s s; %s\n", trace.result.nodes, rounded(trace.result.seconds, 3).c_str(),
               identity_text(trace).c_str());

@@ -114,4 +114,8 @@ ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x) {
   return zgemv('C', A, x);
 }
 
+Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C) {
+  return A.cwiseAbs().transpose() * B.cwiseAbs() * C.cwiseAbs();
+}
+
 }  // namespace eigentrail

@@ -12,6 +12,9 @@ Matrix product(const Matrix& A, const Matrix& B);
 /// A^T B.
 Matrix transposed_product(const Matrix& A, const Matrix& B);
 
+/// |A|^T |B| |C|: for every entry of A^T B C the sum of the magnitudes of its terms.
+Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C);
+
 /// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h).
 MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
 MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);

@@ -35,6 +35,10 @@ Quantity Draft::quantity(const Expression& expression) {
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }
 
+bool Draft::is_left_out(std::string_view effect) const {
+  return std::find(request.without.begin(), request.without.end(), effect) != request.without.end();
+}
+
 Quantity Draft::strength(const std::string& effect) {
   if (!request.strengths) return {};
   const auto known = strengths.find(effect);

@@ -79,6 +79,8 @@ struct Draft {
   TableReader reader(const Table& table, const std::string& label);
 
   Quantity quantity(const Expression& expression);
+  /// Whether an effect is switched off (--without).
+  bool is_left_out(std::string_view effect) const;
   /// The quantity that multiplies the forces of an effect; without slot if strengths are not requested.
   Quantity strength(const std::string& effect);
   /// The parameters of the scene and those of the strengths.
@@ -143,6 +145,16 @@ struct Draft {
   std::vector<std::string> place_names() const;
   Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
 };
+
+/// Refuses the name of a table that one of the others has.
+template <class Named>
+void check_is_new(const TableReader& table, std::string_view kind, const std::string& name,
+                  const std::vector<Named>& others) {
+  for (const Named& other : others) {
+    if (other.name == name)
+      table.fail("name", "another [[" + std::string(kind) + "]] is called '" + name + "' already");
+  }
+}
 
 /// A name for the table with index i of a kind: "spring 2" for i = 1.
 std::string numbered(std::string_view name, std::size_t index);

@@ -9,11 +9,11 @@
 #include "model/coefficient_table.hpp"
 #include "model/span_line.hpp"
 #include "model/station_columns.hpp"
+#include "model/strips.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr int most_points = 64;
 /// Default numbers of Gauss points. Two on an element do not lower the order of the beam's convergence.
 constexpr int points_on_element = 2;
 constexpr int points_on_body = 4;
@@ -63,7 +63,7 @@ class StripReader {
                                    [&](const BeamDraft& b) { return b.name == on; });
     if (beam != draft_.beams.end()) {
       triple_ = draft_.bodies[beam->first_body].triple;
-      points_ = points_of_beam(draft_, *beam, read_count(points_on_element), extent_);
+      points_ = points_of_beam(draft_, *beam, read_strip_count(table_, points_on_element), extent_);
       return;
     }
     std::vector<std::string> names;
@@ -75,22 +75,18 @@ class StripReader {
       table_.fail("on", "no beam, blade or body is called '" + on + "'; " + suggestion(on, names));
     triple_ = body->triple;
     const BodyLine line = read_body_line(static_cast<int>(body - draft_.bodies.begin()));
-    points_ = points_of_body(draft_, line, read_count(points_on_body), extent_);
+    points_ = points_of_body(draft_, line, read_strip_count(table_, points_on_body), extent_);
   }
 
   BodyLine read_body_line(int body) {
-    BodyLine line{body, draft_.read_vector(table_, "root", "m", Range::any),
-                  draft_.read_vector(table_, "tip", "m", Range::any),
-                  draft_.read_vector(table_, "leading", any_unit, Range::positive, unit_vector(1)),
-                  draft_.read_vector(table_, "lift", any_unit, Range::positive, unit_vector(2))};
+    BodyLine line{
+        body,
+        draft_.read_vector(table_, "root", "m", Range::any),
+        draft_.read_vector(table_, "tip", "m", Range::any),
+        normalized(draft_.read_vector(table_, "leading", any_unit, Range::positive, unit_vector(1))),
+        {}};
     draft_.check_range(table_, "tip", line.tip - line.root, Range::positive);
-    line.y = normalized(line.y);
-    const ExpressionVector across = line.z - dot(line.z, line.y) * line.y;
-    for (std::size_t i = 0; i < draft_.request.check_at.size(); ++i) {
-      if (draft_.vector_at(across, i).norm() <= 1e-9 * draft_.vector_at(line.z, i).norm())
-        table_.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
-    }
-    line.z = normalized(across);
+    line.z = read_lift(draft_, table_, line.y, unit_vector(2));
     return line;
   }
 
@@ -106,14 +102,6 @@ class StripReader {
     if (ends.size() != 2) table_.fail("extent", expected + "; found " + std::to_string(ends.size()));
     for (std::size_t i = 0; i < 2; ++i) extent_[i] = constant("extent", ends[i], expected);
     if (!(extent_[0] >= 0.0 && extent_[1] > extent_[0] && extent_[1] <= 1.0)) table_.fail("extent", expected);
-  }
-
-  int read_count(int otherwise) {
-    const Expression count = table_.expression_or("strips", otherwise);
-    const double n = count.is_constant() ? count.evaluate(std::span<const double>()) : 0.0;
-    if (!(n >= 1.0) || n > most_points || n != std::floor(n))
-      table_.fail("strips", "expected a whole number from 1 to " + std::to_string(most_points));
-    return static_cast<int>(n);
   }
 
   /// What all strips have in common.
@@ -160,8 +148,7 @@ class StripReader {
       common.disc = inflow.disc;
       return;
     }
-    const auto& without = draft_.request.without;
-    if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return;
+    if (draft_.is_left_out(Inflow::name)) return;
     table_.fail("inflow", "no [[inflow]] is called '" + name + "'; " + suggestion(name, names));
   }
 
@@ -267,10 +254,7 @@ std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<Expr
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[strips]] " + std::to_string(i + 1));
     StripTable strips{table.has("name") ? printable(table.text("name")) : numbered(Strip::name, i), {}};
-    for (const StripTable& other : result) {
-      if (other.name == strips.name)
-        table.fail("name", "another [[strips]] is called '" + strips.name + "' already");
-    }
+    check_is_new(table, Strip::name, strips.name, result);
     strips.strips = StripReader(draft, table, inflows).read(rotation);
     result.push_back(std::move(strips));
   }

@@ -78,8 +78,7 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
 
 std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<ExpressionVector>& rotation) {
   std::vector<InflowDraft> result;
-  const auto& without = draft.request.without;
-  if (std::find(without.begin(), without.end(), Inflow::name) != without.end()) return result;
+  if (draft.is_left_out(Inflow::name)) return result;
   const std::vector<const Table*> all = tables(draft.scene, std::string(Inflow::name));
   if (draft.rotor && !all.empty())
     throw scene_error(
@@ -89,10 +88,7 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[inflow]] " + std::to_string(i + 1));
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
-    for (const InflowDraft& other : result) {
-      if (other.name == inflow.name)
-        table.fail("name", "another [[inflow]] is called '" + inflow.name + "' already");
-    }
+    check_is_new(table, Inflow::name, inflow.name, result);
     result.push_back(std::move(inflow));
     draft.inflow_names.push_back(result.back().name);
   }

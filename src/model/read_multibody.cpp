@@ -138,8 +138,7 @@ void add_states(Draft& draft, Placed<Element>& placed) {
 /// Adds an element unless its effect is switched off.
 template <class Element>
 void add_element(Draft& draft, Element element, std::string label) {
-  const auto& without = draft.request.without;
-  if (std::find(without.begin(), without.end(), Element::name) != without.end()) return;
+  if (draft.is_left_out(Element::name)) return;
   Placed<Element> placed{
       std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
   ArgumentCollector collector(placed.arguments);

@@ -16,7 +16,7 @@ constexpr int usual_strips = 4;  ///< default: exact for loads of degree up to 7
 struct Blade {
   int body = 0;
   ExpressionVector root, tip, leading, lift;  ///< in body axes
-  int strips = usual_strips;
+  int strips = 0;
 };
 
 Blade read_blade(Draft& draft, TableReader& table) {
@@ -26,20 +26,8 @@ Blade read_blade(Draft& draft, TableReader& table) {
   blade.tip = draft.read_vector(table, "tip", "m", Range::any);
   draft.check_range(table, "tip", blade.tip - blade.root, Range::positive);
   blade.leading = normalized(draft.read_vector(table, "leading", any_unit, Range::positive));
-  const ExpressionVector lift = draft.read_vector(table, "lift", any_unit, Range::positive);
-  const ExpressionVector across = lift - dot(lift, blade.leading) * blade.leading;
-  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
-    if (draft.vector_at(across, i).norm() <= 1e-9 * draft.vector_at(lift, i).norm())
-      table.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
-  }
-  blade.lift = normalized(across);
-  if (table.has("strips")) {
-    const Expression strips = table.expression("strips");
-    const double n = strips.is_constant() ? strips.evaluate(std::span<const double>()) : 0.0;
-    if (!(n >= 1.0) || n > most_strips || n != std::floor(n))
-      table.fail("strips", "expected a whole number from 1 to " + std::to_string(most_strips));
-    blade.strips = static_cast<int>(n);
-  }
+  blade.lift = read_lift(draft, table, blade.leading);
+  blade.strips = read_strip_count(table, usual_strips);
   return blade;
 }
 
@@ -56,6 +44,26 @@ void check_axial(const Draft& draft, const TableReader& table, const ExpressionV
 }
 
 }  // namespace
+
+ExpressionVector read_lift(Draft& draft, TableReader& table, const ExpressionVector& leading,
+                           std::optional<ExpressionVector> otherwise) {
+  const ExpressionVector lift =
+      draft.read_vector(table, "lift", any_unit, Range::positive, std::move(otherwise));
+  const ExpressionVector across = lift - dot(lift, leading) * leading;
+  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+    if (draft.vector_at(across, i).norm() <= 1e-9 * draft.vector_at(lift, i).norm())
+      table.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
+  }
+  return normalized(across);
+}
+
+int read_strip_count(TableReader& table, int otherwise) {
+  const Expression count = table.expression_or("strips", otherwise);
+  const double n = count.is_constant() ? count.evaluate(std::span<const double>()) : 0.0;
+  if (!(n >= 1.0) || n > most_strips || n != std::floor(n))
+    table.fail("strips", "expected a whole number from 1 to " + std::to_string(most_strips));
+  return static_cast<int>(n);
+}
 
 std::vector<std::pair<BladeElement, std::string>> read_strips(
     Draft& draft, const std::optional<ExpressionVector>& rotation) {

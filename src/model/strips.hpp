@@ -14,6 +14,14 @@ namespace eigentrail {
 std::vector<std::pair<BladeElement, std::string>> read_strips(
     Draft& draft, const std::optional<ExpressionVector>& rotation);
 
+/// Reads the direction of lift, and returns the part across `leading`, a unit vector, of unit length. Both in
+/// the axes of a body.
+ExpressionVector read_lift(Draft& draft, TableReader& table, const ExpressionVector& leading,
+                           std::optional<ExpressionVector> otherwise = std::nullopt);
+
+/// Reads the number of strips, 1 to 64.
+int read_strip_count(TableReader& table, int otherwise);
+
 /// The keys of a [[blade_element]] table.
 std::vector<FieldHelp> strip_fields();
 

@@ -13,6 +13,10 @@ namespace {
 constexpr double least_share = 0.15;
 constexpr std::size_t most_named = 3;
 
+Vector squared_shares(const ComplexVector& shape) {
+  return shape.cwiseAbs2() / shape.squaredNorm();
+}
+
 }  // namespace
 
 Vector participation(const ComplexVector& left, const ComplexVector& slope, const ComplexVector& right,
@@ -20,7 +24,7 @@ Vector participation(const ComplexVector& left, const ComplexVector& slope, cons
   const Vector product = left.cwiseProduct(slope).cwiseAbs();
   const double sum = product.sum();
   if (is_simple && sum > 0.0 && std::isfinite(sum)) return product / sum;
-  return right.cwiseAbs2() / right.squaredNorm();
+  return squared_shares(right);
 }
 
 std::string largest_names(const Vector& shares, const ComplexVector& shape,
@@ -33,6 +37,10 @@ std::string largest_names(const Vector& shares, const ComplexVector& shape,
         (named++ > 0 ? ", " : "") + one.name + " " + std::to_string(std::lround(100.0 * one.share)) + " %";
   }
   return text;
+}
+
+std::string largest_names(const ComplexVector& shape, const std::vector<std::string>& names) {
+  return largest_names(squared_shares(shape), shape, names);
 }
 
 std::string name_by_participation(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,

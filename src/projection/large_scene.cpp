@@ -47,7 +47,8 @@ class LargeScene final : public LargeModel {
       for (stride = std::min(1.0, bend > 0.0 ? std::pow(bend, -1.0 / order) : 1.0);; stride *= 0.5) {
         if (stride < shortest_stride) return std::nullopt;
         const Vector there = stride == 1.0 ? parameters : Vector(ahead.col(0) + stride * ahead.col(1));
-        Equilibrium next = solve(there, at(path.x, stride), at(path.lambda, stride), few_iterations, false);
+        Equilibrium next = solve(there, evaluate_series(path.x, stride), evaluate_series(path.lambda, stride),
+                                 few_iterations, false);
         if (next.status != SteadyStatus::converged) continue;
         at_ = std::move(next);
         way = stride == 1.0 ? 0.0 : way * (1.0 - stride);
@@ -116,13 +117,6 @@ class LargeScene final : public LargeModel {
   }
 
  private:
-  /// The value of a series.
-  static Vector at(const VectorSeries& series, double h) {
-    Vector value = series.col(series.cols() - 1);
-    for (Eigen::Index k = series.cols() - 1; k-- > 0;) value = value * h + series.col(k);
-    return value;
-  }
-
   Equilibrium solve(const Vector& parameters, const Vector& x, const Vector& lambda, int most_iterations,
                     bool relax) {
     SteadyOptions options;

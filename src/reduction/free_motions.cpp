@@ -13,7 +13,7 @@ std::vector<Eigen::Index> free_motions(const IndependentParts& parts) {
   std::vector<Eigen::Index> result;
   for (const IndependentParts::Range& range : parts.ranges) {
     const Eigen::Index i = range.first;
-    if (range.size == 1 && parts.pattern_K(i, i) == 0.0 && parts.pattern_C(i, i) == 0.0) result.push_back(i);
+    if (parts.is_free(range) && parts.pattern_C(i, i) == 0.0) result.push_back(i);
   }
   return result;
 }

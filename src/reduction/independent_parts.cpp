@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/products.hpp"
 #include "reduction/balance.hpp"
 #include "reduction/free_motions.hpp"
 #include "reduction/splitting.hpp"
@@ -121,7 +122,7 @@ std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix&
   std::vector<Matrix> result;
   for (const Matrix& A : matrices) {
     result.emplace_back(T.transpose() * A * T);
-    const double terms = (T.cwiseAbs().transpose() * A.cwiseAbs() * T.cwiseAbs()).norm();
+    const double terms = magnitudes_of_terms(T, A, T).norm();
     if (result.back().norm() <= nothing * terms) {
       result.back().setZero();
       continue;

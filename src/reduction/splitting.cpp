@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/products.hpp"
 #include "core/singular_vectors.hpp"
 
 namespace eigentrail {
@@ -425,7 +426,7 @@ double magnified_by(const Splitting& splitting, double magnified) {
 
 Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified) {
   constexpr double rounding = 1e-13;
-  return magnified * rounding * (left.cwiseAbs().transpose() * A.cwiseAbs() * right.cwiseAbs());
+  return magnified * rounding * magnitudes_of_terms(left, A, right);
 }
 
 }  // namespace eigentrail

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eigentrail/core/types.hpp"
+#include "modes/double_zero.hpp"
 
 namespace eigentrail {
 
@@ -14,11 +15,9 @@ constexpr double vanishing_damping = 1e-9;
 /// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
 constexpr double infinite_size = 1e9;
 
-/// Magnitude up to which an eigenvalue of a block counts as zero, 1/s. A defective double zero (a rigid-body
-/// motion) is known only to the square root of rounding, 1.5e-8, relative to the largest eigenvalue of the
-/// system; this is twice that. `s`: all eigenvalues, 1/s; those that are not finite do not count.
+/// Magnitude up to which an eigenvalue of a block counts as zero, 1/s: it may be a double one. `s`: all
+/// eigenvalues, 1/s; those that are not finite do not count.
 inline double zero_of_blocks(const ComplexVector& s, double reference) {
-  constexpr double double_zero = 3e-8;
   double largest = 0.0;
   for (const Complex value : s) {
     if (std::isfinite(value.real())) largest = std::max(largest, std::abs(value));

@@ -71,6 +71,8 @@ class SteadyProblem {
     return noted(model_.linearize(path_, 0, linearization, counts_));
   }
 
+  Eigen::Index n_constraints() const { return model_.n_constraints(); }
+
   /// The last fault that has a reason of its own: why an iteration could not go on.
   const EvaluationFault& reason() const { return reason_; }
 
@@ -235,6 +237,16 @@ Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   return result;
 }
 
+/// Factors the constraints at at.x and sets the multipliers there to those of least squares (Eq. 15).
+EvaluationFault settle_multipliers(SteadyProblem& problem, Equilibrium& at) {
+  SteadyResidual residual;
+  at.lambda = Vector::Zero(problem.n_constraints());
+  if (auto fault = problem.evaluate(at, residual)) return fault;
+  at.kkt = KktFactorization(at.linearization.A[0]);
+  at.lambda = at.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(0));
+  return {};
+}
+
 Equilibrium solve_from(const Model& model, const Vector& parameters, const Vector& x, const Vector& lambda,
                        const SteadyOptions& options, EvaluationCounts& counts) {
   Equilibrium result;
@@ -243,10 +255,7 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   SteadyProblem problem(model, parameters, counts, result.report);
   SteadyResidual residual;
   if (lambda.size() != model.n_constraints()) {
-    result.lambda = Vector::Zero(model.n_constraints());
-    if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
-    const ConstraintFactorization constraints(result.linearization.A[0]);
-    result.lambda = constraints.transposed_pseudo_inverse_times(-residual.force.col(0));
+    if (const auto fault = settle_multipliers(problem, result)) return not_finite(std::move(result), fault);
   }
   if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
   const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual);
@@ -313,12 +322,8 @@ Equilibrium equilibrium_at_rest(const Model& model, const Vector& parameters, co
                                 EvaluationCounts& counts) {
   Equilibrium result;
   result.x = x;
-  result.lambda = Vector::Zero(model.n_constraints());
   SteadyProblem problem(model, parameters, counts, result.report);
-  SteadyResidual residual;
-  if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
-  result.kkt = KktFactorization(result.linearization.A[0]);
-  result.lambda = result.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(0));
+  if (const auto fault = settle_multipliers(problem, result)) return not_finite(std::move(result), fault);
   if (const auto fault = problem.linearize(result.x, result.lambda, result.linearization))
     return not_finite(std::move(result), fault);
   result.status = SteadyStatus::converged;

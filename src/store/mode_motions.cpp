@@ -22,7 +22,7 @@ constexpr double zero_share = 1e-9;
 
 const Projection* named_by_freedoms(const Model& model) {
   const Projection* projection = model.projection();
-  const bool lifts = projection != nullptr && projection->basis.size() > 0;
+  const bool lifts = projection != nullptr && projection->is_of_family();
   return lifts && model.description().shafts.empty() && has_own_names(projection->names) ? projection
                                                                                          : nullptr;
 }
@@ -95,9 +95,7 @@ void ModeMotions::name_by_freedoms(const Projection& projection, const TracePoin
   for (const ModeState& mode : point.modes) {
     const auto number = static_cast<std::size_t>(mode.mode);
     if (by_participation_.contains(number) || !mode.shape.allFinite() || mode.shape.size() == 0) continue;
-    const ComplexVector shape = projection.basis * mode.shape;
-    by_participation_[number] =
-        largest_names(shape.cwiseAbs2() / shape.squaredNorm(), shape, projection.names);
+    by_participation_[number] = largest_names(projection.basis * mode.shape, projection.names);
   }
 }
 
@@ -129,7 +127,7 @@ void ModeMotions::give_names(const std::vector<GivenName>& names, const TracePoi
     n_modes = std::max(n_modes, static_cast<std::size_t>(mode.mode) + 1);
   const std::vector<std::string> own = own_names(n_modes);
   const Projection* projection = model_->projection();
-  const bool lifts = projection != nullptr && projection->basis.size() > 0;
+  const bool lifts = projection != nullptr && projection->is_of_family();
   std::vector<NamedMode> modes;
   for (const ModeState& mode : first.modes) {
     modes.push_back({mode.s, lifts ? ComplexVector(projection->basis * mode.shape) : mode.shape,

@@ -9,7 +9,7 @@ bool is_projection_dataset(const std::string& name) {
 }
 
 void write_projection(Hdf5File& file, const Projection& projection) {
-  if (projection.basis.size() > 0) {
+  if (projection.is_of_family()) {
     write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
     using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const RowMajorReal basis = projection.basis;

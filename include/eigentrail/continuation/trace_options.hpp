@@ -125,6 +125,12 @@ struct TraceSetup {
 
   /// Index of the traced parameter.
   int traced() const { return scene.parameters.index(options.parameter).value(); }
+  /// All parameters of the model with the traced one at p, in declared units.
+  Vector parameters_at(double p) const {
+    Vector values = model->description().parameters.declared_values();
+    values[traced()] = p;
+    return values;
+  }
 };
 
 /// Reads the options and builds the model of a scene. Throws InputError for faults of the options or the

@@ -37,6 +37,8 @@ struct Projection {
   double error_at = 0.0;
   double target = 0.0;                  ///< what was asked for
   std::vector<std::string> notes = {};  ///< for the user
+
+  bool is_of_family() const { return basis.size() > 0; }
 };
 
 }  // namespace eigentrail

@@ -22,6 +22,9 @@ Vector participation(const ComplexVector& left, const ComplexVector& slope, cons
 std::string largest_names(const Vector& shares, const ComplexVector& shape,
                           const std::vector<std::string>& names);
 
+/// The same with the shares |z_i|^2 of a shape.
+std::string largest_names(const ComplexVector& shape, const std::vector<std::string>& names);
+
 /// The same for an eigenvalue s with its right vector; the left one costs an LU of size n. `s_ref`: magnitude
 /// that counts as zero.
 std::string name_by_participation(const Matrix& M, const Matrix& C, const Matrix& K, Complex s,

@@ -37,6 +37,8 @@ struct IndependentParts {
   bool is_diagonal = false;  ///< `right` and `left` only scale coordinates and equations
 
   std::size_t count() const { return ranges.size(); }
+  /// Whether a part is a single freedom that no force holds: a rigid-body motion, an integrator.
+  bool is_free(const Range& part) const { return part.size == 1 && pattern_K(part.first, part.first) == 0.0; }
   /// Columns of `right` that belong to a part, n x size.
   auto columns(std::size_t part) const { return right.middleCols(ranges[part].first, ranges[part].size); }
   /// Rows of `inverse` that belong to a part, size x n.

@@ -12,6 +12,7 @@
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "modes/double_zero.hpp"
 
 namespace eigentrail {
 namespace {
@@ -38,10 +39,9 @@ bool stands_for_a_mode(const Track& track, const Strand& strand) {
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
 }
 
-/// Magnitude up to which an eigenvalue of a block at a point is rounding, 1/s: a double zero is known to the
-/// root of rounding, relative to the largest eigenvalue. Zero in the reciprocal chart.
+/// Magnitude up to which an eigenvalue of a block at a point is rounding, 1/s: it may be a double zero. Zero
+/// in the reciprocal chart.
 double zero_level(const Track& block, const PathNode& node) {
-  constexpr double double_zero = 3e-8;
   if (block.pair.chart == Chart::reciprocal) return 0.0;
   double largest = 0.0;
   for (const Track& track : node.tracks) {
@@ -238,13 +238,13 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
     if (track.size() < 2) continue;
     StrandSampler sampler(left, right, i, length);
     const std::vector<Strand> strands = strands_of(track, i, sampler);
+    const double zero = zero_level(track, left);
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const double first =
             have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into,
-                          zero_level(track, left));
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero);
         std::vector<double> found;
         for (const Complex t : roots.find()) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
@@ -486,10 +486,11 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       if (stands_for_a_mode(track, strand)) strands.push_back(std::move(strand));
     }
     if (track.size() == 2) continue;
+    const double zero = zero_level(track, left);
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          widest / std::abs(length), zero_level(track, left));
+                          widest / std::abs(length), zero);
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }

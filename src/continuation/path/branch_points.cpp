@@ -6,6 +6,7 @@
 
 #include "core/matrix_series.hpp"
 #include "core/positive_or_one.hpp"
+#include "core/products.hpp"
 
 namespace eigentrail {
 namespace {
@@ -74,7 +75,7 @@ Stiffness held_stiffness(const Matrix& K, const TangentBasis& basis, const Syste
   for (Eigen::Index i = 0; i < K.rows(); ++i) {
     if (!parts.pattern_K.row(i).isZero(0.0) || !parts.pattern_K.col(i).isZero(0.0)) held.push_back(i);
   }
-  const Matrix terms = parts.left.cwiseAbs().transpose() * whole.dense().cwiseAbs() * parts.right.cwiseAbs();
+  const Matrix terms = magnitudes_of_terms(parts.left, whole.dense(), parts.right);
   return {K(held, held), held.empty() ? 0.0 : terms(held, held).colwise().sum().maxCoeff()};
 }
 

@@ -56,13 +56,6 @@ class ModeAtPoint {
   double condition_ = 0.0, backward_error_ = 0.0;
 };
 
-/// All parameters with the traced one at p, in declared units.
-Vector parameters_of(const TraceSetup& setup, double p) {
-  Vector parameters = setup.model->description().parameters.declared_values();
-  parameters[setup.traced()] = p;
-  return parameters;
-}
-
 /// Names the modes by their kinetic energy, where the masses are known.
 void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector<OperatingMode>& modes) {
   const ModelDescription& description = setup.model->description();
@@ -72,7 +65,7 @@ void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector
   if (shares.motions().empty() || modes.empty()) return;
   ComplexMatrix shapes(x.size(), static_cast<Eigen::Index>(modes.size()));
   for (std::size_t i = 0; i < modes.size(); ++i) shapes.col(static_cast<Eigen::Index>(i)) = modes[i].shape;
-  const double speed = blade_rotor_speed(description, parameters_of(setup, point.p));
+  const double speed = blade_rotor_speed(description, setup.parameters_at(point.p));
   std::vector<double> turns;
   for (const OperatingMode& mode : modes) turns.push_back(mode.s.imag() / speed);
   const std::vector<std::string> names = shares.names(shares.of(M, x, shapes), turns);
@@ -83,7 +76,7 @@ void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector
 void name_by_shafts(const TraceSetup& setup, double p, std::vector<OperatingMode>& modes) {
   const std::vector<SpinningShaft>& shafts = setup.model->description().shafts;
   if (shafts.empty()) return;
-  const Vector parameters = parameters_of(setup, p);
+  const Vector parameters = setup.parameters_at(p);
   std::vector<RotorMode> described;
   for (const OperatingMode& mode : modes)
     described.push_back(rotor_mode(*setup.model, parameters, mode.s, mode.shape));
@@ -93,9 +86,7 @@ void name_by_shafts(const TraceSetup& setup, double p, std::vector<OperatingMode
 
 /// The freedoms of the large model that move most, if they have names.
 std::string name_by_freedoms(const Projection& projection, const ComplexVector& reduced) {
-  if (!has_own_names(projection.names)) return {};
-  const ComplexVector shape = projection.basis * reduced;
-  return largest_names(shape.cwiseAbs2() / shape.squaredNorm(), shape, projection.names);
+  return has_own_names(projection.names) ? largest_names(projection.basis * reduced, projection.names) : "";
 }
 
 /// `point` is computed in the coordinates in which the equations fall apart, if they do: zeros of rigid-body
@@ -126,7 +117,7 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();
     const Projection* projection = setup.model->projection();
-    if (projection != nullptr && projection->basis.size() > 0) {
+    if (projection != nullptr && projection->is_of_family()) {
       mode.what_moves = name_by_freedoms(*projection, shape);
     } else if (unconstrained) {
       mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "eigentrail/continuation/path_point.hpp"
 
@@ -26,15 +27,18 @@ void add(const SystemSeries& B, bool is_constant, std::vector<Matrix>& samples) 
   if (samples.empty() || !is_constant) samples.push_back(B[0].dense());
 }
 
-/// The equilibrium at p if positions and constraints there are those of `start`; empty if they are not.
-std::optional<Path> resting_path(const PathProblem& problem, double p, const Path& start,
-                                 EvaluationCounts& counts) {
-  const Structure& structure = problem.structure;
-  if (structure.fixed_equilibrium && structure.constant_constraints)
-    return Path{parameters_at(problem, p), start.x, start.lambda};
-  const auto rest = find_rest(problem.model, parameters_at(problem, p), start.x.col(0), counts);
-  if (!rest) return std::nullopt;
-  return Path{parameters_at(problem, p), start.x, rest->lambda};
+/// The linearization at p if x is an equilibrium there; empty if it is not. `lambda`: the multipliers, where
+/// these do not change either.
+std::optional<Linearization> linearize_at_rest(const PathProblem& problem, double p, const Vector& x,
+                                               const Vector& lambda, EvaluationCounts& counts) {
+  const Vector parameters = parameters_at(problem, p);
+  if (!problem.structure.fixed_equilibrium || !problem.structure.constant_constraints) {
+    auto rest = find_rest(problem.model, parameters, x, counts);
+    return rest ? std::optional(std::move(rest->linearization)) : std::nullopt;
+  }
+  Linearization there;
+  if (problem.model.linearize({parameters, x, lambda}, 0, there, counts)) return std::nullopt;
+  return there;
 }
 
 bool leaves_its_path(const TraceOptions& options) {
@@ -53,19 +57,17 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   if (model.n_coordinates() - model.n_constraints() > most_freedoms) return {};
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
-  Linearization there;
-  std::optional<Matrix> A;
+  Matrix A;
   for (int i = 0; i < n_places; ++i) {
-    const auto at = resting_path(problem, place(options, i), {{}, x, lambda}, counts);
-    if (!at || model.linearize(*at, 0, there, counts)) return {};
-    if (there.A[0].is_sparse()) return {};
-    if (!A) A = there.A[0].dense();
-    if (there.A[0].dense() != *A) return {};
-    add(there.M, structure.constant_mass, samples.M);
-    add(there.C, structure.constant_damping, samples.C);
-    add(there.K, structure.constant_stiffness, samples.K);
+    const auto there = linearize_at_rest(problem, place(options, i), x, lambda, counts);
+    if (!there || there->A[0].is_sparse()) return {};
+    if (i == 0) A = there->A[0].dense();
+    if (there->A[0].dense() != A) return {};
+    add(there->M, structure.constant_mass, samples.M);
+    add(there->C, structure.constant_damping, samples.C);
+    add(there->K, structure.constant_stiffness, samples.K);
   }
-  const ConstraintFactorization constraints(there.A[0]);
+  const ConstraintFactorization constraints{SystemMatrix(A)};
   const Eigen::Index freedoms = model.n_coordinates() - constraints.rank();
   if (freedoms < 2 || freedoms > most_freedoms) return {true, nullptr};
   return {true, find_independent_parts(samples, constraints.null_basis())};

@@ -190,9 +190,7 @@ void Start::mark_permanent_zeros(Spectrum& spectrum) const {
   if (!problem_.parts || point_.pencil.parts.empty()) return;
   for (StartingMode& mode : spectrum.modes) {
     const IndependentParts::Range& range = problem_.parts->ranges[static_cast<std::size_t>(mode.part)];
-    const bool has_no_stiffness =
-        range.size == 1 && problem_.parts->pattern_K(range.first, range.first) == 0.0;
-    mode.is_permanent_zero = has_no_stiffness && mode.s == 0.0;
+    mode.is_permanent_zero = problem_.parts->is_free(range) && mode.s == 0.0;
   }
 }
 

@@ -115,9 +115,7 @@ Expression rotor_speed(const Draft& draft, const std::optional<ExpressionVector>
     throw scene_error(draft.scene, tables(draft.scene, "frame")[0]->find("angular_velocity")->where,
                       "[frame] angular_velocity: a [rotor] turns about the z axis; expected [0, 0, speed]");
   }
-  const auto& without = draft.request.without;
-  const bool at_rest = std::find(without.begin(), without.end(), "frame") != without.end();
-  return at_rest ? Expression(0.0) : (*rotation)[2];
+  return draft.is_left_out("frame") ? Expression(0.0) : (*rotation)[2];
 }
 
 std::vector<FieldHelp> bladed_rotor_fields() {
