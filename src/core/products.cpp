@@ -1,5 +1,7 @@
 #include "core/products.hpp"
 
+#include <algorithm>
+
 // BLAS by its Fortran interface: not every BLAS has the C interface.
 extern "C" {
 void dgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
@@ -72,12 +74,23 @@ ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   return result;
 }
 
-MatrixSeries series_product(char form, const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
-  MatrixSeries sum(count, Matrix::Zero(form == 'N' ? A[0].rows() : A[0].cols(), B[0].cols()));
+/// Calls add(A_i, B_j, sum_{i+j}) for all coefficients of a product of series up to h^(count - 1).
+template <class Left, class Right, class Add>
+MatrixSeries series_product(const std::vector<Left>& A, const std::vector<Right>& B, Eigen::Index rows,
+                            std::size_t count, Add add) {
+  MatrixSeries sum(count, Matrix::Zero(rows, B[0].cols()));
   for (std::size_t i = 0; i < A.size(); ++i) {
-    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) sum[i + j] += dgemm(form, A[i], B[j]);
+    for (std::size_t j = 0; j < B.size() && i + j < count; ++j) add(A[i], B[j], sum[i + j]);
   }
   return sum;
+}
+
+/// Products with a sparse matrix are faster than those of BLAS where at most one in so many entries is not
+/// zero. It affects only the time.
+constexpr Eigen::Index few_entries = 12;
+
+Eigen::Index nonzeros(const Matrix& A) {
+  return (A.array() != 0.0).count();
 }
 
 }  // namespace
@@ -90,12 +103,44 @@ Matrix transposed_product(const Matrix& A, const Matrix& B) {
   return dgemm('T', A, B);
 }
 
+std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {
+  for (const Matrix& coefficient : A) {
+    if (few_entries * nonzeros(coefficient) > coefficient.size()) return std::nullopt;
+  }
+  SparseSeries sparse;
+  for (const Matrix& coefficient : A) sparse.emplace_back(coefficient.sparseView());
+  return sparse;
+}
+
 MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
-  return series_product('N', A, B, count);
+  if (const auto sparse = mostly_zero(B)) {
+    return series_product(A, *sparse, A[0].rows(), count,
+                          [](const Matrix& a, const SparseMatrix& b, Matrix& sum) { sum += a * b; });
+  }
+  return series_product(A, B, A[0].rows(), count,
+                        [](const Matrix& a, const Matrix& b, Matrix& sum) { sum += dgemm('N', a, b); });
 }
 
 MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
-  return series_product('T', A, B, count);
+  if (const auto sparse = mostly_zero(A)) {
+    return series_product(
+        *sparse, B, A[0].cols(), count,
+        [](const SparseMatrix& a, const Matrix& b, Matrix& sum) { sum += a.transpose() * b; });
+  }
+  return series_product(A, B, A[0].cols(), count,
+                        [](const Matrix& a, const Matrix& b, Matrix& sum) { sum += dgemm('T', a, b); });
+}
+
+MatrixSeries congruence(const SparseSeries& T, const SparseSeries& B, std::size_t count) {
+  const std::size_t products = std::min(count, B.size() + T.size() - 1);
+  SparseSeries BT(products, SparseMatrix(B[0].rows(), T[0].cols()));
+  for (std::size_t i = 0; i < B.size(); ++i) {
+    for (std::size_t j = 0; j < T.size() && i + j < products; ++j) BT[i + j] += B[i] * T[j];
+  }
+  return series_product(T, BT, T[0].cols(), std::min(count, BT.size() + T.size() - 1),
+                        [](const SparseMatrix& t, const SparseMatrix& bt, Matrix& sum) {
+                          sum += SparseMatrix(t.transpose() * bt);
+                        });
 }
 
 ComplexMatrix product(const Matrix& A, const ComplexMatrix& X) {

@@ -2,7 +2,10 @@
 // compiler builds Eigen's for the oldest x86-64 processors. Empty factors are allowed.
 #pragma once
 
-#include "eigentrail/core/types.hpp"
+#include <optional>
+#include <vector>
+
+#include "eigentrail/core/system_matrix.hpp"
 
 namespace eigentrail {
 
@@ -15,7 +18,18 @@ Matrix transposed_product(const Matrix& A, const Matrix& B);
 /// |A|^T |B| |C|: for every entry of A^T B C the sum of the magnitudes of its terms.
 Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C);
 
-/// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h).
+/// Power series with sparse coefficients.
+using SparseSeries = std::vector<SparseMatrix>;
+
+/// The series with sparse coefficients if most entries of each are exactly zero, as in a tangent basis of
+/// bodies whose constraints fall into blocks; else empty.
+std::optional<SparseSeries> mostly_zero(const MatrixSeries& A);
+
+/// The first coefficients, at most `count`, of T(h)^T B(h) T(h).
+MatrixSeries congruence(const SparseSeries& T, const SparseSeries& B, std::size_t count);
+
+/// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h). Zeros of the factor that is given second
+/// and first, respectively, are left out where they are most of its entries.
 MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
 MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count);
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "core/diagonal_blocks.hpp"
 #include "eigentrail/core/constraint_factorization.hpp"
 
 namespace eigentrail {
@@ -23,7 +24,17 @@ std::shared_ptr<const SparseConstraints> SparseConstraints::factor(const SparseM
 }
 
 const Matrix& SparseConstraints::null_basis() const {
-  std::call_once(asked_, [&] { null_basis_ = ConstraintFactorization(Matrix(S_)).null_basis(); });
+  std::call_once(asked_, [&] {
+    const Matrix S(S_);
+    null_basis_ = Matrix::Zero(S.cols(), S.cols() - S.rows());
+    Eigen::Index first = 0;
+    for (const DiagonalBlock& block : diagonal_blocks(S_)) {
+      const Matrix rows = S(block.rows, block.columns);
+      const Matrix basis = ConstraintFactorization(rows).null_basis();
+      null_basis_.middleCols(first, basis.cols())(block.columns, Eigen::all) = basis;
+      first += basis.cols();
+    }
+  });
   return null_basis_;
 }
 

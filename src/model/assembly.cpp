@@ -37,6 +37,19 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
   }
 }
 
+template <class Real, int Q>
+bool is_constant(const Series<Real, Q>& value) {
+  for (int k = 1; k <= Q; ++k) {
+    if (value[k] != Real(0.0)) return false;
+  }
+  return true;
+}
+
+template <class Real, int Q>
+bool is_zero(const Series<Real, Q>& value) {
+  return value[0] == Real(0.0) && is_constant(value);
+}
+
 /// The moving vectors, states and strength of an element. The functions below do not depend on the type of
 /// the element, so the compiler instantiates them once per order and not once per order and type.
 struct Joined {
@@ -92,6 +105,7 @@ void add_column(const Joined& joined, int component, const ElementView<Series<Se
   using Base = Series<Real, Q>;
   for (int i = 0; i < joined.components(); ++i) {
     const Base value = values.times(joined.strength, -view.component(i)[1]);
+    if (is_zero(value)) continue;
     for_each_coordinate(joined, i, values, value, [&](int row, const Base& weighted) {
       for_each_coordinate(joined, component, values, weighted, [&](int column, const Base& entry) {
         add_entry<Real, Q>(matrix, row, column, entry, finite);
@@ -253,6 +267,7 @@ Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& pa
   values_.values.reserve(data.quantities.size());
   for (const Expression& quantity : data.quantities) {
     values_.values.push_back(quantity.evaluate(std::span<const Base>(parameters)));
+    values_.constant.push_back(is_constant(values_.values.back()));
   }
 }
 

@@ -149,6 +149,7 @@ struct PathValues {
   std::vector<Base> states;         ///< states of elements; their coordinates follow the triples
   std::vector<Base> lambda;         ///< multipliers
   std::vector<Base> values;         ///< quantities, by slot
+  std::vector<bool> constant;       ///< whether they do not change along the path, by slot
 
   Vec3<Base> vector(const std::array<Quantity, 3>& v) const {
     return {values[v[0].slot], values[v[1].slot], values[v[2].slot]};
@@ -161,10 +162,16 @@ struct PathValues {
     return sum;
   }
 
-  /// weight * value; a weight without slot is one.
+  /// weight * value; a weight without slot is one. Most weights are constant, and a product with a number is
+  /// cheaper than one of series.
   template <class Value>
   Value times(const Quantity& weight, const Value& value) const {
-    return weight.slot < 0 ? value : Value(values[weight.slot] * value);
+    if (weight.slot < 0) return value;
+    const auto slot = static_cast<std::size_t>(weight.slot);
+    if constexpr (std::is_same_v<typename Base::Coefficient, double>) {
+      if (constant[slot]) return values[slot][0] * value;
+    }
+    return values[slot] * value;
   }
 };
 

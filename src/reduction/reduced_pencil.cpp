@@ -1,6 +1,7 @@
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/products.hpp"
 
@@ -18,6 +19,19 @@ void add_product(Matrix& sum, const Matrix& B, const Matrix& X) {
 }
 void add_product(Matrix& sum, const SystemMatrix& B, const Matrix& X) {
   B.add_product_to(sum, X);
+}
+
+/// The product by sparse matrices, if both factors have such coefficients.
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries&, const MatrixSeries&, int) {
+  return std::nullopt;
+}
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& T, const SystemSeries& B, int order) {
+  if (!B[0].is_sparse()) return std::nullopt;
+  const auto sparse_T = mostly_zero(T);
+  if (!sparse_T) return std::nullopt;
+  SparseSeries sparse_B;
+  for (const SystemMatrix& coefficient : B) sparse_B.push_back(coefficient.sparse());
+  return congruence(*sparse_T, sparse_B, static_cast<std::size_t>(order) + 1);
 }
 
 bool is_sparse(const MatrixSeries&) {
@@ -43,6 +57,7 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   if (basis.is_identity) {
     return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(last_order(order, B.size(), 1)) + 1};
   }
+  if (auto sparse = sparse_congruence(T, B, order)) return *sparse;
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "core/diagonal_blocks.hpp"
 #include "core/products.hpp"
 
 namespace eigentrail {
@@ -15,13 +16,17 @@ constexpr double least_rcond = 0.03;
 
 /// The orthonormal basis close to `previous`: P L^-T with P = (I - A+ A) previous and P^T P = L L^T. It
 /// equals the basis of tangent_basis below (there W = Q2^T previous, and Q2 W = P) but does not need Q2.
-/// Empty if the tangent space has turned too far.
+/// Empty if the tangent space has turned too far. Blocks of P are orthonormalized apart.
 std::optional<Matrix> turned_basis(const ConstraintFactorization& constraints, const Matrix& previous) {
-  const Matrix P = constraints.allowed_part(previous);
-  const Eigen::LLT<Matrix> cholesky(transposed_product(P, P));
-  if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > least_rcond)) return std::nullopt;
-  const Matrix upper = cholesky.matrixU().solve(Matrix::Identity(P.cols(), P.cols()));
-  return product(P, upper);
+  Matrix basis = constraints.allowed_part(previous);
+  for (const DiagonalBlock& block : diagonal_blocks(MatrixSeries{basis})) {
+    const Matrix P = basis(block.rows, block.columns);
+    const Eigen::LLT<Matrix> cholesky(transposed_product(P, P));
+    if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > least_rcond)) return std::nullopt;
+    const Matrix upper = cholesky.matrixU().solve(Matrix::Identity(P.cols(), P.cols()));
+    basis(block.rows, block.columns) = product(P, upper);
+  }
+  return basis;
 }
 
 }  // namespace

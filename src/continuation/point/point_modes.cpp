@@ -2,6 +2,7 @@
 
 #include "core/matrix_series.hpp"
 #include "core/parallel.hpp"
+#include "core/products.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "eigentrail/modes/symmetric_pairs.hpp"
@@ -142,6 +143,12 @@ namespace {
 std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
                                                       const std::vector<ComplexMatrix>& Z) {
   std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(T[0].rows(), Z[0].cols()));
+  if (const auto sparse = mostly_zero(T)) {
+    for (std::size_t i = 0; i < T.size(); ++i) {
+      for (std::size_t j = 0; i + j < V.size(); ++j) V[i + j] += (*sparse)[i] * Z[j];
+    }
+    return V;
+  }
   for (std::size_t i = 0; i < T.size(); ++i) {
     for (std::size_t j = 0; i + j < V.size(); ++j) V[i + j] += multiply(T[i], Z[j]);
   }

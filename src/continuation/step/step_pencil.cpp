@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/diagonal_blocks.hpp"
 #include "core/matrix_series.hpp"
 #include "core/products.hpp"
 #include "eigentrail/continuation/certificate.hpp"
@@ -11,11 +12,26 @@ namespace {
 /// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
 constexpr std::size_t most_samples = 64;
 
-/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS.
-MatrixSeries congruence(const MatrixSeries& G, const MatrixSeries& B, int order) {
+/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS or leave zeros out.
+MatrixSeries transformed(const MatrixSeries& G, const MatrixSeries& B, int order) {
   const auto count = static_cast<std::size_t>(order) + 1;
   const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
   return transposed_product(G, BG, std::min(count, BG.size() + G.size() - 1));
+}
+
+/// The inverse of a series of matrices, block by block where they are square.
+MatrixSeries inverse_by_blocks(const MatrixSeries& A) {
+  const std::vector<DiagonalBlock> blocks = diagonal_blocks(A);
+  const auto is_square = [](const DiagonalBlock& b) { return b.rows.size() == b.columns.size(); };
+  if (!std::all_of(blocks.begin(), blocks.end(), is_square)) return inverse_series(A);
+  MatrixSeries inverse(A.size(), Matrix::Zero(A[0].rows(), A[0].cols()));
+  for (const DiagonalBlock& block : blocks) {
+    MatrixSeries part;
+    for (const Matrix& coefficient : A) part.emplace_back(coefficient(block.rows, block.columns));
+    part = inverse_series(part);
+    for (std::size_t k = 0; k < A.size(); ++k) inverse[k](block.columns, block.rows) = part[k];
+  }
+  return inverse;
 }
 
 }  // namespace
@@ -37,17 +53,22 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
   if (left.basis.is_identity || left.basis.parts) return;  // both have the same basis
   // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
   // coordinates of the left point.
+  const bool large = right.linearization.K[0].is_sparse();
   MatrixSeries overlap;
-  for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
+  if (large)
+    overlap = transposed_product(MatrixSeries{left.basis.T[0]}, right.basis.T, right.basis.T.size());
+  else
+    for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
   if (overlap.size() > 1)
     overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
-  const TangentBasis change{inverse_series(overlap), false};
   const int order = static_cast<int>(count_) - 1;
-  if (right.linearization.K[0].is_sparse()) {  // a large model
-    right_ = {congruence(change.T, right.pencil.M, order), congruence(change.T, right.pencil.C, order),
-              congruence(change.T, right.pencil.K, order)};
+  if (large) {
+    const MatrixSeries G = inverse_by_blocks(overlap);
+    right_ = {transformed(G, right.pencil.M, order), transformed(G, right.pencil.C, order),
+              transformed(G, right.pencil.K, order)};
     return;
   }
+  const TangentBasis change{inverse_series(overlap), false};
   right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
             project(change, right.pencil.K, order)};
 }
