@@ -18,6 +18,10 @@ SingularVectors<Values> decompose(Values A, bool with_left, Gesvd&& gesvd) {
   SingularVectors<Values> result{Vector::Zero(count), {}, Values::Identity(n, n)};
   if (with_left) result.U = Values::Identity(m, m);
   if (count == 0) return result;
+  // zgemv of OpenBLAS 0.3.21 for AVX2 and AVX-512 reads up to a column past the end of a matrix, and crashes
+  // where no memory follows.
+  A.conservativeResize(Eigen::NoChange, n + 1);
+  A.col(n).setZero();
   Vector unconverged(count);
   const lapack_int info =
       gesvd(LAPACK_COL_MAJOR, with_left ? 'A' : 'N', 'A', m, n, A.data(), m, result.values.data(),
