@@ -235,14 +235,19 @@ void for_each_table(Draft& draft, std::string_view kind, const std::vector<Strip
   }
 }
 
-/// Two numbers; those of Jones by default.
-std::array<Quantity, 2> read_pair(Draft& draft, TableReader& table, const std::string& key, Range range,
-                                  const std::array<double, 2>& otherwise) {
+/// Shares or rates of the exponentials, pair by pair: each pair is an element of its own.
+std::vector<std::array<Quantity, 2>> read_pairs(Draft& draft, TableReader& table, const std::string& key,
+                                                Range range, const std::array<double, 2>& otherwise) {
   std::vector<Expression> values = {otherwise[0], otherwise[1]};
   if (table.has(key)) values = table.list(key, "");
-  if (values.size() != 2) table.fail(key, "expected two numbers, found " + std::to_string(values.size()));
-  for (const Expression& value : values) draft.check_range(table, key, value, range);
-  return {draft.quantity(values[0]), draft.quantity(values[1])};
+  if (values.size() != 2 && values.size() != 4)
+    table.fail(key, "expected two or four numbers, found " + std::to_string(values.size()));
+  std::vector<std::array<Quantity, 2>> pairs;
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    for (const std::size_t k : {i, i + 1}) draft.check_range(table, key, values[k], range);
+    pairs.push_back({draft.quantity(values[i]), draft.quantity(values[i + 1])});
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -264,12 +269,17 @@ std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<Expr
 std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const std::vector<StripTable>& all) {
   std::vector<std::pair<LiftLag, std::string>> result;
   for_each_table(draft, LiftLag::name, all, [&](TableReader& table, const StripTable& strips) {
-    LiftLag lag;
-    lag.shares = read_pair(draft, table, "A", Range::any, {0.165, 0.335});
-    lag.rates = read_pair(draft, table, "b", Range::positive, {0.0455, 0.3});
+    const auto shares = read_pairs(draft, table, "A", Range::any, {0.165, 0.335});
+    const auto rates = read_pairs(draft, table, "b", Range::positive, {0.0455, 0.3});
+    if (shares.size() != rates.size()) table.fail("b", "expected as many numbers as A has");
+    // Lifts of pairs add up because lift is proportional to the downwash.
+    if (shares.size() > 1 && strips.strips.front().polar)
+      table.fail("A", "strips with a polar take two exponentials");
     for (std::size_t i = 0; i < strips.strips.size(); ++i) {
-      static_cast<AirSection&>(lag) = strips.strips[i];
-      result.emplace_back(lag, strips.label(i));
+      for (std::size_t pair = 0; pair < shares.size(); ++pair) {
+        result.emplace_back(LiftLag{strips.strips[i], shares[pair], rates[pair]},
+                            strips.label(i) + (pair == 0 ? "" : ", more"));
+      }
     }
   });
   return result;
@@ -315,8 +325,8 @@ std::vector<FieldHelp> strips_fields() {
 
 std::vector<FieldHelp> lift_lag_fields() {
   return {{"strips", "name of strips", "the strips whose lift lags", "all"},
-          {"A", "two numbers", "shares of the exponentials in Wagner's function", "[0.165, 0.335]"},
-          {"b", "two numbers", "their rates, per half chord of way", "[0.0455, 0.3]"}};
+          {"A", "two or four numbers", "shares of the exponentials in Wagner's function", "[0.165, 0.335]"},
+          {"b", "as many numbers", "their rates, per half chord of way", "[0.0455, 0.3]"}};
 }
 
 std::vector<FieldHelp> apparent_mass_fields() {

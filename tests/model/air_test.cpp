@@ -134,6 +134,20 @@ TEST(LiftLag, HasNoForceInSteadyFlow) {
   EXPECT_EQ(lag.setting.model->description().coordinate_names[12], "air, strip 1.slow");
 }
 
+/// Four exponentials of which two pairs are alike are two with the sums of their shares: the forces of pairs
+/// add up.
+TEST(LiftLag, OfFourExponentialsIsThatOfTwoPairs) {
+  System two(with_wing(strips("[[lift_lag]]\nA = [0.2, 0.3]\nb = [0.05, 0.4]\n")));
+  System four(with_wing(strips("[[lift_lag]]\nA = [0.15, 0.1, 0.05, 0.2]\nb = [0.05, 0.4, 0.05, 0.4]\n")));
+  ASSERT_EQ(four.x.size(), 12 + 16);
+  EXPECT_EQ(four.setting.model->description().coordinate_names[14], "air, strip 1, more.slow");
+  two.x[12] += 0.4;  // out of balance by what the two states of the same rate share
+  four.x[12] += 0.1;
+  four.x[14] += 0.3;
+  const Vector f = two.force().head(12);
+  EXPECT_LT((four.force().head(12) - f).norm(), 1e-13 * f.norm());
+}
+
 /// A free beam with strips, turned with the wind.
 Vector force_of_turned(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d wind = R * Eigen::Vector3d(0.5, -9.0, 1.0);
@@ -218,7 +232,9 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedAir{"lag_twice", strips() + "[[lift_lag]]\n[[lift_lag]]\nstrips = \"air\"\n",
                    "'air' has a [[lift_lag]] already"},
         RefusedAir{"three_exponentials", strips() + "[[lift_lag]]\nA = [0.1, 0.2, 0.3]\n",
-                   "A: expected two numbers, found 3"},
+                   "A: expected two or four numbers, found 3"},
+        RefusedAir{"shares_without_rates", strips() + "[[lift_lag]]\nA = [0.1, 0.2, 0.1, 0.1]\n",
+                   "b: expected as many numbers as A has"},
         RefusedAir{"a_rate_of_zero", strips() + "[[lift_lag]]\nb = [0.1, 0]\n", "b: must be positive"},
         RefusedAir{"mass_of_others", strips() + "[[apparent_mass]]\nstrips = \"water\"\n",
                    "no [[strips]] is called 'water'"}),

@@ -3,6 +3,7 @@ function, Theodorsen's apparent mass), flutter against Theodorsen's function its
 
 import unittest
 
+import h5py
 import numpy as np
 from scipy.optimize import fsolve, least_squares
 from scipy.special import hankel2
@@ -70,6 +71,21 @@ def theodorsen(sb):
     return hankel2(1, k) / (hankel2(1, k) + 1j * hankel2(0, k))
 
 
+def fitted(start, k):
+    """Shares and rates of exponentials whose function is closest to Theodorsen's at reduced frequencies."""
+    n = len(start) // 2
+    exact = theodorsen(1j * k)
+    def misses(x):
+        gap = (1 - (x[:n, None] * 1j * k / (1j * k + x[n:, None])).sum(axis=0) - exact) / abs(exact)
+        return np.concatenate([gap.real, gap.imag])
+    x = least_squares(misses, start, xtol=1e-15, ftol=1e-15).x
+    return x[:n], x[n:]
+
+
+def with_exponentials(text, shares, rates):
+    return edited(text, "[[lift_lag]]", f"[[lift_lag]]\nA = {list(map(float, shares))}\nb = {list(map(float, rates))}")
+
+
 class TypicalSection(RotorTest):
     scene = "typical_section"
 
@@ -114,15 +130,37 @@ class TypicalSection(RotorTest):
         """Two exponentials fitted to Theodorsen's function near the reduced frequency of flutter: three digits."""
         section = self.section()
         exact_V, exact_w = section.flutter(theodorsen, [68.0, 31.0])
-        k = exact_w * section.b / exact_V * np.array([0.8, 0.9, 1.0, 1.1, 1.2])
-        def misses(x):
-            gaps = [1 - sum(x[:2] * 1j * q / (1j * q + x[2:])) - theodorsen(1j * q) for q in k]
-            return np.concatenate([np.real(gaps), np.imag(gaps)])
-        x = least_squares(misses, [*A, *RATES], xtol=1e-15, ftol=1e-15).x
-        text = edited(self.scene_text(), "[[lift_lag]]", f"[[lift_lag]]\nA = [{x[0]!r}, {x[1]!r}]\nb = [{x[2]!r}, {x[3]!r}]")
-        (event,) = self.special_points(self.trace_text(text), "flutter")
+        shares, rates = fitted([*A, *RATES], exact_w * section.b / exact_V * np.array([0.8, 0.9, 1.0, 1.1, 1.2]))
+        (event,) = self.special_points(self.trace_text(with_exponentials(self.scene_text(), shares, rates)), "flutter")
         self.assertLess(abs(event[0] - exact_V), 5e-4 * exact_V)
         self.assertLess(abs(event[1].imag - exact_w), 5e-4 * exact_w)
+
+    def boundary(self, shares, rates):
+        """Curve of flutter over the ratio of frequencies w_h/w_a, and its speeds and frequencies by Theodorsen's function."""
+        text = self.changed(a=-0.4, mu=4.0)
+        self.write("section.toml", with_exponentials(text, shares, rates))
+        out = self.folder / "boundary.h5"
+        self.run_well("boundary", "section.toml", "--second", "w_h", "--from", "2", "--to", "80", "--first-from", "5", "--first-to",
+                      "50", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
+        with h5py.File(out) as file:
+            self.assertEqual(list(file["curve_kind"][:]), [b"flutter"])
+            V, w_h, w = file["V"][:], file["w_h"][:], file["eigenvalue"][:].imag
+        exact = np.array([self.section(a=-0.4, mu=4.0, w_h=at).flutter(theodorsen, guess) for at, *guess in zip(w_h, V, w)])
+        self.assertLess(np.min(w_h), 2.001)
+        self.assertGreater(np.max(w_h), 79.999)
+        return np.column_stack([V, w]), exact
+
+    def test_whole_boundary_over_the_ratio_of_frequencies(self):
+        """The flutter boundary of a section with a = -0.4, x_a = 0.2, r_a = 0.5 and mu = 4: by Jones' function within 2.6 %, by
+        four exponentials that are fitted to Theodorsen's function for reduced frequencies of 0.3 to 4.2, within 1e-4."""
+        found, exact = self.boundary(A, RATES)
+        errors = np.max(abs(found / exact - 1), axis=0)
+        self.assertGreater(errors[0], 0.025)
+        self.assertLess(errors[0], 0.026)
+        self.assertLess(errors[1], 0.01)
+        shares, rates = fitted([0.1, 0.2, 0.15, 0.05, 0.04, 0.12, 0.35, 1.0], np.geomspace(0.3, 4.2, 60))
+        found, exact = self.boundary(shares, rates)
+        self.assertLess(np.max(abs(found / exact - 1)), 1e-4)
 
     def test_without_lag_and_apparent_mass(self):
         """What is left is quasi-steady: C = 1, and no air is moved."""

@@ -11,7 +11,7 @@
 //
 // so harmonic motion of reduced frequency k = omega b / V has Theodorsen's function
 // C(k) = 1 - sum A_i i k / (i k + b_i), within 2.4 % of the exact one. This element adds the lift of
-// sum (x_i - A_i w); that of w is the one of Strip.
+// sum (x_i - A_i w); that of w is the one of Strip. Two such elements on a strip have four exponentials.
 #pragma once
 
 #include "model/elements/air_section.hpp"
