@@ -191,7 +191,8 @@ def boundary_picture(program, scene, settings, folder):
     """Stability limits over a second parameter, from `eigentrail boundary`."""
     wanted = settings["boundary"]
     out = pathlib.Path(folder) / "boundary.h5"
-    options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"])]
+    options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"]),
+               *wanted.get("options", [])]
     subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet"], check=True)
     figure, axes = plt.subplots(figsize=(4.2, 3.3), layout="constrained")
     with h5py.File(out) as file:
@@ -203,7 +204,7 @@ def boundary_picture(program, scene, settings, folder):
             line = np.array([two_point_taylor(h, f[:2, 0], f[:2, 1], t) for h, f in zip(lengths, series)
                              for t in np.linspace(0, 1, 20)])
             axes.plot(line[:, 1], line[:, 0], color="#b2182b", linewidth=1.8)
-    texts = [settings.get("parameter", names[0]), wanted.get("label", names[1])]
+    texts = [wanted.get("first_label", settings.get("parameter", names[0])), wanted.get("label", names[1])]
     ylabel, xlabel = (text + (f", {unit}" if unit not in ("", "1") else "") for text, unit in zip(texts, units))
     axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(wanted["from"], wanted["to"]))
     axes.set_ylim(*wanted["range"])

@@ -26,10 +26,10 @@ def theodorsen(sb):
     return hankel2(1, k) / (hankel2(1, k) + 1j * hankel2(0, k))
 
 
-def boundary_determinant(s, V, C):
+def boundary_determinant(s, V, C, density=DENSITY):
     """Zero at eigenvalues: forces and moments at the tip, of three solutions that are clamped at the root. Along the span: the
     deflection h (down), the slope, bending moment, shear force, pitch, torque."""
-    b, a, air, c = HALF, AXIS, np.pi * DENSITY * HALF**2, C(s * HALF / V)
+    b, a, air, c = HALF, AXIS, np.pi * density * HALF**2, C(s * HALF / V)
     around = V + b * (1 / 2 - a) * s  # downwash per pitch
     lift = [air * s**2 + 2 * air * V / b * c * s, air * (V * s - b * a * s**2) + 2 * air * V / b * c * around]
     moment = [air * b * a * s**2 + 2 * air * V * (a + 1 / 2) * c * s,
@@ -42,12 +42,17 @@ def boundary_determinant(s, V, C):
     return np.linalg.det(expm(slope * LENGTH)[np.ix_([2, 3, 5], [2, 3, 5])])
 
 
-def flutter(C):
+def flutter(C, density=DENSITY, guess=(137.0, 70.0)):
     """Speed and frequency."""
     def equations(x):
-        value = boundary_determinant(1j * x[1], x[0], C)
+        value = boundary_determinant(1j * x[1], x[0], C, density)
         return [value.real, value.imag]
-    return fsolve(equations, [137.0, 70.0], xtol=1e-12)
+    return fsolve(equations, guess, xtol=1e-12)
+
+
+def standard_density(altitude):
+    """ISO 2533: hydrostatic equilibrium of an ideal gas that cools by 6.5 K/km."""
+    return DENSITY * (1 - 0.0065 * altitude / 288.15)**(9.80665 / (287.05287 * 0.0065) - 1)
 
 
 class GolandWing(RotorTest):
@@ -98,6 +103,20 @@ class GolandWing(RotorTest):
         for coarse, fine in zip(errors, errors[1:]):
             self.assertGreater(np.log2(coarse / fine), 3.5)
         self.assertLess(errors[2], 1e-6)
+
+    def test_flutter_over_altitude(self):
+        """Three elements, as exact as their convergence tells; the curve reaches both ends of the range."""
+        self.write("wing.toml", self.with_elements(3))
+        out = self.folder / "altitude.h5"
+        self.run_well("boundary", "wing.toml", "--second", "altitude", "--from", "0", "--to", "11000", "--first-from", "100",
+                      "--first-to", "250", "--lines", "1", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
+        with h5py.File(out) as file:
+            self.assertEqual(list(file["curve_kind"][:]), [b"flutter"])
+            V, altitude, w = file["V"][:], file["altitude"][:], file["eigenvalue"][:].imag
+        self.assertEqual((round(np.min(altitude)), round(np.max(altitude))), (0, 11000))
+        for found in zip(V, w, altitude):
+            exact = flutter(jones, standard_density(found[2]), found[:2])
+            np.testing.assert_array_less(abs(np.array(found[:2]) / exact - 1), 3e-4)
 
     def test_twist_of_a_wing_at_incidence_grows_towards_divergence(self):
         """alpha_0 (1/cos(lambda L) - 1) at the tip, lambda^2 = q e a c / GJ."""
