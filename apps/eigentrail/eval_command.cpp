@@ -29,6 +29,7 @@ struct Evaluated {
   bool is_zero = false;  ///< the mode is zero throughout: s is rounding
   /// Bounds of errors that come from the data of the model; NaN if it has none.
   double interpolation = NAN, digits = NAN;
+  Vector trimmed = {};  ///< values of the trimmed parameters
 };
 
 /// Each value p in `at`, each passage of the path there, and each mode that exists.
@@ -49,6 +50,7 @@ std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double
           value.interpolation = loci.data_errors->interpolation(step, i);
           value.digits = loci.data_errors->digits(step, i);
         }
+        if (passage < positions.size()) value.trimmed = loci.trimmed_at(positions[passage]);
         values.push_back(std::move(value));
       }
     }
@@ -68,6 +70,10 @@ std::vector<std::pair<std::string, double>> numbers_of(const LociFile& loci, con
   if (loci.data_errors) {
     numbers.emplace_back("interpolation_error", value.interpolation);
     numbers.emplace_back("digits_error", value.digits);
+  }
+  for (std::size_t i = 0; i < loci.trimmed.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    numbers.emplace_back(loci.trimmed[i].name, at < value.trimmed.size() ? value.trimmed[at] : NAN);
   }
   return numbers;
 }
@@ -97,6 +103,8 @@ void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values
   std::vector<std::vector<std::string>> rows{{loci.parameter, "mode", "s, 1/s", "natural, " + unit.name,
                                               "damped, " + unit.name, "damping", "decrement"}};
   if (loci.data_errors) rows[0].emplace_back("error of the data");
+  for (const TrimmedParameter& trimmed : loci.trimmed)
+    rows[0].push_back(trimmed.name + (trimmed.unit == "1" ? "" : ", " + trimmed.unit));
   for (const Evaluated& value : values) {
     const Complex s = value.is_zero ? Complex(0.0) : without_rounding(value.s, 0.0);
     const double size = std::abs(s);
@@ -107,6 +115,7 @@ void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values
                     has_damping ? rounded(-100.0 * s.real() / size + 0.0, 6) + " %" : "-",
                     std::isfinite(decrement) ? rounded(decrement + 0.0, 6) : "-"});
     if (loci.data_errors) rows.back().push_back(rounded(value.interpolation + value.digits, 2));
+    for (const double trimmed : value.trimmed) rows.back().push_back(rounded(trimmed, 10));
   }
   print_table(rows);
 }
@@ -141,7 +150,7 @@ void add_eval(CLI::App& program, int& exit_code) {
   auto* csv = command->add_flag(
       "--csv", arguments->csv,
       "print parameter,mode,real,imag, then natural and damped frequency (rad/s), damping ratio, logarithmic "
-      "decrement, and errors of the data if there are any");
+      "decrement, errors of the data if there are any, and trimmed parameters");
   command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
   command->footer("Example:\n  eigentrail eval blade.h5 --at 12.5 40 --csv");
   command->callback([arguments, &exit_code] { exit_code = run_eval(*arguments); });

@@ -79,6 +79,22 @@ void print_effects(std::FILE* to, const Model& model) {
   if (!absent.empty()) std::fprintf(to, "    absent, never evaluated: %s\n", absent.c_str());
 }
 
+/// Lists the conditions of the trim, and the values of their unknowns at the beginning.
+void print_trims(std::FILE* to, const Model& model, const PathPoint& point) {
+  if (model.n_trims() == 0) return;
+  std::fprintf(to, "trim: unknown parameters, constant in the motion, and what holds at the equilibrium\n");
+  const bool computed = point.status == PointStatus::computed;
+  std::vector<std::vector<std::string>> rows;
+  Eigen::Index row = model.n_constraints();
+  for (const Trim& trim : model.description().trims) {
+    const Parameter& parameter = model.description().parameters[static_cast<std::size_t>(trim.parameter)];
+    const double value = computed ? point.equilibrium.lambda[row++] : parameter.value;
+    rows.push_back({"  " + parameter.name, trim.condition,
+                    (computed ? "" : "guess ") + rounded(value, 8) + " " + parameter.unit});
+  }
+  print_table(rows, to);
+}
+
 /// Lists the states that elements have of their own.
 void print_states(std::FILE* to, const Model& model) {
   int count = 0;
@@ -269,6 +285,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   print_data(to, *model);
   print_effects(to, *model);
   print_states(to, *model);
+  print_trims(to, *model, point);
   print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);
   // Infinite eigenvalues are detected only at the start of a trace. Its modes are then corrected one by one,

@@ -59,6 +59,17 @@ void print_uncertified(const LociFile& loci) {
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);
 }
 
+/// Prints the trimmed parameters at both ends.
+void print_trimmed(const LociFile& loci) {
+  if (loci.trimmed.empty()) return;
+  std::vector<std::vector<std::string>> rows{{"trimmed parameter", "unit", "at the start", "at the end"}};
+  for (const TrimmedParameter& trimmed : loci.trimmed)
+    rows.push_back({printable(trimmed.about.substr(std::string("trimmed parameter ").size())),
+                    trimmed.unit == "1" ? "-" : trimmed.unit, rounded(trimmed.values.front(), 8),
+                    rounded(trimmed.values.back(), 8)});
+  print_table(rows);
+}
+
 /// To which modes the stable ranges refer, in words; empty if to all.
 std::string followed_modes(const LociFile& loci) {
   const std::string wanted = attribute(loci, "option_modes");
@@ -116,6 +127,7 @@ void print_for_people(const LociFile& loci) {
   }
   print_table(rows);
   print_uncertified(loci);
+  print_trimmed(loci);
   print_permanent(permanence, loci.mode_names);
   if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
   if (!loci.events.empty())
@@ -147,6 +159,11 @@ void print_json(const LociFile& loci) {
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
     const double share = loci.certified_share(i);
     if (std::isfinite(share)) certified[loci.modes[i]] = share;
+  }
+  for (const TrimmedParameter& trimmed : loci.trimmed) {
+    info["trimmed"][trimmed.name] = {{"unit", trimmed.unit},
+                                     {"from", trimmed.values.empty() ? NAN : trimmed.values.front()},
+                                     {"to", trimmed.values.empty() ? NAN : trimmed.values.back()}};
   }
   info["certified_share"] = certified;
   info["events"] = loci.events.size();

@@ -24,7 +24,8 @@ double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, Ex
   const SystemMatrix& A = equilibrium.linearization.A[0];
   const double length = largest(equilibrium.x);
   // The scale of forces is the reaction, or stiffness times length if the constraints carry no load.
-  const double force = std::max(largest(A.transposed_times(equilibrium.lambda)),
+  const Eigen::Index m = model.n_constraints();
+  const double force = std::max(largest(A.transposed_times(equilibrium.lambda.head(m))),
                                 equilibrium.linearization.K[0].largest_entry() * length);
   return refine_to_rounding([&]() -> double {
     BasicSteadyResidual<Extended> residual;
@@ -33,7 +34,7 @@ double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, Ex
     equilibrium.kkt.solve(-to_double(residual.force.col(0)), -to_double(residual.constraint.col(0)), dx, dl);
     path.x.col(0) += dx.cast<Extended>();
     path.lambda.col(0) += dl.cast<Extended>();
-    return std::max(relative(largest(dx), length), relative(largest(A.transposed_times(dl)), force));
+    return std::max(relative(largest(dx), length), relative(largest(A.transposed_times(dl.head(m))), force));
   });
 }
 

@@ -108,6 +108,17 @@ TraceSetup rebuild(const LociFile& loci) {
   return setup;
 }
 
+/// Multipliers and trimmed parameters, as in Path::lambda, one row per node.
+Matrix multipliers_and_trim(const LociFile& loci) {
+  const Eigen::Index m = loci.multiplier.cols();
+  Matrix rows(loci.multiplier.rows(), m + static_cast<Eigen::Index>(loci.trimmed.size()));
+  rows.leftCols(m) = loci.multiplier;
+  for (std::size_t i = 0; i < loci.trimmed.size(); ++i)
+    rows.col(m + static_cast<Eigen::Index>(i)) =
+        Vector::Map(loci.trimmed[i].values.data(), loci.multiplier.rows());
+  return rows;
+}
+
 /// Starting value for the equilibrium at p on a step where the path may turn back. Newton's method at
 /// constant p could converge to another passage of the path. Here equilibria are computed on planes
 /// perpendicular to the chord between the two points of the step, and the plane on which the equilibrium has
@@ -117,6 +128,7 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   constexpr int most_planes = 60;
   const auto node = static_cast<Eigen::Index>(step);
   const auto row = [](const Matrix& rows, Eigen::Index i) { return Vector(rows.row(i).transpose()); };
+  const Matrix unknowns = multipliers_and_trim(loci);
   const Vector begin = row(loci.equilibrium, node);
   const Vector chord = row(loci.equilibrium, node + 1) - begin;
   const double p_begin = loci.p[step];
@@ -125,13 +137,13 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   const double size = std::max(begin.squaredNorm(), 1e-300);
   const PathPlane plane{chord / size, p_chord / (range * range)};
   EvaluationCounts counts = problem.model.new_counts();
-  EquilibriumGuess guess{begin, row(loci.multiplier, node), false};
+  EquilibriumGuess guess{begin, row(unknowns, node), false};
   double low = 0.0;
   double high = 1.0;
   for (int i = 0; i < most_planes; ++i) {
     const double t = 0.5 * (low + high);
     double p_there = p_begin + t * p_chord;
-    const Vector multipliers = (1.0 - t) * row(loci.multiplier, node) + t * row(loci.multiplier, node + 1);
+    const Vector multipliers = (1.0 - t) * row(unknowns, node) + t * row(unknowns, node + 1);
     const Equilibrium there =
         solve_equilibrium_on(plane, problem.model, parameters_at(problem, p_there), problem.traced,
                              begin + t * chord, multipliers, problem.steady, p_there, counts);
@@ -154,7 +166,7 @@ EquilibriumGuess guess_at(const PathProblem& problem, const LociFile& loci,
     return Vector(((1.0 - t) * rows.row(node) + t * rows.row(node + 1)).transpose());
   };
   return follows_parameter(loci.steps[position.step])
-             ? EquilibriumGuess{between(loci.equilibrium), between(loci.multiplier), false}
+             ? EquilibriumGuess{between(loci.equilibrium), between(multipliers_and_trim(loci)), false}
              : guess_on_chord(problem, loci, position.step, p);
 }
 

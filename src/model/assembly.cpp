@@ -166,6 +166,95 @@ bool force_residual(const Placed<Element>& placed, const PathValues<Series<Real,
   return finite;
 }
 
+template <class Base>
+Vec3<Base> triple_of(const std::vector<Base>& coordinates, int triple) {
+  const auto first = 3 * static_cast<std::size_t>(triple);
+  return {coordinates[first], coordinates[first + 1], coordinates[first + 2]};
+}
+
+/// The virtual motion of a load at a point of the path.
+template <class Base>
+class MovedTriples {
+ public:
+  MovedTriples(const VirtualMotion& motion, const PathValues<Base>& values) {
+    axis_ = values.vector(motion.axis);
+    const bool turns = motion.about.has_value();
+    const Vec3<Base> centre = turns ? values.vector(*motion.about) : Vec3<Base>(Vec3<Base>::Zero());
+    const auto add = [&](int triple, const Vec3<Base>& arm) {
+      moved_.push_back({triple, arm, turns ? Vec3<Base>(axis_.cross(arm)) : axis_});
+    };
+    for (const int triple : motion.places)
+      add(triple, values.triples[static_cast<std::size_t>(triple)] - centre);
+    if (!turns) return;
+    for (const int triple : motion.directions) add(triple, values.triples[static_cast<std::size_t>(triple)]);
+  }
+
+  /// Calls visit(triple, w).
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const Moved& moved : moved_) visit(moved.triple, moved.w);
+  }
+
+  /// Adds the derivative of the work of constant forces on w: that of e by the arm, and that of the arm.
+  void add_gradient(const VirtualMotion& motion, const PathValues<Base>& values, const Vector& force,
+                    Vector& of_x) const {
+    const auto add = [&of_x, &values](const Term& term, const Eigen::Vector3d& gradient) {
+      for (int i = 0; i < 3; ++i)
+        of_x[3 * term.triple + i] += values.times(term.weight, Base(gradient[i]))[0];
+    };
+    const auto number = [](const Vec3<Base>& v) { return Eigen::Vector3d(v[0][0], v[1][0], v[2][0]); };
+    const Eigen::Vector3d axis = number(axis_);
+    for (std::size_t j = 0; j < moved_.size(); ++j) {
+      const Moved& moved = moved_[j];
+      const Eigen::Vector3d f = force.segment<3>(3 * moved.triple);
+      const Eigen::Vector3d of_axis = motion.about ? Eigen::Vector3d(number(moved.arm).cross(f)) : f;
+      for (const Term& term : motion.axis.terms) add(term, of_axis);
+      if (!motion.about) continue;
+      const Eigen::Vector3d of_arm = f.cross(axis);
+      add({moved.triple, {}}, of_arm);
+      if (j >= motion.places.size()) continue;
+      for (const Term& term : motion.about->terms) add(term, -of_arm);
+    }
+  }
+
+ private:
+  struct Moved {
+    int triple;
+    Vec3<Base> arm, w;
+  };
+  Vec3<Base> axis_;
+  std::vector<Moved> moved_;  ///< those of places come first
+};
+
+template <class Scalar>
+Scalar angle_at(const TrimAngle& angle, const ElementView<Scalar>& view) {
+  const detail::AngleAt<Scalar> theta(view, angle.angle);
+  return angle_of(theta.sine, theta.cosine);
+}
+
+template <class Base>
+Base angle_value(const TrimAngle& angle, const PathValues<Base>& values) {
+  const Quantity none;
+  const auto all = positions(Joined{angle.arguments, none, 0, 0}, values);
+  return angle_at(angle, ElementView<Base>(values, {all.data(), angle.arguments.size()}));
+}
+
+/// Adds the derivative of an angle with respect to the coordinates.
+inline void add_angle_gradient(const TrimAngle& angle, const PathValues<Series<double, 0>>& values,
+                               Vector& of_x) {
+  using Base = Series<double, 0>;
+  const Quantity none;
+  const Joined joined{angle.arguments, none, 0, 0};
+  const auto all = positions(joined, values);
+  for (int component = 0; component < joined.of_vectors(); ++component) {
+    const ElementView<Series<Base, 1>> view(values, {all.data(), angle.arguments.size()},
+                                            Seed{Motion::position, component});
+    const Base slope = angle_at(angle, view)[1];
+    for_each_coordinate(joined, component, values, slope,
+                        [&](int column, const Base& weighted) { of_x[column] += weighted[0]; });
+  }
+}
+
 /// Calls visit(term, sign) for all terms of a difference.
 template <class Visit>
 void for_each_share(const Difference& difference, Visit visit) {
@@ -263,6 +352,10 @@ Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& pa
   values_.states.assign(x.begin() + static_cast<std::ptrdiff_t>(n_vectors), x.end());
   values_.lambda = to_series<Real, Q>(path.lambda);
   std::vector<Base> parameters = to_series<Real, Q>(path.parameters);
+  for (std::size_t i = 0; i < data.trims.size(); ++i) {
+    parameters[static_cast<std::size_t>(data.trims[i].parameter)] =
+        values_.lambda[static_cast<std::size_t>(data.n_constraints) + i];
+  }
   data.parameters.to_si(std::span<Base>(parameters));
   values_.values.reserve(data.quantities.size());
   for (const Expression& quantity : data.quantities) {
@@ -272,18 +365,18 @@ Assembly<Real, Q>::Assembly(const MultibodyData& data, const BasicPath<Real>& pa
 }
 
 template <class Real, int Q>
-template <class Force, class Rows>
-EvaluationFault Assembly<Real, Q>::visit_all(std::vector<std::uint64_t>& counts, Force add_force,
-                                             Rows add_rows) const {
+template <class Equations, class Force, class Rows>
+EvaluationFault Assembly<Real, Q>::visit_all(const Equations& equations, std::vector<std::uint64_t>& counts,
+                                             Force add_force, Rows add_rows) {
   EvaluationFault fault;
   const auto note = [&fault](bool finite, const std::string& label) {
     if (!finite && !fault) fault.source = label;
   };
-  data_.elements.for_each([&](const auto& list, std::size_t kind) {
+  equations.elements.for_each([&](const auto& list, std::size_t kind) {
     for (const auto& placed : list) note(add_force(placed), placed.label);
     counts[kind] += list.size();
   });
-  for (const Constraint& constraint : data_.constraints) {
+  for (const Constraint& constraint : equations.constraints) {
     note(add_rows(constraint), constraint.label);
     ++counts[Elements::kinds + static_cast<std::size_t>(constraint.kind)];
   }
@@ -291,13 +384,29 @@ EvaluationFault Assembly<Real, Q>::visit_all(std::vector<std::uint64_t>& counts,
 }
 
 template <class Real, int Q>
+template <class Equations>
+EvaluationFault Assembly<Real, Q>::residual_of(const Equations& equations, BasicSteadyResidual<Real>& result,
+                                               std::vector<std::uint64_t>& counts) const {
+  const auto n_trims = static_cast<Eigen::Index>(data_.trims.size());
+  result.force = Columns<Real>::Zero(data_.n_coordinates, Q + 1);
+  result.constraint = Columns<Real>::Zero(data_.n_constraints + n_trims, Q + 1);
+  return visit_all(
+      equations, counts, [&](const auto& placed) { return force_residual<Real, Q>(placed, values_, result); },
+      [&](const Constraint& c) { return constraint_residual<Real, Q>(c, values_, result); });
+}
+
+template <class Real, int Q>
 EvaluationFault Assembly<Real, Q>::residual(BasicSteadyResidual<Real>& result,
                                             EvaluationCounts& counts) const {
-  result.force = Columns<Real>::Zero(data_.n_coordinates, Q + 1);
-  result.constraint = Columns<Real>::Zero(data_.n_constraints, Q + 1);
-  return visit_all(
-      counts.residual, [&](const auto& placed) { return force_residual<Real, Q>(placed, values_, result); },
-      [&](const Constraint& c) { return constraint_residual<Real, Q>(c, values_, result); });
+  EvaluationFault fault = residual_of(data_, result, counts.residual);
+  Eigen::Index row = data_.n_constraints;
+  for (const TrimCondition& trim : data_.trims) {
+    Base value;
+    if (auto of_trim = condition(trim, value, counts); of_trim && !fault) fault = of_trim;
+    for (int k = 0; k <= Q; ++k) result.constraint(row, k) = value[k];
+    ++row;
+  }
+  return fault;
 }
 
 template <class Real, int Q>
@@ -305,11 +414,78 @@ EvaluationFault Assembly<Real, Q>::linearize(BasicLinearization<Real>& result,
                                              EvaluationCounts& counts) const {
   LinearizationScatter<Real, Q> sum(data_.n_coordinates, data_.n_constraints);
   const EvaluationFault fault = visit_all(
-      counts.linearization,
+      data_, counts.linearization,
       [&](const auto& placed) { return linearize_force<Real, Q>(placed, values_, sum); },
       [&](const Constraint& c) { return linearize_constraint<Real, Q>(c, values_, sum); });
   result = sum.take();
   return fault;
+}
+
+template <class Real, int Q>
+EvaluationFault Assembly<Real, Q>::condition(const TrimCondition& trim, Base& value,
+                                             EvaluationCounts& counts) const {
+  EvaluationFault fault;
+  if (const auto* place = std::get_if<TrimPlace>(&trim.quantity)) {
+    value = values_.vector(place->place)[place->axis.index];
+  } else if (const auto* angle = std::get_if<TrimAngle>(&trim.quantity)) {
+    value = angle_value<Base>(*angle, values_);
+  } else {
+    const TrimLoad& load = std::get<TrimLoad>(trim.quantity);
+    BasicSteadyResidual<Real> work;
+    fault = residual_of(load, work, counts.residual);
+    const std::vector<Base> force = to_series<Real, Q>(work.force);
+    const MovedTriples<Base> moved(load.motion, values_);
+    value = Base(0.0);
+    moved.for_each([&](int triple, const Vec3<Base>& w) { value -= w.dot(triple_of(force, triple)); });
+    value *= Real(load.motion.sign);
+  }
+  value -= values_.values[static_cast<std::size_t>(trim.target.slot)];
+  using std::isfinite;
+  for (int k = 0; k <= Q; ++k) {
+    if (!isfinite(value[k]) && !fault) fault.source = "the trim condition " + trim.text;
+  }
+  return fault;
+}
+
+template <class Real, int Q>
+EvaluationFault Assembly<Real, Q>::trim_rows(TrimDerivatives& result, EvaluationCounts& counts) const {
+  const auto n_trims = static_cast<Eigen::Index>(data_.trims.size());
+  result.x = Matrix::Zero(n_trims, data_.n_coordinates);
+  result.lambda = Matrix::Zero(n_trims, data_.n_constraints);
+  if constexpr (Q == 0 && std::is_same_v<Real, double>) {
+    for (Eigen::Index i = 0; i < n_trims; ++i) {
+      const auto& quantity = data_.trims[static_cast<std::size_t>(i)].quantity;
+      Vector of_x = Vector::Zero(data_.n_coordinates);
+      if (const auto* place = std::get_if<TrimPlace>(&quantity)) {
+        for (const Term& term : place->place.terms)
+          of_x[3 * term.triple + place->axis.index] += values_.times(term.weight, Base(1.0))[0];
+      } else if (const auto* angle = std::get_if<TrimAngle>(&quantity)) {
+        add_angle_gradient(*angle, values_, of_x);
+      } else {
+        const TrimLoad& load = std::get<TrimLoad>(quantity);
+        LinearizationScatter<double, 0> sum(data_.n_coordinates, data_.n_constraints);
+        BasicSteadyResidual<double> work;
+        if (auto fault = residual_of(load, work, counts.residual)) return fault;
+        if (auto fault = visit_all(
+                load, counts.linearization,
+                [&](const auto& placed) { return linearize_force<double, 0>(placed, values_, sum); },
+                [&](const Constraint& c) { return linearize_constraint<double, 0>(c, values_, sum); }))
+          return fault;
+        const Linearization of_load = sum.take();
+        const MovedTriples<Base> moved(load.motion, values_);
+        Vector w = Vector::Zero(data_.n_coordinates);
+        moved.for_each([&](int triple, const Vec3<Base>& motion) {
+          for (int axis = 0; axis < 3; ++axis) w[3 * triple + axis] += motion[axis][0];
+        });
+        of_x = -of_load.K[0].transposed_times(w);
+        moved.add_gradient(load.motion, values_, -work.force.col(0), of_x);
+        of_x *= load.motion.sign;
+        result.lambda.row(i) = -load.motion.sign * (of_load.A[0] * w).transpose();
+      }
+      result.x.row(i) = of_x.transpose();
+    }
+  }
+  return {};
 }
 
 template class Assembly<double, 0>;

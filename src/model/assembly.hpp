@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "model/registry.hpp"
+#include "model/trim.hpp"
 
 namespace eigentrail {
 
@@ -13,6 +13,7 @@ namespace eigentrail {
 struct MultibodyData {
   Elements elements;
   std::vector<Constraint> constraints;
+  std::vector<TrimCondition> trims;
   std::vector<Expression> quantities;  ///< by Quantity::slot
   Parameters parameters;
   int n_triples = 0;      ///< of points and bodies
@@ -28,13 +29,26 @@ class Assembly {
   EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const;
   EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const;
 
+  /// Derivatives of the conditions of the trim with respect to x and lambda: `x` and `lambda` of `result`.
+  /// Only for Real = double and Q = 0.
+  EvaluationFault trim_rows(TrimDerivatives& result, EvaluationCounts& counts) const;
+
  private:
   using Base = Series<Real, Q>;
 
-  /// Calls add_force or add_rows for every element and constraint and counts the calls. The fault names the
-  /// first one whose result is not finite.
-  template <class Force, class Rows>
-  EvaluationFault visit_all(std::vector<std::uint64_t>& counts, Force add_force, Rows add_rows) const;
+  /// Calls add_force or add_rows for every element and constraint of the model, or of the load of a trim, and
+  /// counts the calls. The fault names the first one whose result is not finite.
+  template <class Equations, class Force, class Rows>
+  static EvaluationFault visit_all(const Equations& equations, std::vector<std::uint64_t>& counts,
+                                   Force add_force, Rows add_rows);
+
+  /// Residual of some equations.
+  template <class Equations>
+  EvaluationFault residual_of(const Equations& equations, BasicSteadyResidual<Real>& result,
+                              std::vector<std::uint64_t>& counts) const;
+
+  /// Quantity minus target.
+  EvaluationFault condition(const TrimCondition& trim, Base& value, EvaluationCounts& counts) const;
 
   const MultibodyData& data_;
   PathValues<Base> values_;

@@ -6,6 +6,7 @@
 #include "model/draft.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
+#include "model/read_trim.hpp"
 #include "model/rotor/read_rotor.hpp"
 #include "model/sampled_family.hpp"
 
@@ -47,6 +48,7 @@ void check_top_level(const Scene& scene) {
       if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
     }
   }
+  if (!family.empty()) known.push_back("trim");  // is refused with the reason
   const std::string heading = family == "shaft" ? "[[shaft]]" : "[" + family + "]";
   for (const auto& [key, value] : scene.root.entries) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
@@ -75,6 +77,9 @@ bool is_rotor(const Scene& scene) {
 
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
   check_top_level(scene);
+  if (!tables(scene, "trim").empty() && (is_matrix_family(scene) || is_rotor(scene)))
+    throw trim_error(scene,
+                     "a family of matrices or a scene with [[shaft]], which have no equilibrium to trim");
   if (!is_matrix_family(scene) && !is_rotor(scene)) return read_multibody(scene, request);
   if (is_rotor(scene)) return read_rotor(scene, request);
   if (!request.without.empty())

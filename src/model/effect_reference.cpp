@@ -6,6 +6,7 @@
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
 #include "model/read_inflow.hpp"
+#include "model/read_trim.hpp"
 #include "model/registry.hpp"
 #include "model/strips.hpp"
 
@@ -107,6 +108,8 @@ std::vector<EffectHelp> effect_reference() {
   });
   reference.push_back({"rotor", "N equal blades, of which the scene describes one, on a support that stands",
                        bladed_rotor_fields()});
+  reference.push_back(
+      {"trim", "a condition at the equilibrium, and the parameter that it determines", trim_fields()});
   reference.push_back({"blade", "a beam on a hub, by the stations of a blade", blade_fields()});
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read != nullptr)

@@ -11,11 +11,11 @@ namespace {
 constexpr int most_settlings = 10;
 constexpr double settled = 1e-12;
 
-/// Adds the roles of all quantities that depend on the traced parameter to `enters`.
+/// Adds the roles of all quantities that depend on one of some parameters to `enters`.
 class TracedRoles {
  public:
-  TracedRoles(const Parameters& parameters, int traced, Enters& enters)
-      : parameters_(parameters), traced_(traced), enters_(enters) {}
+  TracedRoles(const Parameters& parameters, std::vector<int> traced, Enters& enters)
+      : parameters_(parameters), traced_(std::move(traced)), enters_(enters) {}
 
   void place(std::string_view, const Place& place, std::string_view = {}) {
     for (const Term& term : place.terms) {
@@ -64,7 +64,8 @@ class TracedRoles {
   }
 
   void add(const Quantity& q, const Enters& role) {
-    if (!parameters_.depends_on(q.expression, traced_)) return;
+    const auto moves_q = [&](int parameter) { return parameters_.depends_on(q.expression, parameter); };
+    if (std::none_of(traced_.begin(), traced_.end(), moves_q)) return;
     enters_.mass = enters_.mass || role.mass;
     enters_.damping = enters_.damping || role.damping;
     enters_.force = enters_.force || role.force;
@@ -72,7 +73,7 @@ class TracedRoles {
   }
 
   const Parameters& parameters_;
-  int traced_;
+  std::vector<int> traced_;
   Enters& enters_;
 };
 
@@ -96,7 +97,7 @@ void settle_states(const Model& model, Eigen::Index n_states, const Vector& para
   if (n_states == 0) return;
   EvaluationCounts counts = model.new_counts();
   for (int i = 0; i < most_settlings; ++i) {
-    const Path path{parameters, x, Vector::Zero(model.n_constraints())};
+    const Path path{parameters, x, model.first_multipliers(parameters)};
     SteadyResidual rest;
     Linearization linearization;
     if (model.residual(path, 0, rest, counts) || model.linearize(path, 0, linearization, counts)) return;
@@ -114,7 +115,10 @@ Structure structure_of(const MultibodyData& data, int traced_parameter) {
   bool curved_constraints = false;
   bool turning_damping = false;
   bool turning_mass = false;
-  TracedRoles roles(data.parameters, traced_parameter, changes);
+  // Trimmed parameters follow the traced one.
+  std::vector<int> moving = {traced_parameter};
+  for (const TrimCondition& trim : data.trims) moving.push_back(trim.parameter);
+  TracedRoles roles(data.parameters, moving, changes);
   data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
     roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
@@ -138,7 +142,7 @@ Structure structure_of(const MultibodyData& data, int traced_parameter) {
   }
   // K and curved constraints (A) change with the equilibrium, and so do some damping matrices and the mass of
   // the air.
-  result.fixed_equilibrium = !changes.force && !changes.constraint;
+  result.fixed_equilibrium = !changes.force && !changes.constraint && data.trims.empty();
   result.constant_mass = !changes.mass && (result.fixed_equilibrium || !turning_mass);
   result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);
   result.constant_stiffness = result.fixed_equilibrium;
@@ -160,6 +164,25 @@ EvaluationFault Multibody::linearize(const Path& path, int order, Linearization&
                                      EvaluationCounts& counts) const {
   return with_order(order,
                     [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
+}
+
+EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& result,
+                                            EvaluationCounts& counts) const {
+  const Eigen::Index k = n_trims(), m = n_constraints();
+  result.force.resize(n_coordinates(), k);
+  result.constraint.resize(m, k);
+  result.trim.resize(k, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    Path along{at.parameters.col(0), at.x.col(0), VectorSeries::Zero(m + k, 2)};
+    along.lambda.col(0) = at.lambda.col(0);
+    along.lambda(m + i, 1) = 1.0;
+    SteadyResidual slope;
+    if (auto fault = residual(along, 1, slope, counts)) return fault;
+    result.force.col(i) = slope.force.col(1);
+    result.constraint.col(i) = slope.constraint.col(1).head(m);
+    result.trim.col(i) = slope.constraint.col(1).tail(k);
+  }
+  return Assembly<double, 0>(data_, at).trim_rows(result, counts);
 }
 
 std::vector<Expression> varying(const std::vector<Expression>& quantities) {

@@ -27,6 +27,8 @@ class Multibody final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
+  EvaluationFault trim_derivatives(const Path& at, TrimDerivatives& result,
+                                   EvaluationCounts& counts) const override;
   std::vector<Expression> expressions() const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;

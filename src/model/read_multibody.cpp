@@ -11,6 +11,7 @@
 #include "model/read_air.hpp"
 #include "model/read_beams.hpp"
 #include "model/read_blades.hpp"
+#include "model/read_trim.hpp"
 #include "model/strips.hpp"
 
 namespace eigentrail {
@@ -148,8 +149,8 @@ void add_element(Draft& draft, Element element, std::string label) {
 }
 
 /// Adds the strips of beams, blades and bodies in moving air.
-void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation) {
-  const std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
+void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation,
+             const std::vector<InflowDraft>& inflows) {
   for (const InflowDraft& inflow : inflows) add_element(draft, inflow.element, inflow.name);
   const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
   for (const StripTable& table : all) {
@@ -341,6 +342,7 @@ ModelDescription describe(const Draft& draft) {
     names->insert(names->end(), of_states->begin(), of_states->end());
   description.spins = spinning_axes(draft);
   description.constraint_names = draft.constraint_names;
+  for (const TrimCondition& trim : draft.data.trims) description.trims.push_back({trim.parameter, trim.text});
   description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
     constexpr Dependence depends = Element::depends;
@@ -402,7 +404,9 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
   for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
   for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
-  add_air(draft, rotation);
+  const std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
+  add_air(draft, rotation, inflows);
+  read_trims(draft, inflows);
   if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(
         scene, tables(scene, "spinning_disc")[0]->where,

@@ -107,6 +107,7 @@ ProjectionEstimate estimate_projection(const Model& scene, const TraceOptions& t
 }
 
 bool is_large_scene(const Model& model, const TraceOptions& trace) {
+  if (model.n_trims() > 0) return false;  // the equilibrium of a projected scene has no conditions
   const bool has_bodies = dynamic_cast<const Multibody*>(&model) != nullptr;
   if (!has_bodies || model.n_coordinates() < smallest_large_scene) return false;
   if (trace.modes.count || trace.modes.band) return true;

@@ -101,7 +101,7 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   // A damping ratio of zero is the imaginary axis: flutter and divergence.
   if (options.damping_ratio == 0.0) options.damping_ratio.reset();
   options.lines = request.lines.value_or(options.lines);
-  check_second_parameter(setup.scene.parameters, options.second, options.trace.parameter);
+  check_second_parameter(setup.scene, options.second, options.trace.parameter);
   check_numbers(options);
   // Both parameters of the window must enter the model itself.
   const int first = setup.scene.parameters.index(options.trace.parameter).value();

@@ -23,11 +23,11 @@ std::vector<double> evenly(double from, double to, int n) {
   return values;
 }
 
-void check_options(const MapOptions& options, const TraceOptions& trace, const Parameters& parameters) {
+void check_options(const MapOptions& options, const TraceOptions& trace, const Scene& scene) {
   const auto require = [](bool holds, const std::string& message) {
     if (!holds) throw InputError(message);
   };
-  check_second_parameter(parameters, options.second, trace.parameter);
+  check_second_parameter(scene, options.second, trace.parameter);
   require(std::isfinite(options.from) && std::isfinite(options.to), "--from, --to: expected finite numbers");
   require(options.from != options.to,
           "--to: equals --from (" + exact_text(options.from) + "): the window is empty");
@@ -142,7 +142,7 @@ MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOpti
   MapSetup setup{{std::move(scene), {}, nullptr}, options};
   std::set<int> used;
   setup.trace.options = read_trace_options(setup.trace.scene, overrides, used);
-  check_options(options, setup.trace.options, setup.trace.scene.parameters);
+  check_options(options, setup.trace.options, setup.trace.scene);
   return setup;
 }
 
@@ -153,7 +153,7 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   std::set<int> used;
   trace.options = read_trace_options(trace.scene, overrides, used);
   const Parameters& parameters = trace.scene.parameters;
-  check_options(options, trace.options, parameters);
+  check_options(options, trace.options, trace.scene);
   // build_model reports parameters on which the model does not depend, except those in `used`. Both
   // parameters of the window must enter the model.
   used.erase(trace.traced());

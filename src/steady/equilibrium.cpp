@@ -31,21 +31,41 @@ struct Scales {
   double length = 1.0;
   double force = 1.0;
   Vector constraint;  ///< per row: |A row| * length
-  double multiplier = 1.0;
+  Vector multiplier;
+  Eigen::Index n_constraints = 0;
+
+  /// Change of the forces by that of the multipliers.
+  Vector reaction(const Linearization& at, const TrimDerivatives& trim, const Vector& dl) const {
+    Vector result = at.A[0].transposed_times(dl.head(n_constraints));
+    if (trim.force.cols() > 0) result += trim.force * dl.tail(trim.force.cols());
+    return result;
+  }
 };
 
+/// The scale of a condition is what the trimmed parameters contribute at their own scale, or its residual.
 Scales find_scales(const Vector& x, const Vector& lambda, const Linearization& lin,
-                   const SteadyResidual& residual) {
+                   const SteadyResidual& residual, const TrimDerivatives& trim) {
   Scales scales;
-  scales.length = positive_or_one(x.lpNorm<Eigen::Infinity>());
-  const Vector reaction = lin.A[0].transposed_times(lambda);
   const Vector rows = lin.A[0].row_norms();
+  scales.n_constraints = rows.size();
+  const Eigen::Index k = lambda.size() - rows.size();
+  const Vector unknown = lambda.tail(k).cwiseAbs().unaryExpr(&positive_or_one);
+  scales.length = positive_or_one(x.lpNorm<Eigen::Infinity>());
+  const Vector reaction = lin.A[0].transposed_times(lambda.head(rows.size()));
   scales.force =
       positive_or_one(std::max({lin.K[0].largest_entry() * scales.length, reaction.lpNorm<Eigen::Infinity>(),
                                 residual.force.col(0).lpNorm<Eigen::Infinity>()}));
-  scales.constraint = (rows * scales.length).unaryExpr(&positive_or_one);
-  scales.multiplier =
+  scales.constraint.resize(lambda.size());
+  scales.constraint.head(rows.size()) = (rows * scales.length).unaryExpr(&positive_or_one);
+  const double multiplier =
       positive_or_one(rows.size() == 0 ? 1.0 : scales.force / positive_or_one(rows.maxCoeff()));
+  scales.multiplier = Vector::Constant(lambda.size(), multiplier);
+  scales.multiplier.tail(k) = unknown;
+  if (k == 0) return scales;
+  const Vector largest = (trim.x.cwiseAbs().rowwise().maxCoeff() * scales.length)
+                             .cwiseMax(trim.trim.cwiseAbs() * unknown)
+                             .cwiseMax(residual.constraint.col(0).tail(k).cwiseAbs());
+  scales.constraint.tail(k) = largest.unaryExpr(&positive_or_one);
   return scales;
 }
 
@@ -71,6 +91,13 @@ class SteadyProblem {
     return noted(model_.linearize(path_, 0, linearization, counts_));
   }
 
+  /// Sets the point at which `trim` is evaluated.
+  void at(const Equilibrium& equilibrium) {
+    path_.x = equilibrium.x;
+    path_.lambda = equilibrium.lambda;
+  }
+
+  Vector first_multipliers() const { return model_.first_multipliers(path_.parameters.col(0)); }
   Eigen::Index n_constraints() const { return model_.n_constraints(); }
 
   /// The last fault that has a reason of its own: why an iteration could not go on.
@@ -82,8 +109,16 @@ class SteadyProblem {
     return fault ? fault : linearize(at.x, at.lambda, at.linearization);
   }
 
-  KktFactorization factor(const Linearization& linearization) {
+  /// The derivatives of the trimmed parameters at the point of the last call of `linearize`; no columns
+  /// without any.
+  EvaluationFault trim(TrimDerivatives& derivatives) {
+    if (model_.n_trims() == 0) return {};
+    return noted(model_.trim_derivatives(path_, derivatives, counts_));
+  }
+
+  KktFactorization factor(const Linearization& linearization, const TrimDerivatives& trim) {
     ++report_.factorizations;
+    if (model_.n_trims() > 0) return {linearization.K[0], linearization.A[0], trim};
     return {linearization.K[0], linearization.A[0]};
   }
 
@@ -111,8 +146,11 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
   const double worst = residual.constraint.col(0).cwiseAbs().cwiseQuotient(scales.constraint).maxCoeff(&row);
   if (worst > report.residual) {
     report.residual = worst;
+    const Eigen::Index trim = row - model.n_constraints();
     report.worst_equation =
-        "constraint " + model.description().constraint_names[static_cast<std::size_t>(row)];
+        trim < 0
+            ? "constraint " + model.description().constraint_names[static_cast<std::size_t>(row)]
+            : "trim condition '" + model.description().trims[static_cast<std::size_t>(trim)].condition + "'";
   }
 }
 
@@ -155,6 +193,7 @@ NonlinearResult iterate(SteadyProblem& problem, const Scales& scales, const Stea
   KktFactorization kkt;
   SteadyResidual residual;
   Linearization linearization;
+  TrimDerivatives trim;
   NonlinearProblem nonlinear;
   nonlinear.residual = [&](const Vector& u, Vector& f) {
     if (problem.evaluate(u.head(n), u.tail(m), residual)) return false;
@@ -163,8 +202,8 @@ NonlinearResult iterate(SteadyProblem& problem, const Scales& scales, const Stea
     return true;
   };
   nonlinear.factor = [&](const Vector& u) {
-    if (problem.linearize(u.head(n), u.tail(m), linearization)) return false;
-    kkt = problem.factor(linearization);
+    if (problem.linearize(u.head(n), u.tail(m), linearization) || problem.trim(trim)) return false;
+    kkt = problem.factor(linearization, trim);
     return true;
   };
   nonlinear.solve = [&](const Vector& b, Vector& du) {
@@ -174,7 +213,7 @@ NonlinearResult iterate(SteadyProblem& problem, const Scales& scales, const Stea
     du << dx, dl;
   };
   nonlinear.u_scale.resize(n + m);
-  nonlinear.u_scale << Vector::Constant(n, 1.0 / scales.length), Vector::Constant(m, 1.0 / scales.multiplier);
+  nonlinear.u_scale << Vector::Constant(n, 1.0 / scales.length), scales.multiplier.cwiseInverse();
   nonlinear.f_scale.resize(n + m);
   nonlinear.f_scale << Vector::Constant(n, 1.0 / scales.force), scales.constraint.cwiseInverse();
 
@@ -201,13 +240,14 @@ bool polish(SteadyProblem& problem, const Scales& scales, Equilibrium& result) {
   };
   double last = INFINITY;
   SteadyResidual residual;
+  TrimDerivatives trim;
   for (int i = 0; i < max_corrections; ++i) {
     if (problem.evaluate(result.x, result.lambda, residual)) return false;
-    if (problem.linearize(result.x, result.lambda, result.linearization)) return false;
-    result.kkt = problem.factor(result.linearization);
+    if (problem.linearize(result.x, result.lambda, result.linearization) || problem.trim(trim)) return false;
+    result.kkt = problem.factor(result.linearization, trim);
     Vector dx, dl;
     result.kkt.solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
-    const Vector reaction = result.linearization.A[0].transposed_times(dl);
+    const Vector reaction = scales.reaction(result.linearization, trim, dl);
     const double size = std::max(dx.lpNorm<Eigen::Infinity>() / scales.length,
                                  reaction.lpNorm<Eigen::Infinity>() / scales.force);
     if (!std::isfinite(size)) return false;
@@ -231,6 +271,26 @@ std::string failure_message(const NonlinearResult& kinsol, const SteadyReport& r
   return message.str();
 }
 
+/// Why the conditions of a trim do not determine its unknowns; empty if they do.
+std::string undetermined_trim(const Model& model, const KktFactorization& kkt) {
+  constexpr double takes_part = 1e-6;
+  const Matrix shares = kkt.undetermined();
+  std::string unknowns, conditions;
+  for (Eigen::Index i = 0; i < shares.cols(); ++i) {
+    const Trim& trim = model.description().trims[static_cast<std::size_t>(i)];
+    const auto append = [](std::string& list, const std::string& name) {
+      list += (list.empty() ? "'" : ", '") + name + "'";
+    };
+    if (shares(0, i) > takes_part)
+      append(unknowns, model.description().parameters.names()[static_cast<std::size_t>(trim.parameter)]);
+    if (shares(1, i) > takes_part) append(conditions, trim.condition);
+  }
+  if (unknowns.empty() && conditions.empty()) return {};
+  return "the trim is singular: " + (conditions.empty() ? "the equilibrium" : "the condition " + conditions) +
+         " does not change with " + (unknowns.empty() ? "the unknowns" : "the unknown " + unknowns) +
+         "; state conditions that depend on the unknowns, and hold all other freedoms";
+}
+
 Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   result.status = SteadyStatus::not_finite;
   result.report.message = fault.message();
@@ -240,10 +300,11 @@ Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
 /// Factors the constraints at at.x and sets the multipliers there to those of least squares (Eq. 15).
 EvaluationFault settle_multipliers(SteadyProblem& problem, Equilibrium& at) {
   SteadyResidual residual;
-  at.lambda = Vector::Zero(problem.n_constraints());
+  at.lambda = problem.first_multipliers();
   if (auto fault = problem.evaluate(at, residual)) return fault;
   at.kkt = KktFactorization(at.linearization.A[0]);
-  at.lambda = at.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(0));
+  at.lambda.head(problem.n_constraints()) =
+      at.kkt.constraints().transposed_pseudo_inverse_times(-residual.force.col(0));
   return {};
 }
 
@@ -254,11 +315,13 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   result.lambda = lambda;
   SteadyProblem problem(model, parameters, counts, result.report);
   SteadyResidual residual;
-  if (lambda.size() != model.n_constraints()) {
+  if (lambda.size() != model.n_multipliers()) {
     if (const auto fault = settle_multipliers(problem, result)) return not_finite(std::move(result), fault);
   }
+  TrimDerivatives trim;
   if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
-  const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual);
+  if (const auto fault = problem.trim(trim)) return not_finite(std::move(result), fault);
+  const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual, trim);
   const NonlinearResult kinsol = iterate(problem, scales, options, result.x, result.lambda);
   result.report.iterations = kinsol.iterations;
   const auto last = std::pair(result.x, result.lambda);
@@ -273,10 +336,12 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   // KINSOL may report stagnation although the iteration reached the rounding level. The residual and the last
   // correction decide.
   const bool converged = polished && result.report.residual < newton_rounding_floor;
-  result.status = converged ? SteadyStatus::converged : SteadyStatus::not_converged;
-  if (!converged)
-    result.report.message =
-        problem.reason() ? problem.reason().message() : failure_message(kinsol, result.report);
+  const std::string loose = undetermined_trim(model, result.kkt);
+  result.status = converged && loose.empty() ? SteadyStatus::converged : SteadyStatus::not_converged;
+  if (result.status == SteadyStatus::converged) return result;
+  result.report.message = !loose.empty()     ? loose
+                          : problem.reason() ? problem.reason().message()
+                                             : failure_message(kinsol, result.report);
   return result;
 }
 
@@ -337,9 +402,11 @@ std::optional<Equilibrium> find_rest(const Model& model, const Vector& parameter
   SteadyResidual residual;
   if (at.status != SteadyStatus::converged || problem.evaluate(at.x, at.lambda, residual))
     return std::nullopt;
-  const Scales scales = find_scales(at.x, at.lambda, at.linearization, residual);
+  TrimDerivatives trim;
+  if (problem.trim(trim)) return std::nullopt;
+  const Scales scales = find_scales(at.x, at.lambda, at.linearization, residual, trim);
   Vector dx, dl;
-  problem.factor(at.linearization).solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
+  problem.factor(at.linearization, trim).solve(-residual.force.col(0), -residual.constraint.col(0), dx, dl);
   if (!(dx.lpNorm<Eigen::Infinity>() <= newton_rounding * scales.length)) return std::nullopt;
   return at;
 }
@@ -363,14 +430,19 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
                                           EvaluationCounts& counts) {
   path.parameters = parameters;
   path.x = VectorSeries::Zero(model.n_coordinates(), order + 1);
-  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.lambda = VectorSeries::Zero(model.n_multipliers(), order + 1);
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
   // For a kept equilibrium only the constraints are factored. The complete factorization is made here if it
   // is missing.
   KktFactorization complete;
   if (!equilibrium.kkt.can_solve()) {
-    complete = KktFactorization(equilibrium.linearization.K[0], equilibrium.linearization.A[0]);
+    SteadyReport report;
+    SteadyProblem problem(model, parameters.col(0), counts, report);
+    TrimDerivatives trim;
+    problem.at(equilibrium);
+    if (auto fault = problem.trim(trim)) return fault;
+    complete = problem.factor(equilibrium.linearization, trim);
   }
   const KktFactorization& kkt = equilibrium.kkt.can_solve() ? equilibrium.kkt : complete;
   SteadyResidual residual;
@@ -389,7 +461,7 @@ EvaluationFault differentiate_multipliers(const Model& model, const Equilibrium&
                                           EvaluationCounts& counts) {
   path.parameters = parameters;
   path.x = equilibrium.x;
-  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.lambda = VectorSeries::Zero(model.n_multipliers(), order + 1);
   path.lambda.col(0) = equilibrium.lambda;
   SteadyResidual residual;
   for (int k = 1; k <= order; ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "steady/bordered_kkt.hpp"
 #include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
@@ -35,6 +36,17 @@ KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A)
   factor_tangent();
 }
 
+KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A, const TrimDerivatives& trim)
+    : constraints_(A),
+      bordered_(std::make_shared<BorderedKkt>(
+          K, constraints_, KktBorder{trim.force, trim.constraint, trim.x, trim.lambda, trim.trim})) {
+  reciprocal_condition_ = bordered_->reciprocal_condition();
+}
+
+Matrix KktFactorization::undetermined() const {
+  return bordered_ ? bordered_->kernel_in_border() : Matrix();
+}
+
 void KktFactorization::factor_tangent() {
   const Matrix& Q2 = constraints_.null_basis();
   if (Q2.cols() == 0) return;
@@ -54,6 +66,14 @@ void KktFactorization::factor_tangent() {
 void KktFactorization::solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const {
   if (sparse_) {
     sparse_->solve(r, g, dx, dl);
+    return;
+  }
+  if (bordered_) {
+    const Eigen::Index m = bordered_->n_constraints();
+    Vector reactions, unknowns;
+    bordered_->solve(r, g.head(m), g.tail(g.size() - m), dx, reactions, unknowns);
+    dl.resize(g.size());
+    dl << reactions, unknowns;
     return;
   }
   if (!can_solve()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/positive_or_one.hpp"
+#include "steady/bordered_kkt.hpp"
 #include "steady/rounding.hpp"
 
 namespace eigentrail {
@@ -27,57 +28,53 @@ EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vecto
   return {};
 }
 
-/// Solves with the matrix [K A^T f; A 0 g; c.x 0 c.p] by the null-space method, as in KktFactorization. f and
-/// g are the derivatives of the equations with respect to the parameter.
-class BorderedKkt {
+/// The steady equations with the traced parameter as an unknown on a plane, and trimmed parameters if there
+/// are any.
+class PlaneSystem {
  public:
-  BorderedKkt(const Linearization& linearization, const ConstraintFactorization& constraints,
-              const Vector& force, const Vector& constraint, const PathPlane& plane)
-      : K_(linearization.K[0]), constraints_(constraints), force_(force), plane_(plane) {
-    const Matrix& Q2 = constraints.null_basis();
-    const Eigen::Index f = Q2.cols();
-    follow_ = -constraints.pseudo_inverse_times(constraint);
-    Matrix B(f + 1, f + 1);
-    B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
-    B.topRightCorner(f, 1) = Q2.transpose() * (force + K_ * follow_);
-    B.bottomLeftCorner(1, f) = plane.x.transpose() * Q2;
-    B(f, f) = plane.p + plane.x.dot(follow_);
-    // Rows and columns of different units are scaled to unit norm.
-    const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
-    rows_ = B.rowwise().norm().unaryExpr(inverse);
-    B = rows_.asDiagonal() * B;
-    columns_ = B.colwise().norm().transpose().unaryExpr(inverse);
-    lu_.compute(B * columns_.asDiagonal());
-  }
+  /// `force` and `constraint`: the derivatives of the equations with respect to the traced parameter.
+  PlaneSystem(const Linearization& linearization, const ConstraintFactorization& constraints,
+              const KktBorder& trim, const Vector& force, const Vector& constraint, const PathPlane& plane)
+      : system_(linearization.K[0], constraints, trim.and_one(force, constraint, plane.x, plane.p)),
+        n_trims_(trim.unknown.rows()) {}
 
+  /// `g` and `dl` as in KktFactorization::solve.
   void solve(const Vector& r, const Vector& g, double distance, Vector& dx, Vector& dl, double& dp) const {
-    const Matrix& Q2 = constraints_.null_basis();
-    dx = constraints_.pseudo_inverse_times(g);
-    Vector right(Q2.cols() + 1);
-    right << Q2.transpose() * (r - K_ * dx), distance - plane_.x.dot(dx);
-    const Vector solution = columns_.cwiseProduct(lu_.solve(rows_.cwiseProduct(right)));
-    dp = solution[Q2.cols()];
-    dx += Q2 * solution.head(Q2.cols()) + dp * follow_;
-    dl = constraints_.transposed_pseudo_inverse_times(r - K_ * dx - dp * force_);
+    const Eigen::Index m = g.size() - n_trims_;
+    Vector h(n_trims_ + 1);
+    h << g.tail(n_trims_), distance;
+    Vector reactions, unknowns;
+    system_.solve(r, g.head(m), h, dx, reactions, unknowns);
+    dl.resize(g.size());
+    dl << reactions, unknowns.head(n_trims_);
+    dp = unknowns[n_trims_];
   }
 
  private:
-  Matrix K_;  ///< dense; only a few points of a path are computed on a plane
-  const ConstraintFactorization& constraints_;
-  Vector force_, follow_, rows_, columns_;
-  PathPlane plane_;
-  Eigen::FullPivLU<Matrix> lu_;
+  BorderedKkt system_;
+  Eigen::Index n_trims_;
 };
+
+/// The border of the trimmed parameters at a point; without any it has no rows.
+EvaluationFault trim_border(const Model& model, const Path& at, KktBorder& border, EvaluationCounts& counts) {
+  border = {Matrix(model.n_coordinates(), 0), Matrix(model.n_constraints(), 0),
+            Matrix(0, model.n_coordinates()), Matrix(), Matrix(0, 0)};
+  if (model.n_trims() == 0) return {};
+  TrimDerivatives trim;
+  if (auto fault = model.trim_derivatives(at, trim, counts)) return fault;
+  border = {trim.force, trim.constraint, trim.x, trim.lambda, trim.trim};
+  return {};
+}
 
 /// Least-squares multipliers (Eq. 15) at given x.
 EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
                                      EvaluationCounts& counts) {
-  at.lambda = Vector::Zero(model.n_constraints());
+  at.lambda = model.first_multipliers(parameters);
   const Path path{parameters, at.x, at.lambda};
   SteadyResidual residual;
   if (auto fault = model.residual(path, 0, residual, counts)) return fault;
   if (auto fault = model.linearize(path, 0, at.linearization, counts)) return fault;
-  at.lambda =
+  at.lambda.head(model.n_constraints()) =
       ConstraintFactorization(at.linearization.A[0]).transposed_pseudo_inverse_times(-residual.force.col(0));
   return {};
 }
@@ -96,8 +93,9 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   double last = INFINITY;
   SteadyResidual residual;
   Vector force, constraint, dx, dl;
+  KktBorder trim;
   parameters[traced] = p;
-  if (lambda.size() != model.n_constraints() && estimate_multipliers(model, parameters, result, counts)) {
+  if (lambda.size() != model.n_multipliers() && estimate_multipliers(model, parameters, result, counts)) {
     result.status = SteadyStatus::not_finite;
     return result;
   }
@@ -105,13 +103,14 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     parameters[traced] = p;
     const Path path{parameters, result.x, result.lambda};
     if (model.residual(path, 0, residual, counts) || model.linearize(path, 0, result.linearization, counts) ||
-        parameter_slope(model, result.x, result.lambda, parameters, traced, force, constraint, counts)) {
+        parameter_slope(model, result.x, result.lambda, parameters, traced, force, constraint, counts) ||
+        trim_border(model, path, trim, counts)) {
       result.status = SteadyStatus::not_finite;
       return result;
     }
     result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0]);
     ++result.report.factorizations;
-    const BorderedKkt system(result.linearization, result.kkt.constraints(), force, constraint, plane);
+    const PlaneSystem system(result.linearization, result.kkt.constraints(), trim, force, constraint, plane);
     double dp = 0.0;
     system.solve(-residual.force.col(0), -residual.constraint.col(0), target - plane(result.x, p), dx, dl,
                  dp);
@@ -121,7 +120,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     ++result.report.iterations;
     // Changes of the multipliers and of p are measured by the forces that they cause.
     const double scale = positive_or_one(result.linearization.K[0].largest_entry() * length);
-    const Vector reaction = result.linearization.A[0].transposed_times(dl) + force * dp;
+    const Vector reaction = result.linearization.A[0].transposed_times(dl.head(model.n_constraints())) +
+                            trim.force * dl.tail(model.n_trims()) + force * dp;
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     // Small corrections that grow show divergence; large ones may grow far from the solution.
@@ -142,14 +142,17 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
   path.parameters = VectorSeries::Zero(parameters.size(), order + 1);
   path.parameters.col(0) = parameters;
   path.x = VectorSeries::Zero(model.n_coordinates(), order + 1);
-  path.lambda = VectorSeries::Zero(model.n_constraints(), order + 1);
+  path.lambda = VectorSeries::Zero(model.n_multipliers(), order + 1);
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
   Vector force, constraint, dx, dl;
+  KktBorder trim;
+  if (auto fault = trim_border(model, {parameters, equilibrium.x, equilibrium.lambda}, trim, counts))
+    return fault;
   if (auto fault = parameter_slope(model, equilibrium.x, equilibrium.lambda, parameters, traced, force,
                                    constraint, counts))
     return fault;
-  const BorderedKkt system(equilibrium.linearization, equilibrium.kkt.constraints(), force, constraint,
+  const PlaneSystem system(equilibrium.linearization, equilibrium.kkt.constraints(), trim, force, constraint,
                            plane);
   SteadyResidual residual;
   for (int k = 1; k <= order; ++k) {
@@ -174,7 +177,8 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
   if (auto fault = parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0),
                                    traced, force, constraint, counts))
     return fault;
-  follow = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(constraint);
+  follow = -ConstraintFactorization(linearization.A[0])
+                .pseudo_inverse_times(constraint.head(model.n_constraints()));
   load = force + linearization.K[0] * follow;
   return {};
 }

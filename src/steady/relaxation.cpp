@@ -48,13 +48,13 @@ class Relaxation {
       SteadyResidual residual;
       Linearization linearization;
       path_.x = x;
-      path_.lambda = Vector::Zero(model_.n_constraints());
+      path_.lambda = model_.first_multipliers(path_.parameters.col(0));
       if (model_.residual(path_, 0, residual, counts_) || model_.linearize(path_, 0, linearization, counts_))
         return false;
-      if (residual.constraint.rows() == 0) return true;
       const Vector rows = linearization.A[0].row_norms();
-      const Vector miss =
-          residual.constraint.col(0).cwiseAbs().cwiseQuotient((rows * length).unaryExpr(&positive_or_one));
+      if (rows.size() == 0) return true;
+      const Vector error = residual.constraint.col(0).head(rows.size());
+      const Vector miss = error.cwiseAbs().cwiseQuotient((rows * length).unaryExpr(&positive_or_one));
       const double size = miss.maxCoeff();
       if (!std::isfinite(size)) return false;
       if (size <= on_manifold) return true;
@@ -64,12 +64,11 @@ class Relaxation {
         x = start + share * correction;
         continue;
       }
-      note_miss(residual.constraint.col(0), rows);
+      note_miss(error, rows);
       last = size;
       start = x;
       share = 1.0;
-      correction =
-          -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(residual.constraint.col(0));
+      correction = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(error);
       x += correction;
     }
     return false;
@@ -98,14 +97,14 @@ class Relaxation {
     Place place;
     place.x = x;
     path_.x = x;
-    path_.lambda = Vector::Zero(model_.n_constraints());
+    path_.lambda = place.lambda = model_.first_multipliers(path_.parameters.col(0));
     SteadyResidual residual;
     if (model_.residual(path_, 0, residual, counts_) ||
         model_.linearize(path_, 0, place.linearization, counts_))
       return std::nullopt;
     place.constraints = ConstraintFactorization(place.linearization.A[0]);
     const Vector load = -residual.force.col(0);
-    place.lambda = place.constraints.transposed_pseudo_inverse_times(load);
+    place.lambda.head(model_.n_constraints()) = place.constraints.transposed_pseudo_inverse_times(load);
     // K includes the stiffness of the constraint forces, (A^T lambda)_/x, so lambda must be known first.
     path_.lambda = place.lambda;
     if (model_.linearize(path_, 0, place.linearization, counts_)) return std::nullopt;

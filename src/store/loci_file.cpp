@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -12,6 +13,7 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/data_error_datasets.hpp"
+#include "store/loci_schema.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
@@ -234,6 +236,28 @@ Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& 
                                         static_cast<Eigen::Index>(shape[1]));
 }
 
+/// The trimmed parameters, which a root attribute names, and their series on the steps.
+void read_trimmed(const Hdf5File& file, LociFile& loci) {
+  const auto names = loci.attributes.find("trimmed");
+  if (names == loci.attributes.end()) return;
+  const std::size_t orders = file.shape("dense_output").at(3);
+  std::istringstream list(names->second);
+  for (std::string name; std::getline(list, name, ',');) {
+    TrimmedParameter& trimmed = loci.trimmed.emplace_back();
+    trimmed = {name, file.text_attribute(name, "units"), file.text_attribute(name, "long_name"),
+               file.read_real(name)};
+    require(trimmed.values.size() == loci.n_nodes(), loci, name);
+    require_finite(trimmed.values, loci, name);
+    const std::string series = step_dataset(name);
+    require(file.shape(series) == Shape{loci.steps.size(), 2, orders}, loci, series);
+    const std::vector<double> data = file.read_real(series);
+    require_finite(data, loci, series);
+    for (std::size_t step = 0; step < loci.steps.size(); ++step)
+      loci.steps[step].trimmed.emplace_back(Eigen::Map<const RowMajorReal>(
+          data.data() + step * 2 * orders, 2, static_cast<Eigen::Index>(orders)));
+  }
+}
+
 }  // namespace
 
 const std::string& LociFile::attribute(const std::string& name) const {
@@ -302,6 +326,7 @@ LociFile read_loci(const std::string& path) {
     loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
     loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
     loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
+    read_trimmed(file, loci);
     loci.residual = file.read_real("residual");
     loci.condition = file.read_real("condition");
     const std::size_t expected = loci.n_nodes() * loci.modes.size();

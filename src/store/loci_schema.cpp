@@ -110,6 +110,24 @@ void add_points(std::vector<GrowingDataset>& list, const Model& model, const std
   }
 }
 
+/// The datasets of trimmed parameters.
+void add_trims(std::vector<GrowingDataset>& list, const ModelDescription& description) {
+  for (const Trim& trim : description.trims) {
+    const Parameter& parameter = description.parameters[static_cast<std::size_t>(trim.parameter)];
+    const std::string unit = label_unit(parameter.unit);
+    list.push_back({parameter.name,
+                    ElementType::real,
+                    {"node"},
+                    unit,
+                    "trimmed parameter " + parameter.name + ": " + trim.condition});
+    list.push_back({step_dataset(parameter.name),
+                    ElementType::real,
+                    {"step", "end", "order"},
+                    unit,
+                    "series of " + parameter.name + " in the path's coordinate at both ends"});
+  }
+}
+
 void add_dense_output(std::vector<GrowingDataset>& list, const std::string& parameter,
                       const std::string& unit) {
   list.push_back(
@@ -226,6 +244,7 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
   std::vector<GrowingDataset> list;
   add_points(list, model, parameter, unit);
   const ModelDescription& description = model.description();
+  add_trims(list, description);
   if (has_whirl(description)) add_whirl(list);
   add_dense_output(list, parameter, unit);
   add_events(list, parameter, unit);
@@ -234,6 +253,19 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
       named_by_freedoms(model) != nullptr || !options.mode_names.empty())
     list.push_back(
         {"mode_name", ElementType::text, {"mode"}, "1", "what moves in the mode where it first exists"});
+  return list;
+}
+
+std::vector<std::string> trimmed_names(const ModelDescription& description) {
+  std::vector<std::string> names;
+  for (const Trim& trim : description.trims)
+    names.push_back(description.parameters.names()[static_cast<std::size_t>(trim.parameter)]);
+  return names;
+}
+
+std::string trimmed_list(const ModelDescription& description) {
+  std::string list;
+  for (const std::string& name : trimmed_names(description)) list += (list.empty() ? "" : ",") + name;
   return list;
 }
 

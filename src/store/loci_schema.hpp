@@ -20,6 +20,15 @@ struct GrowingDataset {
 /// The growing datasets of a trace of `model`, in the order of their creation.
 std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOptions& options);
 
+/// Name of the dataset with the series of a trimmed parameter.
+inline std::string step_dataset(const std::string& parameter) {
+  return "step_" + parameter;
+}
+
+/// Names of the trimmed parameters, separated by commas: the root attribute "trimmed".
+std::string trimmed_list(const ModelDescription& description);
+std::vector<std::string> trimmed_names(const ModelDescription& description);
+
 /// Whether a loci file has a dataset of this name. The traced parameter cannot have such a name, because its
 /// values are a dataset named after it. Stable ranges: see is_range_dataset.
 bool is_loci_dataset(const std::string& name);

@@ -49,6 +49,7 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
                        std::size_t modes, const std::vector<std::string>& motions)
     : file_(std::move(file)),
       parameter_(options.parameter),
+      trimmed_(trimmed_names(model.description())),
       has_constraints_(model.n_constraints() > 0),
       modes_(modes),
       functions_(modes) {
@@ -73,6 +74,7 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
 LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& options)
     : file_(std::move(file)),
       parameter_(options.parameter),
+      trimmed_(trimmed_names(model.description())),
       has_constraints_(model.n_constraints() > 0),
       modes_(file_.shape("mode").at(0)),
       functions_(file_.shape("function").at(0)),
@@ -143,6 +145,10 @@ void LociTables::append(const LociRows& rows) {
   }
   file_.write_rows("equilibrium", points_, rows.equilibrium);
   if (has_constraints_) file_.write_rows("multiplier", points_, rows.multiplier);
+  for (std::size_t i = 0; i < trimmed_.size(); ++i) {
+    file_.write_rows(trimmed_[i], points_, rows.trimmed[i]);
+    if (rows.steps() > 0) file_.write_rows(step_dataset(trimmed_[i]), steps_, rows.step_trimmed[i]);
+  }
   if (rows.steps() > 0) {
     file_.write_rows("step", steps_, count_from(steps_, rows.steps()));
     file_.write_rows("step_length", steps_, rows.step_length);

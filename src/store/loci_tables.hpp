@@ -15,6 +15,7 @@ struct LociRows {
   std::vector<double> whirl, whirl_reverse;  ///< only of models in which something spins
   std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
   std::vector<double> step_length, step_parameter;
+  std::vector<std::vector<double>> trimmed, step_trimmed;  ///< per trimmed parameter
   std::vector<Complex> dense_output;
   std::vector<std::int64_t> dense_block, dense_chart, mode_block, certified;
 
@@ -50,6 +51,7 @@ class LociTables {
 
   Hdf5File file_;
   std::string parameter_;
+  std::vector<std::string> trimmed_;  ///< names of trimmed parameters
   bool has_constraints_ = false;
   std::size_t modes_ = 0, functions_ = 0;
   std::uint64_t points_ = 0, steps_ = 0;  ///< numbers written so far

@@ -9,6 +9,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/modes/whirl.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/data_error_datasets.hpp"
 #include "store/loci_schema.hpp"
@@ -35,12 +36,20 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+bool has_dataset_name(const std::string& parameter) {
+  return is_loci_dataset(parameter) || is_range_dataset(parameter) || is_data_error_dataset(parameter) ||
+         is_projection_dataset(parameter) || is_shaft_dataset(parameter);
+}
+
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
-  if (!is_loci_dataset(parameter) && !is_range_dataset(parameter) && !is_data_error_dataset(parameter) &&
-      !is_projection_dataset(parameter) && !is_shaft_dataset(parameter))
-    return;
+  for (const std::string& name : trimmed_parameters(scene)) {
+    if (has_dataset_name(name))
+      throw InputError(scene.path + ": [[trim]] unknown: a trimmed parameter cannot be called '" + name +
+                       "', the loci file has a dataset of that name; rename it");
+  }
+  if (!has_dataset_name(parameter)) return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {
     if (const Value* key = trace->find("parameter")) where = key->where;
@@ -86,6 +95,8 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
   write_provenance(file, loci_format, loci_schema_version, scene, options);
   file.set_attribute("reference", start.s_ref);
   file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
+  if (const std::string trimmed = trimmed_list(model.description()); !trimmed.empty())
+    file.set_attribute("trimmed", trimmed);
   return {std::move(file), model, options, start.order, static_cast<std::size_t>(start.n_modes), motions};
 }
 
@@ -203,6 +214,13 @@ void LociWriter::Implementation::append_step(const PathStep& step) {
     for (Eigen::Index k = 0; k < step.parameter.cols(); ++k)
       rows.step_parameter.push_back(step.parameter(end, k));
   }
+  rows.step_trimmed.resize(step.trimmed.size());
+  for (std::size_t i = 0; i < step.trimmed.size(); ++i) {
+    for (Eigen::Index end = 0; end < 2; ++end) {
+      const auto series = step.trimmed[i].row(end);
+      rows.step_trimmed[i].insert(rows.step_trimmed[i].end(), series.begin(), series.end());
+    }
+  }
   rows.dense_output.resize((functions + tables.functions()) * 2 * orders, Complex(nan, nan));
   rows.dense_block.resize(functions + tables.functions(), -1);
   rows.dense_chart.resize(functions + tables.functions(), -1);
@@ -253,7 +271,11 @@ void LociWriter::append(const TracePoint& point) {
   const auto x = point.node.path.x.col(0);
   const auto lambda = point.node.path.lambda.col(0);
   rows.equilibrium.insert(rows.equilibrium.end(), x.begin(), x.end());
-  rows.multiplier.insert(rows.multiplier.end(), lambda.begin(), lambda.end());
+  const auto m = lambda.begin() + self.model.n_constraints();
+  rows.multiplier.insert(rows.multiplier.end(), lambda.begin(), m);
+  rows.trimmed.resize(static_cast<std::size_t>(self.model.n_trims()));
+  for (std::size_t i = 0; i < rows.trimmed.size(); ++i)
+    rows.trimmed[i].push_back(m[static_cast<std::ptrdiff_t>(i)]);
   if (rows.points() >= most_rows) self.write_rows();
 }
 

@@ -27,6 +27,7 @@ struct PathStep {
   double length = 0.0;
   Matrix parameter;  ///< 2 x (order + 1): series of p in that coordinate at both ends
   std::vector<DenseBlock> blocks;
+  std::vector<Matrix> trimmed = {};  ///< the same as `parameter` of each trimmed parameter
 };
 
 /// Eigenvalues of a block at t = to in its chart, in the order of `roots`, its eigenvalues at t = from: each

@@ -33,6 +33,9 @@ struct RecordedPath {
   /// Value of the traced parameter at a place.
   double parameter_at(const Position& position) const;
 
+  /// Values of the trimmed parameters at a place, in their units.
+  Vector trimmed_at(const Position& position) const;
+
   /// Eigenvalues s of all modes at a place; NaN where a mode does not exist. A complex pair is represented by
   /// its member with Im s >= 0.
   ComplexVector eigenvalues_at(const Position& position) const;

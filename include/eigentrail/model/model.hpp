@@ -2,6 +2,10 @@
 //
 //   M(x, p) x'' + A^T lambda = f(x, x', p),   c(x, p) = 0,   A = c_/x          (seed paper, Eqs. 3a, 3b)
 //
+// A model may have k trimmed parameters u, unknowns that k conditions g(x, lambda, u, p) = 0 determine at the
+// equilibrium; in the motion about it they are constant. The rows of u follow those of lambda in a path and
+// take the place of the values in its parameters; the rows of g follow those of c in a residual.
+//
 // A model returns power series along a path (x(h), lambda(h), p(h)); all derivatives are total derivatives
 // along it.
 #pragma once
@@ -107,11 +111,18 @@ struct SpinningAxis {
   Expression speed;  ///< rad/s
 };
 
+/// A parameter that is solved for together with the equilibrium, so that a condition holds there.
+struct Trim {
+  int parameter = -1;     ///< index of the unknown; its declared value is the starting guess
+  std::string condition;  ///< as the scene states it: "thrust(rotor) = weight"
+};
+
 /// Constant properties of a model.
 struct ModelDescription {
   std::vector<std::string> coordinate_names;     ///< size n
   std::vector<std::string> coordinate_units;     ///< size n
   std::vector<std::string> constraint_names;     ///< size m
+  std::vector<Trim> trims = {};                  ///< size k
   std::vector<Effect> effects;                   ///< the states of elements follow their order
   std::vector<MassCarrier> masses;               ///< only of a multibody model
   std::optional<Eigen::Vector3d> rotation_axis;  ///< unit vector; empty if the frame does not rotate
@@ -131,7 +142,7 @@ template <class Real>
 struct BasicSteadyResidual {
   using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   Columns force;       ///< n x (order + 1): A^T lambda - f
-  Columns constraint;  ///< m x (order + 1): c
+  Columns constraint;  ///< (m + k) x (order + 1): c, and the conditions g
 };
 using SteadyResidual = BasicSteadyResidual<double>;
 
@@ -146,6 +157,12 @@ struct BasicLinearization {
   Coefficients A;  ///< m x n
 };
 using Linearization = BasicLinearization<double>;
+
+/// First derivatives, at a point, that a trim adds to those of the linearization.
+struct TrimDerivatives {
+  Matrix force, constraint;  ///< n x k, m x k: of A^T lambda - f and of c with respect to u
+  Matrix x, lambda, trim;    ///< k x n, k x m, k x k: of the conditions g with respect to x, lambda and u
+};
 
 /// Constant matrices, n x n, of which M, C and K are linear combinations.
 struct CoefficientMatrices {
@@ -185,6 +202,17 @@ class Model {
   Eigen::Index n_constraints() const {
     return static_cast<Eigen::Index>(description_.constraint_names.size());
   }
+  Eigen::Index n_trims() const { return static_cast<Eigen::Index>(description_.trims.size()); }
+  /// m + k: rows of lambda in a path.
+  Eigen::Index n_multipliers() const { return n_constraints() + n_trims(); }
+
+  /// lambda of a path for a first guess: multipliers zero, and the trimmed parameters as in `parameters`.
+  Vector first_multipliers(const Vector& parameters) const {
+    Vector lambda = Vector::Zero(n_multipliers());
+    for (Eigen::Index i = 0; i < n_trims(); ++i)
+      lambda[n_constraints() + i] = parameters[description_.trims[static_cast<std::size_t>(i)].parameter];
+    return lambda;
+  }
 
   /// Starting guess for x at given parameters (declared units).
   virtual Vector initial_guess(const Vector& parameters) const = 0;
@@ -200,6 +228,12 @@ class Model {
   /// M, C, K + (A^T lambda)_/x and A along `path` up to h^order.
   virtual EvaluationFault linearize(const Path& path, int order, Linearization& result,
                                     EvaluationCounts& counts) const = 0;
+
+  /// The derivatives at a point that belong to the trimmed parameters. Called only if there are any.
+  virtual EvaluationFault trim_derivatives(const Path& /*at*/, TrimDerivatives& /*result*/,
+                                           EvaluationCounts& /*counts*/) const {
+    return {"a model without trimmed parameters"};
+  }
 
   /// Constant matrices of which M, C and K are linear combinations for every value of the parameter with
   /// index `traced`, while the others stay as in `parameters` (declared units); none if they are not known or

@@ -30,11 +30,12 @@ struct SteadyReport {
   std::string message;         ///< reason of a failure
 };
 
-/// An equilibrium with its linearization, for a model with n coordinates and m constraints.
+/// An equilibrium with its linearization, for a model with n coordinates, m constraints and k trimmed
+/// parameters.
 struct [[nodiscard]] Equilibrium {
   SteadyStatus status = SteadyStatus::not_converged;
   Vector x;                     ///< n
-  Vector lambda;                ///< m
+  Vector lambda;                ///< m + k: multipliers, then trimmed parameters in their declared units
   Linearization linearization;  ///< of order 0, at (x, lambda)
   KktFactorization kkt;         ///< factored at (x, lambda)
   SteadyReport report;
@@ -44,7 +45,8 @@ struct [[nodiscard]] Equilibrium {
 /// iterates with a line search and the exact Jacobian; Newton corrections then reduce the error to the
 /// rounding level. An empty `lambda` is replaced by the least-squares multipliers (Eq. 15) at x. If this
 /// fails and options.relax is set, the guess is relaxed and the solution repeated. Failures are reported in
-/// the status.
+/// the status. Trimmed parameters are unknowns like the multipliers; their values in `parameters` are the
+/// guess if `lambda` is empty.
 Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, const Vector& x,
                               const Vector& lambda, const SteadyOptions& options, EvaluationCounts& counts);
 

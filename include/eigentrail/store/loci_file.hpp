@@ -30,6 +30,14 @@ struct LociEvent {
   Vector shift;  ///< derivative of the event's `parameter` with respect to q; NaN where not defined
 };
 
+/// A trimmed parameter in a loci file.
+struct TrimmedParameter {
+  std::string name;
+  std::string unit;            ///< "1" if it has none
+  std::string about;           ///< its condition
+  std::vector<double> values;  ///< per node
+};
+
 /// Contents of a loci file without eigenvalue derivatives and mode shapes.
 struct LociFile : RecordedPath {
   std::string path;
@@ -48,6 +56,7 @@ struct LociFile : RecordedPath {
   std::vector<double> residual, condition;        ///< node x mode, row-major
   Matrix equilibrium;                             ///< node x coordinate
   Matrix multiplier;                              ///< node x constraint
+  std::vector<TrimmedParameter> trimmed;          ///< their series are those of the steps
   std::map<std::string, std::string> attributes;  ///< root attributes as text
 
   /// A root attribute; throws InputError if the file lacks it.

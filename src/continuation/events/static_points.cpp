@@ -51,7 +51,10 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   if (frame.on_branch_point(node)) return {};
   FoundEvents found;
   Event event;
-  const bool is_fold = kernel_share(search, node) > search.thresholds().statics.branch_point_share;
+  // With trimmed parameters the path turns back where the steady equations with the conditions are singular;
+  // the stiffness, of motion with these parameters held, is not.
+  const bool trimmed = search.problem().model.n_trims() > 0;
+  const bool is_fold = trimmed || kernel_share(search, node) > search.thresholds().statics.branch_point_share;
   event.kind = is_fold ? EventKind::fold : EventKind::branch_point;
   if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
   // The vertex of the parabola p(h): with the distance d to it and the slope at the point, p changes by
@@ -59,6 +62,11 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   event.p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node);
   event.retrackings = 1;
   event.node = search.node;
+  if (trimmed) {
+    leave_unknown(search.problem().model.description().parameters.size(), event);
+    found.events.push_back(std::move(event));
+    return found;
+  }
   keep_vanishing_mode(node, event);
   if (is_fold) keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
   found.events.push_back(std::move(event));
@@ -84,7 +92,8 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   const bool is_zero = std::abs(event.s) <= thresholds.zero * std::max(problem.s_ref, least_reference);
   const bool of_one = event.kind == EventKind::crossing && event.modes.size() == 1;
   const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::divergence || of_one;
-  if (problem.structure.known_equilibrium || !is_zero || !may_be) return {{std::move(event)}};
+  const bool passes = problem.structure.known_equilibrium || problem.model.n_trims() > 0;
+  if (passes || !is_zero || !may_be) return {{std::move(event)}};
   if (frame.bridge && std::abs(event.p - frame.branch_point.p) <= at_branch_point * frame.range.length())
     return {};
   if (kernel_share(search, node) > thresholds.branch_point_share) return {};

@@ -225,6 +225,12 @@ bool build_bridge(const PointSolver& solver, PathFrame& frame, const PathNode& n
   return true;
 }
 
+/// Whether paths may cross where a mode of the pencil is zero. With trimmed parameters such a mode is one of
+/// motion with these parameters held, and the path goes on.
+bool may_branch(const PathProblem& problem) {
+  return problem.model.n_trims() == 0 && equilibrium_moves(problem);
+}
+
 }  // namespace
 
 bool equilibrium_moves(const PathProblem& problem) {
@@ -254,7 +260,7 @@ std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& 
 
 bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const PathNode& node, double h,
                          const PathNode* next, int& tries) {
-  if (!equilibrium_moves(solver.problem()) || node.pencil.size() == 0 || tries >= most_tries) return false;
+  if (!may_branch(solver.problem()) || node.pencil.size() == 0 || tries >= most_tries) return false;
   // A step that begins or ends on a bridge leads over a branch point that is known.
   const double here = frame.coordinate(node);
   if (frame.bridge && (frame.bridge->covers(here) || frame.bridge->covers(here + h))) return false;
@@ -267,7 +273,7 @@ bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const Path
 
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point) {
   const PathProblem& problem = solver.problem();
-  if (!equilibrium_moves(problem) || point.pencil.size() == 0) return std::nullopt;
+  if (!may_branch(problem) || point.pencil.size() == 0) return std::nullopt;
   const Stiffness stiffness = held_stiffness(point);
   if (stiffness.K.size() == 0 || stiffness.determinant().sign != 0.0) return std::nullopt;
   const std::optional<PathNode> node = differentiate_point(problem, point, solver.counts());

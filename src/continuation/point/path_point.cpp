@@ -23,8 +23,8 @@ Equilibrium equilibrium_at(const PathProblem& problem, double& p, const Equilibr
   const Vector parameters = parameters_at(problem, p);
   // An equilibrium that does not depend on the parameter is solved for once, at the start.
   if (problem.structure.known_equilibrium || (problem.structure.fixed_equilibrium && guess.solved)) {
-    const Eigen::Index m = problem.model.n_constraints();
-    const Vector lambda = guess.lambda.size() == m ? guess.lambda : Vector(Vector::Zero(m));
+    const bool known = guess.lambda.size() == problem.model.n_multipliers();
+    const Vector lambda = known ? guess.lambda : problem.model.first_multipliers(parameters);
     return keep_equilibrium(problem.model, parameters, guess.x, lambda, counts.evaluations);
   }
   if (problem.rests && guess.solved && !plane)

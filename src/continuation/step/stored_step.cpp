@@ -27,17 +27,25 @@ bool keeps_order(const DenseBlock& block, double h, const Track& left, const Tra
   return leads(start, from, right.roots, 1.0) && leads(right.roots, 1.0, start, from);
 }
 
+/// The series of a row at both ends of a step.
+Matrix ends(const VectorSeries& left, const VectorSeries& right, Eigen::Index row, Eigen::Index count) {
+  Matrix result(2, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    result(0, k) = coefficient(left, row, k);
+    result(1, k) = coefficient(right, row, k);
+  }
+  return result;
+}
+
 }  // namespace
 
 PathStep stored_step(const PathProblem& problem, const Step& step, const std::vector<bool>& certified) {
   PathStep stored;
   stored.length = step.h;
   const Eigen::Index count = problem.order + 1;
-  stored.parameter = Matrix::Zero(2, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    stored.parameter(0, k) = coefficient(step.left->path.parameters, problem.traced, k);
-    stored.parameter(1, k) = coefficient(step.right.path.parameters, problem.traced, k);
-  }
+  stored.parameter = ends(step.left->path.parameters, step.right.path.parameters, problem.traced, count);
+  for (Eigen::Index i = problem.model.n_constraints(); i < problem.model.n_multipliers(); ++i)
+    stored.trimmed.push_back(ends(step.left->path.lambda, step.right.path.lambda, i, count));
   for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
     const Track& left = step.left->tracks[i];
     const Track& right = step.right.tracks[i];

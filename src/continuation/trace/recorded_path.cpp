@@ -36,6 +36,17 @@ double RecordedPath::parameter_at(const Position& position) const {
   return HermiteInterpolant(step.length, ends.row(0), ends.row(1))(position.t)[0].real();
 }
 
+Vector RecordedPath::trimmed_at(const Position& position) const {
+  const PathStep& step = steps[position.step];
+  Vector values(static_cast<Eigen::Index>(step.trimmed.size()));
+  for (std::size_t i = 0; i < step.trimmed.size(); ++i) {
+    const ComplexMatrix ends = step.trimmed[i].cast<Complex>();
+    values[static_cast<Eigen::Index>(i)] =
+        HermiteInterpolant(step.length, ends.row(0), ends.row(1))(position.t)[0].real();
+  }
+  return values;
+}
+
 ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
   const auto left = static_cast<Eigen::Index>(position.step);
   if (position.t == 0.0) return eigenvalues.row(left).transpose();

@@ -50,6 +50,7 @@ bool leaves_its_path(const TraceOptions& options) {
 SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& options, const Vector& x,
                             const Vector& lambda) {
   const Model& model = problem.model;
+  if (model.n_trims() > 0) return {};
   const Structure& structure = problem.structure;
   const CoefficientMatrices known = model.coefficient_matrices(problem.parameters, problem.traced);
   const bool gives_coefficients = !known.M.empty() || !known.C.empty() || !known.K.empty();

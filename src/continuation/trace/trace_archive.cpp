@@ -167,7 +167,7 @@ constexpr double matrix_rounding = 1e-9;
 
 /// The sizes of all vectors and matrices at a point.
 struct PointSizes {
-  Eigen::Index parameters = 0, coordinates = 0, constraints = 0, freedoms = 0;
+  Eigen::Index parameters = 0, coordinates = 0, constraints = 0, multipliers = 0, freedoms = 0;
   int columns = 0;  ///< number of modes
 };
 
@@ -210,7 +210,7 @@ bool is_series(const VectorSeries& columns, Eigen::Index rows) {
 bool fits(const Path& path, const Model& model) {
   const auto parameters = static_cast<Eigen::Index>(model.description().parameters.size());
   return is_series(path.parameters, parameters) && is_series(path.x, model.n_coordinates()) &&
-         is_series(path.lambda, model.n_constraints());
+         is_series(path.lambda, model.n_multipliers());
 }
 
 /// Whether a pencil falls apart as the problem does.
@@ -237,7 +237,7 @@ bool fits(const PathNode& node, const PointSizes& sizes, const IndependentParts*
   }
   const Linearization& full = node.linearization;
   return is_series(node.path.parameters, sizes.parameters) && is_series(node.path.x, n) &&
-         is_series(node.path.lambda, sizes.constraints) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
+         is_series(node.path.lambda, sizes.multipliers) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
          all_are(full.K, n, n) && all_are(full.A, sizes.constraints, n) &&
          all_are(node.basis.T, n, sizes.freedoms) && all_are(node.pencil.M, sizes.freedoms, sizes.freedoms) &&
          all_are(node.pencil.C, sizes.freedoms, sizes.freedoms) &&
@@ -266,7 +266,10 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   const TraceResult& result = state.result;
   const StepOrigin& origin = state.origin;
   const PointSizes sizes{static_cast<Eigen::Index>(model.description().parameters.size()),
-                         model.n_coordinates(), model.n_constraints(), result.n_independent,
+                         model.n_coordinates(),
+                         model.n_constraints(),
+                         model.n_multipliers(),
+                         result.n_independent,
                          result.n_columns};
   const std::size_t effects = model.description().effects.size();
   const EvaluationCounts& counts = result.counts.evaluations;

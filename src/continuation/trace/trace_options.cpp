@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 
 namespace eigentrail {
 namespace {
@@ -319,6 +320,9 @@ TraceSetup prepare_trace(Scene scene, const OptionTexts& overrides, Purpose purp
     points[i][setup.traced()] = (1.0 - share) * options.from + share * options.to;
   }
   setup.model = build_model(setup.scene, {points, used, options.without, purpose == Purpose::strengths});
+  if (is_trimmed(setup.scene, options.parameter))
+    throw InputError(setup.scene.path + ": [trace] parameter: '" + options.parameter +
+                     "' is the unknown of a [[trim]]; trace another parameter, or leave out the trim");
   for (const int unused : setup.model->description().unused_parameters) {
     if (unused == setup.traced() && purpose != Purpose::operating_point)
       throw unused_error(setup.scene, unused);

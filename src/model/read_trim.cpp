@@ -1,0 +1,327 @@
+#include "model/read_trim.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A condition in parts: "force(wing, z) = weight".
+struct ConditionText {
+  std::string quantity;                ///< "force"
+  std::vector<std::string> arguments;  ///< "wing", "z"
+  std::string target;                  ///< "weight"
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+struct QuantityKind {
+  std::string_view name, arguments, unit;
+};
+constexpr std::array<QuantityKind, 5> quantity_kinds = {
+    {{"thrust", "inflow", "N"},
+     {"force", "strips or joint, axis", "N"},
+     {"moment", "joint, axis, or torsional spring", "N m"},
+     {"angle", "joint", "rad"},
+     {"position", "place, axis", "m"}}};
+
+std::string list_of_quantities() {
+  std::string list;
+  for (const QuantityKind& kind : quantity_kinds)
+    list += (list.empty() ? "" : ", ") + std::string(kind.name) + "(" + std::string(kind.arguments) + ")";
+  return list;
+}
+
+ConditionText split(const TableReader& table, const std::string& text) {
+  const std::size_t equals = text.find('='), open = text.find('('), close = text.find(')');
+  const bool in_order = open < close && close < equals && equals != std::string::npos &&
+                        trimmed(text.substr(close + 1, equals - close - 1)).empty();
+  if (!in_order)
+    table.fail("condition", "expected \"quantity(name) = expression\", found \"" + text +
+                                "\"; quantities are " + list_of_quantities());
+  ConditionText parts{trimmed(text.substr(0, open)), {}, trimmed(text.substr(equals + 1))};
+  std::string inside = text.substr(open + 1, close - open - 1);
+  for (std::size_t comma = inside.find(','); comma != std::string::npos; comma = inside.find(',')) {
+    parts.arguments.push_back(trimmed(inside.substr(0, comma)));
+    inside = inside.substr(comma + 1);
+  }
+  parts.arguments.push_back(trimmed(inside));
+  return parts;
+}
+
+template <class Element>
+std::vector<Placed<Element>>& list_of(Elements& elements) {
+  return std::get<std::vector<Placed<Element>>>(elements.lists);
+}
+
+class TrimReader {
+ public:
+  TrimReader(Draft& draft, const std::vector<InflowDraft>& inflows) : draft_(draft), inflows_(inflows) {}
+
+  TrimCondition read(TableReader& table) {
+    TrimCondition trim;
+    const std::string name = table.text("unknown");
+    trim.parameter = unknown(table, name);
+    trim.text = printable(table.text("condition"));
+    const ConditionText parts = split(table, trim.text);
+    const auto kind = std::find_if(quantity_kinds.begin(), quantity_kinds.end(),
+                                   [&](const QuantityKind& k) { return k.name == parts.quantity; });
+    if (kind == quantity_kinds.end())
+      table.fail("condition",
+                 "no quantity is called '" + parts.quantity + "'; there are " + list_of_quantities());
+    trim.quantity = quantity(table, parts);
+    trim.target = draft_.quantity(target(table, parts.target, kind->unit));
+    table.finish();
+    return trim;
+  }
+
+ private:
+  int unknown(TableReader& table, const std::string& name) {
+    const auto index = draft_.scene.parameters.index(name);
+    if (!index) {
+      table.fail("unknown", "no parameter is called '" + name +
+                                "'; declare it in [parameters] with a guess; " +
+                                suggestion(name, draft_.scene.parameters.names()));
+    }
+    const Parameter& parameter = draft_.scene.parameters[static_cast<std::size_t>(*index)];
+    if (parameter.definition)
+      table.fail("unknown",
+                 "'" + name + "' is defined by other parameters; declare it with a number, its guess");
+    for (const TrimCondition& other : draft_.data.trims) {
+      if (other.parameter == *index)
+        table.fail("unknown", "'" + name + "' is the unknown of another [[trim]] already");
+    }
+    return *index;
+  }
+
+  /// The right side, with the place of the condition in the file.
+  Expression target(TableReader& table, const std::string& text, std::string_view unit) {
+    Table side;
+    side.where = draft_.begun_where;
+    side.entries.emplace_back("condition", Value{text, draft_.begun_where});
+    TableReader reader(draft_.scene, side, table.label(), draft_.used);
+    return reader.expression("condition", unit);
+  }
+
+  std::variant<TrimLoad, TrimPlace, TrimAngle> quantity(TableReader& table, const ConditionText& parts) {
+    const std::string& name = parts.arguments[0];
+    const bool spring = parts.quantity == "moment" && has_label<TorsionalSpring>(name);
+    const bool has_axis =
+        parts.quantity == "force" || parts.quantity == "position" || (parts.quantity == "moment" && !spring);
+    if (parts.arguments.size() != (has_axis ? 2u : 1u))
+      table.fail("condition", parts.quantity + (has_axis ? ": expected a name and an axis, x, y or z"
+                                                         : ": expected one name in the brackets"));
+    if (parts.quantity == "thrust") return thrust(table, name);
+    if (parts.quantity == "angle") return angle(table, name);
+    if (spring) return spring_moment(name);
+    const Axis axis = read_axis(table, parts.arguments[1]);
+    if (parts.quantity == "position") return TrimPlace{place(table, name), axis};
+    return load(table, name, axis, parts.quantity == "moment");
+  }
+
+  static Axis read_axis(TableReader& table, const std::string& name) {
+    const std::size_t axis = std::string_view("xyz").find(name);
+    if (name.size() != 1 || axis == std::string_view::npos)
+      table.fail("condition", "expected the axis x, y or z, found \"" + name + "\"");
+    return {static_cast<int>(axis)};
+  }
+
+  Place place(TableReader& table, const std::string& name) {
+    Table side;
+    side.where = draft_.begun_where;
+    side.entries.emplace_back("condition", Value{name, draft_.begun_where});
+    TableReader reader(draft_.scene, side, table.label(), draft_.used);
+    return draft_.read_moving_place(reader, "condition");
+  }
+
+  /// What the thrust does on the coordinate of the mean inflow; the air answers it.
+  TrimLoad thrust(TableReader& table, const std::string& name) {
+    TrimLoad load;
+    std::vector<std::string> names;
+    for (const InflowDraft& inflow : inflows_) {
+      names.push_back(inflow.name);
+      if (inflow.name == name) load.motion.places = {inflow.element.velocity.terms.front().triple};
+    }
+    if (load.motion.places.empty())
+      table.fail("condition",
+                 "no [[inflow]] is called '" + name + "'" +
+                     (names.empty() ? "; force(strips, axis) needs none" : "; " + suggestion(name, names)));
+    take<Inflow>(name, load);
+    load.motion.axis = fixed_axis({0});
+    load.motion.sign = -1.0;
+    return load;
+  }
+
+  TrimAngle angle(TableReader& table, const std::string& name) {
+    const auto found = draft_.joint_angles.find(name);
+    if (found == draft_.joint_angles.end() || found->second.size() != 1) {
+      std::vector<std::string> names;
+      for (const auto& [label, angles] : draft_.joint_angles) {
+        if (angles.size() == 1) names.push_back(label);
+      }
+      table.fail("condition", "no joint with one angle (revolute, cylindrical) is called '" + name + "'; " +
+                                  suggestion(name, names));
+    }
+    TrimAngle result{found->second.front(), {}};
+    for (Place* direction : {&result.angle.axis, &result.angle.from, &result.angle.to}) {
+      if (!direction->moves()) continue;
+      direction->argument = static_cast<int>(result.arguments.size());
+      result.arguments.push_back(*direction);
+    }
+    return result;
+  }
+
+  /// The moment of a torsional spring in the direction of growing angles, on the side that turns.
+  TrimLoad spring_moment(const std::string& name) {
+    TrimLoad load;
+    take<TorsionalSpring>(name, load);
+    const HingeAngle& angle = list_of<TorsionalSpring>(load.elements).front().element.angle;
+    load.motion.axis = angle.axis;
+    load.motion.about = draft_.fixed_place({});
+    load.motion.sign = angle.to.moves() ? 1.0 : -1.0;
+    for (const Term& term : (angle.to.moves() ? angle.to : angle.from).terms)
+      load.motion.directions.push_back(term.triple);
+    return load;
+  }
+
+  TrimLoad load(TableReader& table, const std::string& name, Axis axis, bool moment) {
+    TrimLoad load;
+    load.motion.axis = fixed_axis(axis);
+    if (!moment && take_strips(name, load)) {
+      const int n_points = static_cast<int>(draft_.points.size());
+      load.motion.places.resize(static_cast<std::size_t>(n_points));
+      std::iota(load.motion.places.begin(), load.motion.places.end(), 0);
+      for (const BodyDraft& body : draft_.bodies) load.motion.places.push_back(body.triple);
+      return load;
+    }
+    for (const Constraint& constraint : draft_.data.constraints) {
+      if (constraint.label == name && draft_.constraint_labels.contains(name))
+        load.constraints.push_back(constraint);
+    }
+    if (load.constraints.empty()) fail_unknown(table, name, moment);
+    move_one_side(table, name, moment, load.motion);
+    return load;
+  }
+
+  /// The motion of the second side of a joint; of the first side, reversed, if the second one is the frame.
+  void move_one_side(TableReader& table, const std::string& name, bool moment, VirtualMotion& motion) {
+    TableReader joint = table_of_constraint(name);
+    std::vector<std::string> keys = {"to", "from"};
+    if (joint.has("point")) keys = {"point"};
+    for (const std::string& key : keys) {
+      Carrier carrier;
+      const Place at = draft_.read_place(joint, key, &carrier);
+      if (carrier.is_frame()) {
+        motion.sign = -motion.sign;
+        continue;
+      }
+      if (carrier.body < 0) {
+        if (moment) table.fail("condition", "'" + name + "' holds a point, on which it has no moment");
+        motion.places = {carrier.point};
+        return;
+      }
+      const int origin = draft_.bodies[static_cast<std::size_t>(carrier.body)].triple;
+      motion.places = {origin};
+      if (!moment) return;
+      motion.about = at;
+      motion.directions = {origin + 1, origin + 2, origin + 3};
+      return;
+    }
+  }
+
+  TableReader table_of_constraint(const std::string& name) {
+    for (const ConstraintKind& kind : constraint_kinds()) {
+      const std::vector<const Table*> all = tables(draft_.scene, std::string(kind.name));
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        TableReader table(draft_.scene, *all[i], "[[" + std::string(kind.name) + "]]", draft_.used);
+        if ((table.has("name") ? printable(table.text("name")) : numbered(kind.name, i)) == name)
+          return table;
+      }
+    }
+    throw std::logic_error("a constraint without table: " + name);
+  }
+
+  [[noreturn]] void fail_unknown(TableReader& table, const std::string& name, bool moment) {
+    std::vector<std::string> names(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
+    if (moment) {
+      for (const auto& spring : list_of<TorsionalSpring>(draft_.data.elements)) names.push_back(spring.label);
+    } else {
+      for (const std::string_view kind : {Strip::name, BladeElement::name}) {
+        const std::vector<const Table*> all = tables(draft_.scene, std::string(kind));
+        for (std::size_t i = 0; i < all.size(); ++i) names.push_back(name_of(*all[i], kind, i));
+      }
+    }
+    table.fail("condition", std::string("no ") + (moment ? "joint or torsional spring" : "joint or strips") +
+                                " is called '" + name + "'; " + suggestion(name, names));
+  }
+
+  std::string name_of(const Table& of, std::string_view kind, std::size_t i) {
+    TableReader table(draft_.scene, of, "", draft_.used);
+    return table.has("name") ? printable(table.text("name")) : numbered(kind, i);
+  }
+
+  template <class Element>
+  bool has_label(const std::string& name) {
+    const auto& all = list_of<Element>(draft_.data.elements);
+    return std::any_of(all.begin(), all.end(), [&](const auto& placed) { return placed.label == name; });
+  }
+
+  /// Copies the elements of that label, or of the strips of that name, to the load.
+  template <class Element>
+  void take(const std::string& name, TrimLoad& load) {
+    for (const auto& placed : list_of<Element>(draft_.data.elements)) {
+      if (placed.label == name || placed.label.starts_with(name + ", strip "))
+        list_of<Element>(load.elements).push_back(placed);
+    }
+  }
+
+  bool take_strips(const std::string& name, TrimLoad& load) {
+    take<Strip>(name, load);
+    take<BladeElement>(name, load);
+    if (list_of<Strip>(load.elements).empty() && list_of<BladeElement>(load.elements).empty()) return false;
+    take<LiftLag>(name, load);
+    take<ApparentMass>(name, load);
+    return true;
+  }
+
+  Place fixed_axis(Axis axis) {
+    return draft_.fixed_place(unit_vector(static_cast<std::size_t>(axis.index)));
+  }
+
+  Draft& draft_;
+  const std::vector<InflowDraft>& inflows_;
+};
+
+}  // namespace
+
+void read_trims(Draft& draft, const std::vector<InflowDraft>& inflows) {
+  const std::vector<const Table*> all = tables(draft.scene, "trim");
+  if (all.empty()) return;
+  if (draft.rotor)
+    throw trim_error(draft.scene, "a scene with [rotor], whose blades are in multiblade coordinates");
+  TrimReader reader(draft, inflows);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    TableReader table = draft.reader(*all[i], "[[trim]] " + std::to_string(i + 1));
+    draft.data.trims.push_back(reader.read(table));
+  }
+}
+
+InputError trim_error(const Scene& scene, const std::string& reason) {
+  return scene_error(scene, tables(scene, "trim").front()->where, "[[trim]]: not in " + reason);
+}
+
+std::vector<FieldHelp> trim_fields() {
+  return {{"unknown", "name of a parameter",
+           "what is solved for; its value in [parameters] is the guess, and in the motion it is constant"},
+          {"condition", "text",
+           "\"quantity = expression\", what holds at the equilibrium; quantities are " +
+               list_of_quantities() + ", along axes x, y, z of the frame"}};
+}
+
+}  // namespace eigentrail

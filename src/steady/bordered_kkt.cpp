@@ -1,0 +1,96 @@
+#include "steady/bordered_kkt.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Pivots below this share of the largest one belong to the kernel, in kernel_in_border.
+constexpr double rounding_pivot = 1e-12;
+
+Matrix with_column(const Matrix& matrix, const Vector& column) {
+  Matrix result(column.size(), matrix.cols() + 1);
+  result << matrix, column;
+  return result;
+}
+
+}  // namespace
+
+KktBorder KktBorder::and_one(const Vector& of_force, const Vector& of_constraint, const Vector& along,
+                             double of_unknown) const {
+  const Eigen::Index k = unknown.rows();
+  const Eigen::Index m = of_constraint.size() - k;
+  KktBorder result;
+  result.force = with_column(force, of_force);
+  result.constraint = with_column(constraint, of_constraint.head(m));
+  result.x = with_column(x.transpose(), along).transpose();
+  if (lambda.size() > 0) result.lambda = with_column(lambda.transpose(), Vector::Zero(m)).transpose();
+  result.unknown = Matrix::Zero(k + 1, k + 1);
+  result.unknown.topLeftCorner(k, k) = unknown;
+  result.unknown.topRightCorner(k, 1) = of_constraint.tail(k);
+  result.unknown(k, k) = of_unknown;
+  return result;
+}
+
+BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& constraints, KktBorder border)
+    : K_(K), constraints_(constraints), border_(std::move(border)) {
+  const Matrix& Q2 = constraints_.null_basis();
+  const Eigen::Index f = Q2.cols();
+  const Eigen::Index q = border_.unknown.rows();
+  follow_ = -constraints_.pseudo_inverse_times(border_.constraint);
+  // L dl, with dl eliminated, adds to the rows of dx and du.
+  Matrix row = border_.x;
+  Matrix of_unknown = border_.unknown;
+  if (border_.lambda.size() > 0) {
+    Matrix reaction(q, K_.rows());  // L (A^T)+
+    for (Eigen::Index j = 0; j < K_.rows(); ++j)
+      reaction.col(j) =
+          border_.lambda * constraints_.transposed_pseudo_inverse_times(Vector::Unit(K_.rows(), j));
+    row -= reaction * K_;
+    of_unknown -= reaction * border_.force;
+  }
+  Matrix B(f + q, f + q);
+  B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
+  B.topRightCorner(f, q) = Q2.transpose() * (border_.force + K_ * follow_);
+  B.bottomLeftCorner(q, f) = row * Q2;
+  B.bottomRightCorner(q, q) = of_unknown + row * follow_;
+  // Rows and columns of different units are scaled to unit norm.
+  const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
+  rows_ = B.rowwise().norm().unaryExpr(inverse);
+  B = rows_.asDiagonal() * B;
+  columns_ = B.colwise().norm().transpose().unaryExpr(inverse);
+  scaled_ = B * columns_.asDiagonal();
+  lu_.compute(scaled_);
+}
+
+Vector BorderedKkt::multipliers(const Vector& r, const Vector& dx, const Vector& du) const {
+  return constraints_.transposed_pseudo_inverse_times(r - K_ * dx - border_.force * du);
+}
+
+void BorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vector& dx, Vector& dl,
+                        Vector& du) const {
+  const Matrix& Q2 = constraints_.null_basis();
+  const Eigen::Index f = Q2.cols();
+  dx = constraints_.pseudo_inverse_times(g);
+  Vector right(f + h.size());
+  right << Q2.transpose() * (r - K_ * dx), h - border_.x * dx;
+  if (border_.lambda.size() > 0)
+    right.tail(h.size()) -= border_.lambda * multipliers(r, dx, Vector::Zero(h.size()));
+  const Vector solution = columns_.cwiseProduct(lu_.solve(rows_.cwiseProduct(right)));
+  du = solution.tail(h.size());
+  dx += Q2 * solution.head(f) + follow_ * du;
+  dl = multipliers(r, dx, du);
+}
+
+Matrix BorderedKkt::kernel_in_border() const {
+  const Eigen::Index q = border_.unknown.rows();
+  const auto in_border = [q](const Matrix& matrix) -> Vector {
+    Eigen::FullPivLU<Matrix> lu(matrix);
+    lu.setThreshold(rounding_pivot);
+    if (lu.isInvertible()) return Vector::Zero(q);
+    return lu.kernel().bottomRows(q).rowwise().norm();
+  };
+  Matrix result(2, q);
+  result << in_border(scaled_).transpose(), in_border(scaled_.transpose()).transpose();
+  return result;
+}
+
+}  // namespace eigentrail
