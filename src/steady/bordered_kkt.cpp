@@ -36,22 +36,25 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
   const Eigen::Index f = Q2.cols();
   const Eigen::Index q = border_.unknown.rows();
   follow_ = -constraints_.pseudo_inverse_times(border_.constraint);
+  rows_of_x_ = border_.x.transpose();
   // L dl, with dl eliminated, adds to the rows of dx and du.
-  Matrix row = border_.x;
+  Matrix row = rows_of_x_;
   Matrix of_unknown = border_.unknown;
   if (border_.lambda.size() > 0) {
     Matrix reaction(q, K_.rows());  // L (A^T)+
     for (Eigen::Index j = 0; j < K_.rows(); ++j)
       reaction.col(j) =
           border_.lambda * constraints_.transposed_pseudo_inverse_times(Vector::Unit(K_.rows(), j));
-    row -= reaction * K_;
+    row -= (reaction * K_).transpose();
     of_unknown -= reaction * border_.force;
   }
   Matrix B(f + q, f + q);
   B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
-  B.topRightCorner(f, q) = Q2.transpose() * (border_.force + K_ * follow_);
-  B.bottomLeftCorner(q, f) = row * Q2;
-  B.bottomRightCorner(q, q) = of_unknown + row * follow_;
+  for (Eigen::Index i = 0; i < q; ++i) {
+    B.block(0, f + i, f, 1) = Q2.transpose() * (border_.force.col(i) + K_ * follow_.col(i));
+    B.block(f + i, 0, 1, f) = row.col(i).transpose() * Q2;
+    for (Eigen::Index j = 0; j < q; ++j) B(f + i, f + j) = of_unknown(i, j) + row.col(i).dot(follow_.col(j));
+  }
   // Rows and columns of different units are scaled to unit norm.
   const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
   rows_ = B.rowwise().norm().unaryExpr(inverse);
@@ -62,7 +65,10 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
 }
 
 Vector BorderedKkt::multipliers(const Vector& r, const Vector& dx, const Vector& du) const {
-  return constraints_.transposed_pseudo_inverse_times(r - K_ * dx - border_.force * du);
+  const Vector restored = K_ * dx;
+  Vector force = r - restored;
+  for (Eigen::Index i = 0; i < du.size(); ++i) force -= du[i] * border_.force.col(i);
+  return constraints_.transposed_pseudo_inverse_times(force);
 }
 
 void BorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vector& dx, Vector& dl,
@@ -71,12 +77,15 @@ void BorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vecto
   const Eigen::Index f = Q2.cols();
   dx = constraints_.pseudo_inverse_times(g);
   Vector right(f + h.size());
-  right << Q2.transpose() * (r - K_ * dx), h - border_.x * dx;
+  right.head(f) = Q2.transpose() * (r - K_ * dx);
+  for (Eigen::Index i = 0; i < h.size(); ++i) right[f + i] = h[i] - rows_of_x_.col(i).dot(dx);
   if (border_.lambda.size() > 0)
     right.tail(h.size()) -= border_.lambda * multipliers(r, dx, Vector::Zero(h.size()));
   const Vector solution = columns_.cwiseProduct(lu_.solve(rows_.cwiseProduct(right)));
   du = solution.tail(h.size());
-  dx += Q2 * solution.head(f) + follow_ * du;
+  Vector change = Q2 * solution.head(f);
+  for (Eigen::Index i = 0; i < du.size(); ++i) change += du[i] * follow_.col(i);
+  dx += change;
   dl = multipliers(r, dx, du);
 }
 

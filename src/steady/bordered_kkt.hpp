@@ -50,7 +50,8 @@ class BorderedKkt {
   Matrix K_;
   ConstraintFactorization constraints_;
   KktBorder border_;
-  Matrix follow_;  ///< n x q: -A+ G
+  Matrix follow_;     ///< n x q: -A+ G
+  Matrix rows_of_x_;  ///< n x q: X^T
   Vector rows_, columns_;
   Matrix scaled_;
   Eigen::FullPivLU<Matrix> lu_;

@@ -1,0 +1,455 @@
+// Trimmed parameters: unknowns of the equilibrium that conditions determine.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/steady/equilibrium.hpp"
+#include "support/resumed.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr double g = 9.81, mass = 2.0, arm = 0.7, inertia = 0.01, stiffness = 3.0;
+
+/// A physical pendulum with a torsional spring, on which a torque acts.
+std::string pendulum(const std::string& trace, const std::string& trims) {
+  return R"(
+[parameters]
+torque = { value = 0.1, unit = "N m" }
+push = { value = 0.0, unit = "N" }
+angle = { value = 0.3, unit = "rad" }
+reach = { value = 0.2, unit = "m" }
+load = { value = 1.0, unit = "N" }
+moment = { value = 1.0, unit = "N m" }
+idle = { value = 1.0, unit = "N" }
+[gravity]
+acceleration = [0, 0, -9.81]
+[[body]]
+name = "bob"
+mass = 2
+centre = [0, 0, -0.7]
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, 0]
+markers = { tip = [0, 0, -0.7] }
+[[revolute]]
+name = "hinge"
+from = [0, 0, 0]
+to = "bob"
+axis = [0, -1, 0]
+[[torsional_spring]]
+name = "spring"
+joint = "hinge"
+stiffness = 3
+[[moment]]
+body = "bob"
+along = [0, -1, 0]
+magnitude = "torque"
+[[force]]
+point = "bob.tip"
+components = ["push", 0, 0]
+[trace]
+tolerance = 1e-9
+)" + trace +
+         trims;
+}
+
+std::string trim(const std::string& unknown, const std::string& condition) {
+  return "\n[[trim]]\nunknown = \"" + unknown + "\"\ncondition = \"" + condition + "\"\n";
+}
+
+std::string along(const std::string& parameter, double from, double to) {
+  return "parameter = \"" + parameter + "\"\nfrom = " + std::to_string(from) +
+         "\nto = " + std::to_string(to) + "\n";
+}
+
+/// Frequency of the pendulum at an angle, with the torque held.
+double frequency(double angle) {
+  return std::sqrt((mass * g * arm * std::cos(angle) + stiffness) / (inertia + mass * arm * arm));
+}
+
+double holding_torque(double angle) {
+  return mass * g * arm * std::sin(angle) + stiffness * angle;
+}
+
+struct Solved {
+  Equilibrium at;
+  Vector unknowns;
+};
+
+/// The equilibrium from the scene's guess.
+Solved solve(const Setting& setting, const std::string& parameter, double value) {
+  EvaluationCounts counts = setting.model->new_counts();
+  Vector parameters = setting.scene.parameters.declared_values();
+  parameters[setting.parameter(parameter)] = value;
+  Solved result{solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters),
+                                  Vector(), {}, counts),
+                {}};
+  result.unknowns = result.at.lambda.tail(setting.model->n_trims());
+  return result;
+}
+
+TEST(Trim, TorqueHoldsAPendulumAtAnAngle) {
+  const Setting setting =
+      make_setting(pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle")));
+  for (const double angle : {0.2, 0.7, 1.1}) {
+    const Solved found = solve(setting, "angle", angle);
+    ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
+    EXPECT_NEAR(found.unknowns[0], holding_torque(angle), 1e-11);
+  }
+}
+
+/// The torque is constant in the motion: the frequency has the stiffness of gravity and spring alone, not
+/// that of a condition that holds the angle.
+TEST(Trim, LociFollowTheTrimmedStateWithTheUnknownsHeld) {
+  const Setting setting =
+      make_setting(pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle")));
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  for (int i = 0; i < 50; ++i) {
+    const double angle = 0.1 + 1.1 * i / 50.0;
+    const ComplexVector s = recorded.eigenvalues_at(angle);
+    ASSERT_EQ(s.size(), 1);
+    EXPECT_NEAR(s[0].imag(), frequency(angle), 4e-9 * frequency(angle));
+  }
+  const PathNode& last = recorded.nodes.back();
+  const Eigen::Index row = setting.model->n_constraints();
+  EXPECT_NEAR(last.path.lambda(row, 0), holding_torque(1.2), 1e-10);
+  EXPECT_NEAR(last.path.lambda(row, 1), mass * g * arm * std::cos(1.2) + stiffness, 1e-9);
+  // Each stored step has the series of the torque.
+  ASSERT_EQ(recorded.steps.front().trimmed.size(), 1u);
+  EXPECT_NEAR(recorded.steps.back().trimmed[0](1, 0), holding_torque(1.2), 1e-10);
+}
+
+/// A free hinge without gravity has no stiffness: only torque and condition together determine the angle.
+TEST(Trim, ConditionDeterminesAFreedomThatNothingElseHolds) {
+  std::string scene = pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle"));
+  const auto replace = [&scene](const std::string& what, const std::string& with) {
+    ASSERT_NE(scene.find(what), std::string::npos);
+    scene.replace(scene.find(what), what.size(), with);
+  };
+  replace("-9.81", "-0.0");
+  replace("stiffness = 3", "stiffness = 0");
+  const Setting setting = make_setting(scene);
+  const Solved found = solve(setting, "angle", 0.8);
+  ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
+  EXPECT_NEAR(found.unknowns[0], 0.0, 1e-12);
+  EXPECT_NEAR(std::atan2(found.at.x[9], found.at.x[11]), -0.8, 1e-12);  // z axis of the bob
+}
+
+TEST(Trim, QuantitiesHaveTheirClosedForms) {
+  struct Case {
+    const char* unknown;
+    const char* condition;
+    double expected;  // of the unknown, with the other parameters as declared
+  };
+  // At the angle a, the hinge carries weight and push; a negative moment about the hinge opposes the torque.
+  const double a = 0.4;
+  const std::string hold = trim("torque", "angle(hinge) = 0.4");
+  const double reach = arm * std::sin(a);
+  for (const Case& c :
+       {Case{"push", "force(hinge, x) = -load", 1.0}, Case{"push", "force(hinge, x) = 3 * load", -3.0}}) {
+    const Setting setting = make_setting(pendulum(along("load", 1, 2), hold + trim(c.unknown, c.condition)));
+    const Solved found = solve(setting, "load", 1.0);
+    ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
+    EXPECT_NEAR(found.unknowns[1], c.expected, 1e-11) << c.condition;
+    EXPECT_NEAR(found.unknowns[0], holding_torque(a) - c.expected * arm * std::cos(a), 1e-11) << c.condition;
+  }
+  const Setting of_place =
+      make_setting(pendulum(along("reach", 0.1, 0.3), trim("torque", "position(bob.tip, x) = reach")));
+  const Solved placed = solve(of_place, "reach", reach);
+  ASSERT_EQ(placed.at.status, SteadyStatus::converged) << placed.at.report.message;
+  EXPECT_NEAR(placed.unknowns[0], holding_torque(a), 1e-11);
+  const Setting of_spring =
+      make_setting(pendulum(along("moment", -2, -1), trim("torque", "moment(spring) = moment")));
+  const Solved sprung = solve(of_spring, "moment", -stiffness * a);
+  ASSERT_EQ(sprung.at.status, SteadyStatus::converged) << sprung.at.report.message;
+  EXPECT_NEAR(sprung.unknowns[0], holding_torque(a), 1e-11);
+}
+
+/// A joint that holds its angle has the moment of what it holds.
+TEST(Trim, HingeMomentOfAHeldJoint) {
+  std::string scene = pendulum(along("moment", 1, 2), trim("push", "moment(hinge, y) = moment"));
+  scene.replace(scene.find("axis = [0, -1, 0]\n"), 18, "axis = [0, -1, 0]\nangle = \"angle\"\n");
+  const Setting setting = make_setting(scene);
+  const Solved found = solve(setting, "moment", 1.5);
+  ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
+  // About -y: torque - weight - spring + push arm cos - moment of the hinge (about y) = 0.
+  const double a = 0.3;
+  EXPECT_NEAR(found.unknowns[0], (1.5 + holding_torque(a) - 0.1) / (arm * std::cos(a)), 1e-10);
+}
+
+const std::string wing = R"(
+[parameters]
+speed = { value = 20.0, unit = "m/s" }
+alpha = { value = 0.01, unit = "rad" }
+weight = { value = 100, unit = "N" }
+[trace]
+parameter = "speed"
+from = 20
+to = 60
+tolerance = 1e-9
+[[body]]
+name = "wing"
+mass = 10
+inertia = [1, 1, 1]
+position = [0, 0, 0]
+[[prismatic]]
+from = [0, 0, 0]
+to = "wing"
+axis = [0, 0, 1]
+[[spring]]
+from = [0, 0, 10]
+to = "wing"
+stiffness = 100
+free_length = 10
+[[strips]]
+name = "air"
+on = "wing"
+root = [0, -1, 0]
+tip = [0, 1, 0]
+leading = [-1, 0, 0]
+incidence = "alpha"
+chord = 0.4
+lift_slope = 5.5
+wind = ["speed", 0, 0]
+density = 1.2
+[[trim]]
+unknown = "alpha"
+condition = "force(air, z) = weight"
+)";
+
+TEST(Trim, LiftOfStripsCarriesAWeight) {
+  const Setting setting = make_setting(wing);
+  for (const double speed : {20.0, 35.0, 60.0}) {
+    const Solved found = solve(setting, "speed", speed);
+    ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
+    EXPECT_NEAR(found.unknowns[0], std::asin(100.0 / (0.5 * 1.2 * speed * speed * 0.8 * 5.5)), 1e-12);
+  }
+}
+
+/// The error of a series of order q is of order q + 1, in the coordinates and in the unknowns.
+TEST(Trim, SeriesHaveTheirOrder) {
+  const Setting setting = make_setting(
+      pendulum(along("reach", 0.1, 0.6), trim("torque", "position(bob.tip, x) = reach") +
+                                             trim("push", "force(hinge, x) = -(1 + torque/moment) * load")));
+  EvaluationCounts counts = setting.model->new_counts();
+  const double p0 = 0.35;
+  const Solved start = solve(setting, "reach", p0);
+  ASSERT_EQ(start.at.status, SteadyStatus::converged) << start.at.report.message;
+  Vector parameters = setting.scene.parameters.declared_values();
+  parameters[setting.parameter("reach")] = p0;
+  VectorSeries direction = VectorSeries::Zero(parameters.size(), 2);
+  direction.col(0) = parameters;
+  direction(setting.parameter("reach"), 1) = 1.0;
+  for (int order = 1; order <= 4; ++order) {
+    Path path;
+    ASSERT_FALSE(differentiate_equilibrium(*setting.model, start.at, direction, order, path, counts));
+    const auto misses = [&](double h) {
+      const Solved there = solve(setting, "reach", p0 + h);
+      return std::pair((evaluate_series(path.x, h) - there.at.x).norm(),
+                       (evaluate_series(path.lambda, h).tail(2) - there.unknowns).norm());
+    };
+    const auto [x, u] = misses(0.04);
+    const auto [x_half, u_half] = misses(0.02);
+    EXPECT_NEAR(std::log2(x / x_half), order + 1.0, 0.35) << "order " << order;
+    EXPECT_NEAR(std::log2(u / u_half), order + 1.0, 0.35) << "order " << order;
+  }
+}
+
+/// The rows that the solver uses, by central differences of the conditions themselves. The joint between two
+/// bodies moves, and so does the axis of the spring.
+TEST(Trim, DerivativesOfConditionsAgreeWithDifferences) {
+  const Setting setting = make_setting(R"(
+[parameters]
+a = { value = 1.0, unit = "N m" }
+b = { value = 1.0, unit = "N m" }
+c = { value = 1.0, unit = "N" }
+d = { value = 0.1, unit = "rad" }
+e = { value = 1.0, unit = "rad/s" }
+[trace]
+parameter = "e"
+from = 1
+to = 2
+[frame]
+angular_velocity = [0, 0, "e"]
+[[body]]
+name = "first"
+mass = 1
+inertia = [1, 2, 3]
+position = [1, 0, 0]
+[[body]]
+name = "second"
+mass = 1
+inertia = [1, 2, 3]
+position = [2, 0, 0]
+[[revolute]]
+from = [0.5, 0, 0]
+to = { body = "first", at = [-0.5, 0, 0] }
+axis = [0, 0, 1]
+name = "root"
+[[revolute]]
+name = "middle"
+from = { body = "first", at = [0.5, 0, 0] }
+to = { body = "second", at = [-0.5, 0, 0] }
+axis = [0, 1, 0]
+[[torsional_spring]]
+joint = "middle"
+name = "spring"
+stiffness = 10
+preload = "a"
+[[moment]]
+body = "second"
+along = [1, 2, 3]
+magnitude = "b"
+[[force]]
+point = "second"
+components = ["c", "c", "c"]
+[[strips]]
+name = "air"
+on = "second"
+root = [-0.5, 0, 0]
+tip = [0.5, 0, 0]
+incidence = "d"
+chord = 0.2
+[[trim]]
+unknown = "a"
+condition = "moment(spring) = b"
+[[trim]]
+unknown = "b"
+condition = "moment(middle, x) = 3 * a"
+[[trim]]
+unknown = "c"
+condition = "force(middle, y) = 2 * c"
+[[trim]]
+unknown = "d"
+condition = "force(air, z) = c"
+)");
+  const Model& model = *setting.model;
+  EvaluationCounts counts = model.new_counts();
+  const Vector parameters = setting.scene.parameters.declared_values();
+  Vector x = model.initial_guess(parameters);
+  x += 0.05 * Vector::LinSpaced(x.size(), -1.0, 1.3).array().sin().matrix();
+  Vector lambda = Vector::LinSpaced(model.n_multipliers(), 0.7, -1.1);
+  TrimDerivatives exact;
+  ASSERT_FALSE(model.trim_derivatives({parameters, x, lambda}, exact, counts));
+  const Eigen::Index n = x.size(), m = model.n_constraints(), k = model.n_trims();
+  const auto conditions = [&](const Vector& at_x, const Vector& at_lambda) -> Vector {
+    SteadyResidual residual;
+    EXPECT_FALSE(model.residual({parameters, at_x, at_lambda}, 0, residual, counts));
+    return residual.constraint.col(0).tail(k);
+  };
+  constexpr double h = 1e-5;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Vector step = h * Vector::Unit(n, j);
+    const Vector slope = (conditions(x + step, lambda) - conditions(x - step, lambda)) / (2.0 * h);
+    EXPECT_LT((slope - exact.x.col(j)).norm(), 1e-7) << model.description().coordinate_names[j];
+  }
+  for (Eigen::Index j = 0; j < m + k; ++j) {
+    const Vector step = h * Vector::Unit(m + k, j);
+    const Vector slope = (conditions(x, lambda + step) - conditions(x, lambda - step)) / (2.0 * h);
+    const Vector expected = j < m ? Vector(exact.lambda.col(j)) : Vector(exact.trim.col(j - m));
+    EXPECT_LT((slope - expected).norm(), 1e-7) << j;
+  }
+}
+
+/// position x = arm sin(angle) has its largest value where the pendulum stands level. The stiffness with the
+/// torque held is that of the spring there, so no eigenvalue tells the fold.
+TEST(Trim, PathTurnsBackWhereTheConditionHasAFold) {
+  const Setting setting =
+      make_setting(pendulum(along("reach", 0.3, 0.9), trim("torque", "position(bob.tip, x) = reach")));
+  const RecordedTrace recorded = record_trace(setting);
+  EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const auto is_fold = [](const Event& event) { return event.kind == EventKind::fold; };
+  const auto& events = recorded.result.events;
+  ASSERT_EQ(std::count_if(events.begin(), events.end(), is_fold), 1);
+  EXPECT_NEAR(std::find_if(events.begin(), events.end(), is_fold)->p, arm, 1e-9);
+  // On the way back the angle is beyond a quarter turn.
+  const std::vector<ComplexVector> both = recorded.all_eigenvalues_at(0.5);
+  ASSERT_EQ(both.size(), 2u);
+  const double angle = std::asin(0.5 / arm);
+  EXPECT_NEAR(both[0][0].imag(), frequency(angle), 4e-9 * frequency(angle));
+  const double square =
+      (mass * g * arm * std::cos(std::numbers::pi - angle) + stiffness) / (inertia + mass * arm * arm);
+  EXPECT_NEAR((both[1][0] * both[1][0]).real(), -square, 1e-8 * std::abs(square));
+}
+
+/// Where the stiffness with the torque held passes zero, the trimmed path goes straight on.
+TEST(Trim, DivergenceWithHeldControlsIsNoFold) {
+  const Setting setting =
+      make_setting(pendulum(along("angle", 1.0, 2.6), trim("torque", "angle(hinge) = angle")));
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const double critical = std::acos(-stiffness / (mass * g * arm));
+  int zeros = 0;
+  for (const Event& event : recorded.result.events) {
+    EXPECT_NE(event.kind, EventKind::fold);
+    EXPECT_NE(event.kind, EventKind::branch_point);
+    if (std::abs(event.p - critical) < 1e-8) ++zeros;
+  }
+  EXPECT_EQ(zeros, 1);
+  EXPECT_EQ(recorded.nodes.back().p, 2.6);
+}
+
+TEST(Trim, ResumedTraceHasTheSameBits) {
+  const Setting setting =
+      make_setting(pendulum(along("reach", 0.3, 0.9), trim("torque", "position(bob.tip, x) = reach")));
+  EXPECT_EQ(first_resumed_difference(*setting.model, setting.options, 3), "");
+}
+
+TEST(Trim, SingularTrimNamesConditionAndUnknown) {
+  const Setting setting =
+      make_setting(pendulum(along("angle", 0.1, 1.2),
+                            trim("torque", "force(hinge, y) = idle") + trim("push", "angle(hinge) = angle")));
+  const Solved found = solve(setting, "angle", 0.5);
+  EXPECT_EQ(found.at.status, SteadyStatus::not_converged);
+  EXPECT_NE(found.at.report.message.find("force(hinge, y) = idle"), std::string::npos)
+      << found.at.report.message;
+  EXPECT_NE(found.at.report.message.find("'torque'"), std::string::npos) << found.at.report.message;
+}
+
+TEST(Trim, MistakesAreNamed) {
+  struct Case {
+    std::string trims, message;
+  };
+  const std::string trace = along("angle", 0.1, 1.2);
+  for (const Case& c : {Case{trim("torqe", "angle(hinge) = angle"), "no parameter is called 'torqe'"},
+                        Case{trim("angle", "angle(hinge) = angle"), "'angle' is the unknown of a [[trim]]"},
+                        Case{trim("torque", "angle(hinge) = angle") + trim("torque", "angle(hinge) = angle"),
+                             "is the unknown of another [[trim]] already"},
+                        Case{trim("torque", "angle(hing) = angle"),
+                             "no joint with one angle (revolute, cylindrical) is called 'hing'"},
+                        Case{trim("torque", "angle(hinge) = load"), "N, but rad is expected"},
+                        Case{trim("torque", "angel(hinge) = angle"), "no quantity is called 'angel'"},
+                        Case{trim("torque", "angle hinge"), "expected \"quantity(name) = expression\""},
+                        Case{trim("torque", "force(hinge) = load"), "expected a name and an axis"},
+                        Case{trim("torque", "force(hinge, w) = load"), "expected the axis x, y or z"},
+                        Case{trim("torque", "force(air, z) = load"), "no joint or strips is called 'air'"},
+                        Case{trim("torque", "thrust(disc) = load"), "no [[inflow]] is called 'disc'"},
+                        Case{trim("torque", "position(bob.top, x) = reach"), "'bob.top'"}}) {
+    try {
+      (void)make_setting(pendulum(trace, c.trims));
+      ADD_FAILURE() << c.trims;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Trim, FamilyOfMatricesIsRefused) {
+  const std::string family =
+      "[parameters]\nq = 1\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[[1]]]\nK = "
+      "[[[1]], [[1]]]\n";
+  try {
+    (void)make_setting(family + trim("q", "angle(hinge) = 1"));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("have no equilibrium to trim"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace eigentrail::test
