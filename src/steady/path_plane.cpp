@@ -1,13 +1,14 @@
 #include "eigentrail/steady/path_plane.hpp"
-#include "core/singular_vectors.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "core/positive_or_one.hpp"
+#include "core/singular_vectors.hpp"
 #include "steady/bordered_kkt.hpp"
 #include "steady/rounding.hpp"
+#include "steady/sparse_bordered_kkt.hpp"
 
 namespace eigentrail {
 namespace {
@@ -35,8 +36,15 @@ class PlaneSystem {
   /// `force` and `constraint`: the derivatives of the equations with respect to the traced parameter.
   PlaneSystem(const Linearization& linearization, const ConstraintFactorization& constraints,
               const KktBorder& trim, const Vector& force, const Vector& constraint, const PathPlane& plane)
-      : system_(linearization.K[0], constraints, trim.and_one(force, constraint, plane.x, plane.p)),
-        n_trims_(trim.unknown.rows()) {}
+      : n_trims_(trim.unknown.rows()) {
+    const SystemMatrix &K = linearization.K[0], &A = linearization.A[0];
+    const KktBorder border = trim.and_one(force, constraint, plane.x, plane.p);
+    if (K.is_sparse() && (constraints.is_sparse() || A.rows() == 0)) {
+      system_.emplace<SparseBorderedKkt>(K.sparse(), A.sparse(), border);
+    } else {
+      system_.emplace<BorderedKkt>(K, constraints, border);
+    }
+  }
 
   /// `g` and `dl` as in KktFactorization::solve.
   void solve(const Vector& r, const Vector& g, double distance, Vector& dx, Vector& dl, double& dp) const {
@@ -44,14 +52,19 @@ class PlaneSystem {
     Vector h(n_trims_ + 1);
     h << g.tail(n_trims_), distance;
     Vector reactions, unknowns;
-    system_.solve(r, g.head(m), h, dx, reactions, unknowns);
+    std::visit(
+        [&](const auto& system) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(system)>, std::monostate>)
+            system.solve(r, g.head(m), h, dx, reactions, unknowns);
+        },
+        system_);
     dl.resize(g.size());
     dl << reactions, unknowns.head(n_trims_);
     dp = unknowns[n_trims_];
   }
 
  private:
-  BorderedKkt system_;
+  std::variant<std::monostate, BorderedKkt, SparseBorderedKkt> system_;
   Eigen::Index n_trims_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "core/positive_or_one.hpp"
 
@@ -13,10 +12,11 @@ namespace {
 /// Iterations for the norm of the inverse tangent stiffness, of which only the magnitude is needed.
 constexpr int power_iterations = 4;
 
-/// [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`.
-SparseMatrix bordered(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
+}  // namespace
+
+KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
   const Eigen::Index n = K.rows();
-  std::vector<Eigen::Triplet<double>> entries;
+  KktEntries entries;
   entries.reserve(static_cast<std::size_t>(K.nonZeros() + 2 * A.nonZeros()));
   for (Eigen::Index j = 0; j < n; ++j) {
     for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry)
@@ -27,12 +27,8 @@ SparseMatrix bordered(const SparseMatrix& K, const SparseMatrix& A, const Vector
       entries.emplace_back(j, n + entry.row(), value);
     }
   }
-  SparseMatrix matrix(n + A.rows(), n + A.rows());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return entries;
 }
-
-}  // namespace
 
 std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const SparseMatrix& A) {
   std::shared_ptr<SparseKkt> result(new SparseKkt);
@@ -41,7 +37,10 @@ std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const 
   result->n_ = K.rows();
   result->row_scale_ = SystemMatrix(A).row_norms().unaryExpr(
       [magnitude](double norm) { return magnitude / positive_or_one(norm); });
-  result->matrix_ = bordered(K, A, result->row_scale_);
+  const KktEntries entries = kkt_entries(K, A, result->row_scale_);
+  const Eigen::Index size = K.rows() + A.rows();
+  result->matrix_.resize(size, size);
+  result->matrix_.setFromTriplets(entries.begin(), entries.end());
   if (!result->lu_.factor(result->matrix_, SparseKind::general)) return nullptr;
   const double condition = result->norm_of_tangent_inverse() * magnitude;
   if (!(condition < 1.0 / least_reciprocal_condition)) return nullptr;

@@ -7,10 +7,15 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/sparse_factors.hpp"
 
 namespace eigentrail {
+
+/// Entries of [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`, m.
+using KktEntries = std::vector<Eigen::Triplet<double>>;
+KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale);
 
 class SparseKkt {
  public:
