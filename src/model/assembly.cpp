@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 
-#include "model/scatter.hpp"
+#include "model/element_matrix.hpp"
 
 namespace eigentrail {
 namespace {
@@ -20,14 +21,6 @@ std::vector<Series<Real, Q>> to_series(const Columns<Real>& coefficients) {
   return series;
 }
 
-/// Adds a series to an entry of a matrix series. Sets `finite` to false if a coefficient is not finite.
-template <class Real, int Q>
-void add_entry(Scatter<Real, Q>& sum, int row, int column, const Series<Real, Q>& value, bool& finite) {
-  using std::isfinite;
-  sum.add(row, column, value);
-  for (int k = 0; k <= Q; ++k) finite = finite && isfinite(value[k]);
-}
-
 template <class Real, int Q>
 void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& finite) {
   using std::isfinite;
@@ -36,32 +29,6 @@ void add_entry(Columns<Real>& sum, int row, const Series<Real, Q>& value, bool& 
     finite = finite && isfinite(value[k]);
   }
 }
-
-template <class Real, int Q>
-bool is_constant(const Series<Real, Q>& value) {
-  for (int k = 1; k <= Q; ++k) {
-    if (value[k] != Real(0.0)) return false;
-  }
-  return true;
-}
-
-template <class Real, int Q>
-bool is_zero(const Series<Real, Q>& value) {
-  return value[0] == Real(0.0) && is_constant(value);
-}
-
-/// The moving vectors, states and strength of an element. The functions below do not depend on the type of
-/// the element, so the compiler instantiates them once per order and not once per order and type.
-struct Joined {
-  const std::vector<Place>& arguments;
-  const Quantity& strength;
-  int first_state = 0;  ///< coordinate of the first state
-  int n_states = 0;
-
-  /// Number of components of all moving vectors, and of these and the states.
-  int of_vectors() const { return 3 * static_cast<int>(arguments.size()); }
-  int components() const { return of_vectors() + n_states; }
-};
 
 template <class Element>
 Joined join(const Placed<Element>& placed, std::size_t n_triples) {
@@ -136,14 +103,21 @@ bool linearize_force(const Placed<Element>& placed, const PathValues<Series<Real
   const auto all = positions(joined, values);
   const std::span<const Vec3<Base>> arguments(all.data(), placed.arguments.size());
   const auto differentiate = [&](bool vectors, bool states, Motion motion, Scatter<Real, Q>& matrix) {
+    if (!vectors && !states) return;
+    std::optional<ElementMatrix<Real, Q>> by_coordinates;
+    if (matrix.is_sparse()) by_coordinates.emplace(joined, values);
     const int last = states ? joined.components() : joined.of_vectors();
     for (int component = vectors ? 0 : joined.of_vectors(); component < last; ++component) {
       std::array<Series<Base, 1>, n_states> state_force{};
       ElementView<Series<Base, 1>> view(values, arguments, Seed{motion, component}, states_of(placed, values),
                                         state_force);
       placed.element.force(view);
-      add_column<Real, Q>(joined, component, view, values, matrix, finite);
+      if (by_coordinates)
+        by_coordinates->add_column(component, view);
+      else
+        add_column<Real, Q>(joined, component, view, values, matrix, finite);
     }
+    if (by_coordinates) by_coordinates->add_to(matrix, finite);
   };
   differentiate(Element::depends.acceleration, false, Motion::acceleration, sum.M);
   differentiate(Element::depends.velocity, n_states > 0, Motion::velocity, sum.C);

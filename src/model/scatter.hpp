@@ -26,6 +26,8 @@ class Scatter {
     if (!sparse) dense_.fill(Dense::Zero(rows, columns));
   }
 
+  bool is_sparse() const { return sparse_; }
+
   /// Adds a series to an entry.
   void add(int row, int column, const Series<Real, Q>& value) {
     for (int k = 0; k <= Q; ++k) {
