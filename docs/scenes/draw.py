@@ -187,23 +187,38 @@ def result_picture(name, settings, runs):
     plt.close(figure)
 
 
-def boundary_picture(program, scene, settings, folder):
-    """Stability limits over a second parameter, from `eigentrail boundary`."""
-    wanted = settings["boundary"]
-    out = pathlib.Path(folder) / "boundary.h5"
+def boundary_lines(program, scene, wanted, out):
+    """Names and units of both parameters, and the curves of `eigentrail boundary` (places x parameters)."""
     options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"]),
                *wanted.get("options", [])]
-    subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet"], check=True)
-    figure, axes = plt.subplots(figsize=(4.2, 3.3), layout="constrained")
+    subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet", "--force"], check=True)
     with h5py.File(out) as file:
         names = [file.attrs["parameter"], wanted["second"]]
         units = [file[name].attrs["units"] for name in names]
+        lines = []
         for curve in np.unique(file["step_curve"]):
             steps = np.flatnonzero(file["step_curve"][:] == curve)
             series, lengths = file["dense_output"][steps].real, file["step_length"][steps]
-            line = np.array([two_point_taylor(h, f[:2, 0], f[:2, 1], t) for h, f in zip(lengths, series)
-                             for t in np.linspace(0, 1, 20)])
-            axes.plot(line[:, 1], line[:, 0], color="#b2182b", linewidth=1.8)
+            lines.append(np.array([two_point_taylor(h, f[:2, 0], f[:2, 1], t) for h, f in zip(lengths, series)
+                                   for t in np.linspace(0, 1, 20)]))
+    return names, units, lines
+
+
+def boundary_picture(program, scene, settings, folder):
+    """Stability limits over a second parameter, also of variants of the scene."""
+    wanted = settings["boundary"]
+    folder = pathlib.Path(folder)
+    figure, axes = plt.subplots(figsize=(4.2, 3.3), layout="constrained")
+    variants = wanted.get("variants", [{}])
+    for variant, style in zip(variants, DASHES):
+        edited = folder / scene.name
+        edited.write_text(scene.read_text(encoding="utf-8").replace(*variant.get("replace", ["", ""])), encoding="utf-8")
+        names, units, lines = boundary_lines(program, edited, wanted, folder / "boundary.h5")
+        for i, line in enumerate(lines):
+            axes.plot(line[:, 1], line[:, 0], color="#b2182b", linewidth=1.8 if style == "-" else 1.2, linestyle=style,
+                      label=variant.get("label") if i == 0 else None)
+    if len(variants) > 1:
+        axes.legend(frameon=False, fontsize=8.5)
     texts = [wanted.get("first_label", settings.get("parameter", names[0])), wanted.get("label", names[1])]
     ylabel, xlabel = (text + (f", {unit}" if unit not in ("", "1") else "") for text, unit in zip(texts, units))
     axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(wanted["from"], wanted["to"]))
