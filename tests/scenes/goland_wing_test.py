@@ -104,19 +104,31 @@ class GolandWing(RotorTest):
             self.assertGreater(np.log2(coarse / fine), 3.5)
         self.assertLess(errors[2], 1e-6)
 
-    def test_flutter_over_altitude(self):
-        """Three elements, as exact as their convergence tells; the curve reaches both ends of the range."""
-        self.write("wing.toml", self.with_elements(3))
+    def over_altitude(self, text, kind, begin, end):
+        """Speeds, imaginary parts and altitudes of the one curve over the standard atmosphere."""
+        self.write("wing.toml", text)
         out = self.folder / "altitude.h5"
-        self.run_well("boundary", "wing.toml", "--second", "altitude", "--from", "0", "--to", "11000", "--first-from", "100",
-                      "--first-to", "250", "--lines", "1", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
+        self.run_well("boundary", "wing.toml", "--second", "altitude", "--from", "0", "--to", "11000", "--first-from", begin,
+                      "--first-to", end, "--lines", "1", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
         with h5py.File(out) as file:
-            self.assertEqual(list(file["curve_kind"][:]), [b"flutter"])
+            self.assertEqual(list(file["curve_kind"][:]), [kind])
             V, altitude, w = file["V"][:], file["altitude"][:], file["eigenvalue"][:].imag
         self.assertEqual((round(np.min(altitude)), round(np.max(altitude))), (0, 11000))
-        for found in zip(V, w, altitude):
-            exact = flutter(jones, standard_density(found[2]), found[:2])
-            np.testing.assert_array_less(abs(np.array(found[:2]) / exact - 1), 3e-4)
+        return V, w, altitude
+
+    def test_flutter_over_altitude(self):
+        """Three elements, as exact as their convergence tells."""
+        for *found, altitude in zip(*self.over_altitude(self.with_elements(3), b"flutter", 100, 250)):
+            exact = flutter(jones, standard_density(altitude), found)
+            np.testing.assert_array_less(abs(np.array(found) / exact - 1), 3e-4)
+
+    def test_divergence_over_altitude(self):
+        """Its dynamic pressure is the same at all altitudes."""
+        text = edited(edited(self.with_elements(3), 'modes = { band = ["1 Hz", "60 Hz"], count = 4 }', "modes = 2"),
+                      "[[lift_lag]]", "#")
+        V, _, altitude = self.over_altitude(text, b"divergence", 200, 500)
+        pressure = (np.pi / 2)**2 * GJ / (0.08 * CHORD**2 * 2 * np.pi * LENGTH**2)
+        np.testing.assert_allclose(V, np.sqrt(2 * pressure / standard_density(altitude)), rtol=2e-4)
 
     def test_twist_of_a_wing_at_incidence_grows_towards_divergence(self):
         """alpha_0 (1/cos(lambda L) - 1) at the tip, lambda^2 = q e a c / GJ."""
