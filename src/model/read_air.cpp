@@ -42,7 +42,7 @@ std::vector<FieldHelp> station_fields() {
 
 class StripReader {
  public:
-  StripReader(Draft& draft, TableReader& table, const std::vector<InflowDraft>& inflows)
+  StripReader(Draft& draft, TableReader& table, std::vector<InflowDraft>& inflows)
       : draft_(draft), table_(table), inflows_(inflows) {}
 
   std::vector<Strip> read(const std::optional<ExpressionVector>& rotation) {
@@ -141,11 +141,18 @@ class StripReader {
   void read_inflow_of(Strip& common) {
     const std::string name = table_.text("inflow");
     std::vector<std::string> names;
-    for (const InflowDraft& inflow : inflows_) {
+    for (InflowDraft& inflow : inflows_) {
       names.push_back(inflow.name);
       if (inflow.name != name) continue;
       common.inflow = inflow.element.velocity;
       common.disc = inflow.disc;
+      if (!inflow.annular) return;
+      if (inflow.first_triple >= 0 && inflow.first_triple != triple_)
+        table_.fail("inflow", "'" + name +
+                                  "' is annular and has the strips of one blade, on one beam or body, which "
+                                  "stand for those of all; these are on another one");
+      inflow.first_triple = triple_;
+      annular_ = &inflow;
       return;
     }
     if (draft_.is_left_out(Inflow::name)) return;
@@ -200,14 +207,16 @@ class StripReader {
       strip.zero_lift = unless_absent("zero_lift_angle", zero_lift);
       strip.drag = unless_absent("drag", drag);
       strip.moment = unless_absent("moment", moment);
+      if (annular_ != nullptr) add_annulus(draft_, *annular_, strip, point.width);
     }
     return strips;
   }
 
   Draft& draft_;
   TableReader& table_;
-  const std::vector<InflowDraft>& inflows_;
-  int triple_ = 0;  ///< the first one of what the strips are on
+  std::vector<InflowDraft>& inflows_;
+  InflowDraft* annular_ = nullptr;  ///< gives each strip an annulus; null: none
+  int triple_ = 0;                  ///< the first one of what the strips are on
   std::vector<SpanPoint> points_;
   std::array<double, 2> extent_ = {0.0, 1.0};
 };
@@ -253,7 +262,7 @@ std::vector<std::array<Quantity, 2>> read_pairs(Draft& draft, TableReader& table
 }  // namespace
 
 std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
-                                          const std::vector<InflowDraft>& inflows) {
+                                          std::vector<InflowDraft>& inflows) {
   std::vector<StripTable> result;
   const std::vector<const Table*> all = tables(draft.scene, std::string(Strip::name));
   for (std::size_t i = 0; i < all.size(); ++i) {

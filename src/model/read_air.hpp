@@ -20,7 +20,7 @@ struct StripTable {
 /// All [[strips]] tables; beams and bodies must have been read. `rotation` is the angular velocity of the
 /// frame.
 std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
-                                          const std::vector<InflowDraft>& inflows);
+                                          std::vector<InflowDraft>& inflows);
 
 /// What other tables add to strips, with labels.
 std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft,

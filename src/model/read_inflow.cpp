@@ -1,6 +1,7 @@
 #include "model/read_inflow.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "eigentrail/core/text.hpp"
 
@@ -31,13 +32,43 @@ void check_axis(const Draft& draft, const TableReader& table, const std::string&
   }
 }
 
+/// New coordinates (v_0, v_x, v_y).
+Place add_velocity(Draft& draft, const InflowDraft& inflow) {
+  const Place velocity = draft.point_place(static_cast<int>(draft.guess.size()) / 3);
+  for (const Expression& e : {inflow.guess, Expression(0.0), Expression(0.0)}) draft.guess.push_back(e);
+  return velocity;
+}
+
+void hold_gradients(Draft& draft, const Inflow& inflow, const std::string& label) {
+  std::vector<ConstraintRow> rows;
+  for (int i = 1; i < 3; ++i) rows.push_back({{inflow.velocity, {}}, {}, i, draft.quantity(0.0)});
+  draft.add_constraint("fixed", label, std::move(rows));
+}
+
+ExpressionVector expressions_of(const std::array<Quantity, 3>& vector) {
+  return {vector[0].expression, vector[1].expression, vector[2].expression};
+}
+
+/// Where a place is in the guess.
+ExpressionVector guessed(const Draft& draft, const Place& place) {
+  if (!place.moves()) return expressions_of(place.fixed);
+  ExpressionVector sum;
+  for (const Term& term : place.terms) {
+    const auto first = 3 * static_cast<std::size_t>(term.triple);
+    const Expression weight = term.weight.slot < 0 ? Expression(1.0) : term.weight.expression;
+    sum = sum + weight * ExpressionVector{draft.guess[first], draft.guess[first + 1], draft.guess[first + 2]};
+  }
+  return sum;
+}
+
 InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& rotation) {
   InflowDraft inflow;
   inflow.name = table.text("name");
   if (inflow.name.empty()) table.fail("name", "must not be empty");
   const std::string model = table.has("model") ? table.text("model") : "pitt_peters";
-  if (model != "uniform" && model != "pitt_peters")
-    table.fail("model", "expected \"uniform\" or \"pitt_peters\", found \"" + model + "\"");
+  if (model != "uniform" && model != "pitt_peters" && model != "annular")
+    table.fail("model", "expected \"uniform\", \"annular\" or \"pitt_peters\", found \"" + model + "\"");
+  inflow.annular = model == "annular";
   const Expression radius = draft.read_number(table, "radius", "m", Range::positive);
   const ExpressionVector centre = draft.read_vector(table, "centre", "m", Range::any, ExpressionVector{});
   const ExpressionVector axis =
@@ -45,8 +76,11 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   const ExpressionVector wind = draft.read_vector(table, "wind", "m/s", Range::any, ExpressionVector{});
   check_axis(draft, table, "wind", axis, wind);
   check_axis(draft, table, "axis", axis, rotation);
-  if (table.has("blades") && model != "uniform")
-    table.fail("blades", "needs model = \"uniform\"; with pitt_peters the scene has all blades");
+  if (table.has("blades") && model == "pitt_peters")
+    table.fail("blades",
+               "needs model = \"uniform\" or \"annular\"; with pitt_peters the scene has all blades");
+  if (table.has("tip_loss")) inflow.tip_loss = table.flag("tip_loss");
+  if (inflow.tip_loss && !inflow.annular) table.fail("tip_loss", "needs model = \"annular\"");
   const Expression blades = draft.read_number(table, "blades", "", Range::positive, 1.0);
   const Expression tip = Expression(of_tip_speed) * radius * dot(rotation, axis);
   const Expression drift = Expression(of_wind) * dot(wind, axis);
@@ -55,8 +89,9 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   const Expression density = draft.read_number(table, "density", "kg/m^3", Range::positive, 1.225);
   table.finish();
 
-  inflow.element.velocity = draft.point_place(static_cast<int>(draft.guess.size()) / 3);
-  for (const Expression& e : {guess, Expression(0.0), Expression(0.0)}) draft.guess.push_back(e);
+  inflow.guess = guess;
+  inflow.radius = radius;
+  if (!inflow.annular) inflow.element.velocity = add_velocity(draft, inflow);
   inflow.element.axis = inflow.disc.axis = draft.vector(axis);
   inflow.element.wind = draft.vector(wind);
   inflow.element.angular_velocity = draft.vector(rotation);
@@ -67,10 +102,7 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   inflow.disc.x = draft.vector((Expression(1.0) / radius) * x);
   inflow.disc.y = draft.vector((Expression(1.0) / radius) * y);
   inflow.disc.blades = draft.quantity(blades);
-  if (model == "pitt_peters") return inflow;
-  std::vector<ConstraintRow> rows;
-  for (int i = 1; i < 3; ++i) rows.push_back({{inflow.element.velocity, {}}, {}, i, draft.quantity(0.0)});
-  draft.add_constraint("fixed", inflow.name + " uniform", std::move(rows));
+  if (model == "uniform") hold_gradients(draft, inflow.element, inflow.name + " uniform");
   return inflow;
 }
 
@@ -90,17 +122,36 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
     check_is_new(table, Inflow::name, inflow.name, result);
     result.push_back(std::move(inflow));
-    draft.inflow_names.push_back(result.back().name);
+    if (!result.back().annular) draft.inflow_names.push_back(result.back().name);
   }
   return result;
+}
+
+void add_annulus(Draft& draft, InflowDraft& inflow, Strip& strip, const Expression& width) {
+  const ExpressionVector axis = expressions_of(inflow.disc.axis);
+  const ExpressionVector arm = guessed(draft, strip.quarter_chord) - expressions_of(inflow.disc.centre);
+  const ExpressionVector outward = arm - dot(arm, axis) * axis;
+  const Expression r = sqrt(dot(outward, outward));
+  Inflow annulus = inflow.element;
+  annulus.area = draft.quantity(Expression(2.0 * std::numbers::pi) * r * width);
+  if (inflow.tip_loss) {
+    annulus.blades = inflow.disc.blades;
+    annulus.at_radius = draft.quantity(r);
+  }
+  annulus.velocity = add_velocity(draft, inflow);
+  const std::string label = inflow.label(inflow.annuli.size());
+  hold_gradients(draft, annulus, label);
+  draft.inflow_names.push_back(label);
+  strip.inflow = annulus.velocity;
+  inflow.annuli.push_back(std::move(annulus));
 }
 
 std::vector<FieldHelp> inflow_fields() {
   return {
       {"name", "text", "what [[strips]] call it"},
-      {"model", "\"uniform\" or \"pitt_peters\"",
-       "mean inflow alone, by momentum theory with the inertia of the air; or with gradients over the disc, "
-       "three states",
+      {"model", "\"uniform\", \"annular\" or \"pitt_peters\"",
+       "mean inflow alone, by momentum theory with the inertia of the air; or the same for the annulus of "
+       "every strip; or mean inflow with gradients over the disc, three states",
        "pitt_peters"},
       {"radius", "m", "of the rotor"},
       {"centre", "[x, y, z] m", "of the rotor, in the frame", "[0, 0, 0]"},
@@ -109,7 +160,9 @@ std::vector<FieldHelp> inflow_fields() {
        "velocity of the air along the axis: against it in climb, along it at a "
        "turbine",
        "[0, 0, 0]"},
-      {"blades", "", "with uniform inflow: the number of blades for which every strip stands", "1"},
+      {"blades", "", "with uniform and annular inflow: the number of blades for which every strip stands",
+       "1"},
+      {"tip_loss", "true or false", "of annular inflow: Prandtl's loss at the tips", "false"},
       {"density", "kg/m^3", "density of the air", "1.225"},
       {"guess", "m/s", "of the mean inflow, from which the equilibrium is found",
        "by speeds of tips and wind"}};

@@ -13,7 +13,18 @@ struct InflowDraft {
   std::string name;
   Inflow element;
   RotorDisc disc;
+  bool annular = false;   ///< every strip has an annulus of its own, and `element` has no coordinates
+  bool tip_loss = false;  ///< of annuli
+  Expression guess, radius;
+  int first_triple = -1;  ///< of the blade whose strips have the annuli
+  std::vector<Inflow> annuli = {};
+
+  /// Name of the annulus with index i.
+  std::string label(std::size_t i) const { return name + ", annulus " + std::to_string(i + 1); }
 };
+
+/// Gives a strip of this length along the radius an annulus of its own, at its place in the guess.
+void add_annulus(Draft& draft, InflowDraft& inflow, Strip& strip, const Expression& width);
 
 /// All [[inflow]] tables, which add their coordinates to the guess. To be called once everything else that
 /// has coordinates in triples has been read. `rotation` is the angular velocity of the frame. Without the

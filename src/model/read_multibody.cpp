@@ -150,9 +150,13 @@ void add_element(Draft& draft, Element element, std::string label) {
 
 /// Adds the strips of beams, blades and bodies in moving air.
 void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation,
-             const std::vector<InflowDraft>& inflows) {
-  for (const InflowDraft& inflow : inflows) add_element(draft, inflow.element, inflow.name);
+             std::vector<InflowDraft>& inflows) {
   const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
+  for (const InflowDraft& inflow : inflows) {
+    if (!inflow.annular) add_element(draft, inflow.element, inflow.name);
+    for (std::size_t i = 0; i < inflow.annuli.size(); ++i)
+      add_element(draft, inflow.annuli[i], inflow.label(i));
+  }
   for (const StripTable& table : all) {
     for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
   }
@@ -404,7 +408,7 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
   for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
   for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
-  const std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
+  std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
   add_air(draft, rotation, inflows);
   read_trims(draft, inflows);
   if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {

@@ -146,7 +146,10 @@ class TrimReader {
     std::vector<std::string> names;
     for (const InflowDraft& inflow : inflows_) {
       names.push_back(inflow.name);
-      if (inflow.name == name) load.motion.places = {inflow.element.velocity.terms.front().triple};
+      if (inflow.name != name) continue;
+      if (!inflow.annular) load.motion.places = {inflow.element.velocity.terms.front().triple};
+      for (const Inflow& annulus : inflow.annuli)
+        load.motion.places.push_back(annulus.velocity.terms.front().triple);
     }
     if (load.motion.places.empty())
       table.fail("condition",
@@ -276,8 +279,9 @@ class TrimReader {
   template <class Element>
   void take(const std::string& name, TrimLoad& load) {
     for (const auto& placed : list_of<Element>(draft_.data.elements)) {
-      if (placed.label == name || placed.label.starts_with(name + ", strip "))
-        list_of<Element>(load.elements).push_back(placed);
+      const bool is_part =
+          placed.label.starts_with(name + ", strip ") || placed.label.starts_with(name + ", annulus ");
+      if (placed.label == name || is_part) list_of<Element>(load.elements).push_back(placed);
     }
   }
 

@@ -10,6 +10,13 @@
 // mass flow). The first one alone is momentum theory with the apparent mass of a disc (Carpenter & Fridovich,
 // NACA TN 3075, 1953). g' is the rate against the air: in a frame that rotates with W about the axis, the
 // rate of the components plus W x g. In hover V = 0.
+//
+// Of an annulus there is the first equation alone, with its area in place of A (annular momentum theory:
+// Gessow & Myers, Aerodynamics of the Helicopter, 1952, Ch. 4), and Prandtl's factor of the loss at the tips,
+//
+//     F = 2/pi acos exp(-B/2 (R - r) / (r sin phi)),   tan phi = |V + v_0| / (W r)
+//
+// on its steady part, if wanted.
 #pragma once
 
 #include <numbers>
@@ -28,6 +35,8 @@ struct Inflow {
   Place velocity;                                        ///< (v_0, v_x, v_y), m/s
   std::array<Quantity, 3> axis, wind, angular_velocity;  ///< unit vector; m/s; of the frame, rad/s
   Quantity radius, density;
+  Quantity area;               ///< of an annulus, m^2; without slot: the whole disc
+  Quantity blades, at_radius;  ///< for the loss at the tips: B, r; without slot: none
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -37,6 +46,9 @@ struct Inflow {
     visit.vector({"angular_velocity", "rad/s", enters_force, ""}, self.angular_velocity);
     visit.quantity({"radius", "m", enters_damping_and_force, ""}, self.radius);
     visit.quantity({"density", "kg/m^3", enters_damping_and_force, ""}, self.density);
+    visit.quantity({"area", "m^2", enters_damping_and_force, ""}, self.area);
+    visit.quantity({"blades", "", enters_force, ""}, self.blades);
+    visit.quantity({"at_radius", "m", enters_force, ""}, self.at_radius);
   }
 
   template <class Scalar>
@@ -47,15 +59,28 @@ struct Inflow {
     const Vec3<Scalar> rate = at.velocity(velocity);
     const Vec3<Scalar> a = at.value(axis);
     const Scalar R = at.value(radius);
-    const Scalar disc = pi * at.value(density) * R * R;
+    const Scalar disc =
+        area.slot < 0 ? Scalar(pi * at.value(density) * R * R) : Scalar(at.value(density) * at.value(area));
     const Scalar V = -a.dot(at.value(wind));
     const Scalar through = sqrt((V + v[0]) * (V + v[0]));
     const Scalar cyclic = 0.5 * (V + 2.0 * v[0]) * (V + v[0]) / through;
     const Scalar W = a.dot(at.value(angular_velocity));
-    const Vec3<Scalar> steady{2.0 * through * v[0], cyclic * v[1], cyclic * v[2]};
+    Vec3<Scalar> steady{2.0 * through * v[0], cyclic * v[1], cyclic * v[2]};
+    if (blades.slot >= 0) steady[0] *= tip_loss(at, through, W);
     const Vec3<Scalar> change{8.0 / (3.0 * pi) * rate[0], 16.0 / (45.0 * pi) * (rate[1] - W * v[2]),
                               16.0 / (45.0 * pi) * (rate[2] + W * v[1])};
     at.add_force(velocity, -disc * (steady + R * change));
+  }
+
+ private:
+  /// Prandtl's factor for the speed `through` the disc and the rotation W.
+  template <class Scalar>
+  Scalar tip_loss(const ElementView<Scalar>& at, const Scalar& through, const Scalar& W) const {
+    using std::acos, std::exp, std::sqrt;
+    const Scalar r = at.value(at_radius);
+    const Scalar sine = through / sqrt(through * through + W * W * r * r);
+    const Scalar f = 0.5 * at.value(blades) * (at.value(radius) - r) / (r * sine);
+    return 2.0 / std::numbers::pi * acos(exp(-f));
   }
 };
 
