@@ -207,7 +207,7 @@ class StripReader {
       strip.zero_lift = unless_absent("zero_lift_angle", zero_lift);
       strip.drag = unless_absent("drag", drag);
       strip.moment = unless_absent("moment", moment);
-      if (annular_ != nullptr) add_annulus(draft_, *annular_, strip, point.width);
+      if (annular_ != nullptr) add_annulus(draft_, table_, *annular_, strip, point.width);
     }
     return strips;
   }

@@ -127,15 +127,20 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
   return result;
 }
 
-void add_annulus(Draft& draft, InflowDraft& inflow, Strip& strip, const Expression& width) {
+void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, Strip& strip,
+                 const Expression& width) {
   const ExpressionVector axis = expressions_of(inflow.disc.axis);
   const ExpressionVector arm = guessed(draft, strip.quarter_chord) - expressions_of(inflow.disc.centre);
   const ExpressionVector outward = arm - dot(arm, axis) * axis;
   const Expression r = sqrt(dot(outward, outward));
+  const std::vector<double> inside = draft.check_values(inflow.radius - r);
+  const bool is_inside = std::all_of(inside.begin(), inside.end(), [](double d) { return d > 0.0; });
+  if (!is_inside) table.fail("inflow", "a strip lies outside the radius of '" + inflow.name + "'");
   Inflow annulus = inflow.element;
   annulus.area = draft.quantity(Expression(2.0 * std::numbers::pi) * r * width);
   if (inflow.tip_loss) {
-    annulus.blades = inflow.disc.blades;
+    const Expression half = Expression(0.5) * inflow.disc.blades.expression;
+    annulus.to_the_tip = draft.quantity(half * (inflow.radius - r) / r);
     annulus.at_radius = draft.quantity(r);
   }
   annulus.velocity = add_velocity(draft, inflow);

@@ -24,7 +24,8 @@ struct InflowDraft {
 };
 
 /// Gives a strip of this length along the radius an annulus of its own, at its place in the guess.
-void add_annulus(Draft& draft, InflowDraft& inflow, Strip& strip, const Expression& width);
+void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, Strip& strip,
+                 const Expression& width);
 
 /// All [[inflow]] tables, which add their coordinates to the guess. To be called once everything else that
 /// has coordinates in triples has been read. `rotation` is the angular velocity of the frame. Without the

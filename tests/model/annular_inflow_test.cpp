@@ -174,6 +174,9 @@ TEST(AnnularInflow, MistakesAreNamed) {
   std::string uniform = rotor("tip_loss = true\n", strips_on(1.0, radius, "pitch", strips));
   uniform.replace(uniform.find("annular"), 7, "uniform");
   EXPECT_NE(message(uniform).find("needs model = \"annular\""), std::string::npos) << message(uniform);
+  const std::string long_blade = rotor("", strips_on(1.0, 6.0, "pitch", 4));
+  EXPECT_NE(message(long_blade).find("outside the radius of 'disc'"), std::string::npos)
+      << message(long_blade);
   std::string other = strips_on(1.0, radius, "pitch", 2);
   other.replace(other.find("\"blade\""), 7, "\"other\"");
   const std::string two =

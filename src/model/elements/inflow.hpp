@@ -35,8 +35,9 @@ struct Inflow {
   Place velocity;                                        ///< (v_0, v_x, v_y), m/s
   std::array<Quantity, 3> axis, wind, angular_velocity;  ///< unit vector; m/s; of the frame, rad/s
   Quantity radius, density;
-  Quantity area;               ///< of an annulus, m^2; without slot: the whole disc
-  Quantity blades, at_radius;  ///< for the loss at the tips: B, r; without slot: none
+  Quantity area;  ///< of an annulus, m^2; without slot: the whole disc
+  Quantity to_the_tip,
+      at_radius;  ///< B/2 (R - r) / r and r of an annulus with loss at the tips; without slot: none
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -47,7 +48,7 @@ struct Inflow {
     visit.quantity({"radius", "m", enters_damping_and_force, ""}, self.radius);
     visit.quantity({"density", "kg/m^3", enters_damping_and_force, ""}, self.density);
     visit.quantity({"area", "m^2", enters_damping_and_force, ""}, self.area);
-    visit.quantity({"blades", "", enters_force, ""}, self.blades);
+    visit.quantity({"to_the_tip", "", enters_force, ""}, self.to_the_tip);
     visit.quantity({"at_radius", "m", enters_force, ""}, self.at_radius);
   }
 
@@ -66,7 +67,7 @@ struct Inflow {
     const Scalar cyclic = 0.5 * (V + 2.0 * v[0]) * (V + v[0]) / through;
     const Scalar W = a.dot(at.value(angular_velocity));
     Vec3<Scalar> steady{2.0 * through * v[0], cyclic * v[1], cyclic * v[2]};
-    if (blades.slot >= 0) steady[0] *= tip_loss(at, through, W);
+    if (to_the_tip.slot >= 0) steady[0] *= tip_loss(at, through, W);
     const Vec3<Scalar> change{8.0 / (3.0 * pi) * rate[0], 16.0 / (45.0 * pi) * (rate[1] - W * v[2]),
                               16.0 / (45.0 * pi) * (rate[2] + W * v[1])};
     at.add_force(velocity, -disc * (steady + R * change));
@@ -79,8 +80,7 @@ struct Inflow {
     using std::acos, std::exp, std::sqrt;
     const Scalar r = at.value(at_radius);
     const Scalar sine = through / sqrt(through * through + W * W * r * r);
-    const Scalar f = 0.5 * at.value(blades) * (at.value(radius) - r) / (r * sine);
-    return 2.0 / std::numbers::pi * acos(exp(-f));
+    return 2.0 / std::numbers::pi * acos(exp(-at.value(to_the_tip) / sine));
   }
 };
 
