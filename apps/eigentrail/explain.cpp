@@ -152,23 +152,42 @@ void explain_sensitivity(std::FILE* to, const Scene& scene, const OptionTexts& o
   print_influences(to, influences, setup.options.parameter + " = " + exact_text(setup.options.from));
 }
 
+/// "; part 2 stands for 4 equal ones", for every number of equal ones; empty if no parts are equal. Equal
+/// parts count as one.
+std::string describe_equal(const IndependentParts& parts) {
+  std::map<std::size_t, std::vector<std::size_t>> standing;  // parts by the number that they stand for
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    if (!parts.ranges[i].copies.empty()) standing[1 + parts.ranges[i].copies.size()].push_back(i + 1);
+  }
+  std::string text;
+  for (const auto& [equal, which] : standing) {
+    const bool one = which.size() == 1;
+    text += one ? "; part " : "; parts ";
+    for (const std::size_t i : which)
+      text += (i == which.front() ? "" : i == which.back() ? " and " : ", ") + std::to_string(i);
+    text += (one ? " stands for " : " stand for ") + std::to_string(equal) + (one ? " equal ones" : " each");
+  }
+  return text;
+}
+
 /// "3 independent parts: 3 of 2 freedoms"; empty where the equations do not fall apart.
 std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
   if (!parts) return "";
-  if (parts->count() == 1) return "one; rows and columns scaled by powers of two";
-  std::map<Eigen::Index, int, std::greater<>> number;  // of parts by size
-  for (const IndependentParts::Range& range : parts->ranges) ++number[range.size];
-  std::string text = std::to_string(parts->count()) + " independent parts: ";
+  if (!parts->falls_apart()) return "one; rows and columns scaled by powers of two";
+  std::map<Eigen::Index, std::size_t, std::greater<>> number;  // of parts by size
+  std::size_t total = 0;
+  for (const IndependentParts::Range& range : parts->ranges) {
+    number[range.size] += 1 + range.copies.size();
+    total += 1 + range.copies.size();
+  }
+  std::string text = std::to_string(total) + " independent parts: ";
   bool first = true;
   for (const auto& [size, count] : number) {
     text += (first ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size) +
             (size == 1 ? " freedom" : " freedoms");
     first = false;
   }
-  std::size_t copies = 0;
-  for (std::size_t i = 0; i < parts->count(); ++i) copies += parts->ranges[i].copy_of == i ? 0 : 1;
-  if (copies > 0) text += "; " + std::to_string(copies) + " of them equal to another one";
-  return text + "; followed one by one";
+  return text + describe_equal(*parts) + "; followed one by one";
 }
 
 void print_structure(std::FILE* to, const Structure& structure, bool has_constraints,
@@ -293,7 +312,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const auto modes = std::min<Eigen::Index>(options.modes.count.value_or(static_cast<int>(sizes.freedoms)),
                                             2 * sizes.freedoms);
   // Independent parts are followed one by one, each with matrices of its own size.
-  const bool apart = parts && parts->count() > 1;
+  const bool apart = parts && parts->falls_apart();
   Eigen::Index size = apart ? 0 : sizes.freedoms;
   for (std::size_t i = 0; apart && i < parts->count(); ++i) size = std::max(size, parts->ranges[i].size);
   print_solvers(to, *model, structure,

@@ -97,7 +97,7 @@ std::vector<std::string> free_motions_in_words(const Model& model, const PathPoi
                                                const IndependentParts* parts) {
   if (!model.description().shafts.empty())
     return free_shafts_in_words(model.description(), point.equilibrium.linearization.K[0].dense());
-  const Matrix motions = parts != nullptr && parts->count() > 1 ? free_motions(*parts) : Matrix();
+  const Matrix motions = parts != nullptr && parts->falls_apart() ? free_motions(*parts) : Matrix();
   if (motions.cols() == 0) return {};
   const std::string held = model.n_constraints() > 0 || !model.description().masses.empty()
                                ? "a spring, a joint or another constraint holds them"

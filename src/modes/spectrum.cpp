@@ -201,8 +201,26 @@ Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) 
 
 namespace {
 
+/// Adds the modes of the copies of a part, each behind the mode that it equals.
+void add_copies(int copies, Spectrum& spectrum) {
+  if (copies == 0) return;
+  std::vector<StartingMode> all;
+  for (const StartingMode& mode : spectrum.modes) {
+    for (int copy = 0; copy <= copies; ++copy) {
+      all.push_back(mode);
+      all.back().copy = copy;
+    }
+  }
+  spectrum.modes = std::move(all);
+  spectrum.n_infinite *= 1 + copies;
+}
+
 Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
-  if (pencil.parts.empty()) return solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+  if (pencil.parts.empty()) {
+    Spectrum spectrum = solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+    add_copies(pencil.copies, spectrum);
+    return spectrum;
+  }
   Spectrum all;
   all.status = SpectrumStatus::complete;
   all.scale = 0.0;

@@ -1,6 +1,5 @@
 #include "eigentrail/reduction/independent_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "core/products.hpp"
 #include "reduction/balance.hpp"
 #include "reduction/free_motions.hpp"
+#include "reduction/part_copies.hpp"
 #include "reduction/splitting.hpp"
 
 namespace eigentrail {
@@ -20,41 +20,6 @@ constexpr double well_scaled = 64.0;
 /// of the certificate are norms of both: with velocities ten times as large it needs twice the
 /// factorizations.
 constexpr double well_scaled_states = 4.0;
-
-/// For every part the first one that equals it up to a change of coordinates: random combinations of the
-/// matrices have the same eigenvalues in both.
-std::vector<std::size_t> copies(const Splitting& splitting, const std::vector<Matrix>& all,
-                                double magnified) {
-  // Relative difference of eigenvalues. Mistuning of 1e-10 makes different parts.
-  constexpr double equal = 1e-12;
-  constexpr std::uint64_t seed = 20102;
-  Random random(seed);
-  const Matrix B = random_combination(all, random);
-  const Matrix G = random_combination(all, random);
-  std::vector<ComplexVector> values;
-  std::vector<std::size_t> first;
-  Eigen::Index at = 0;
-  for (std::size_t i = 0; i < splitting.sizes.size(); ++i) {
-    const Eigen::Index size = splitting.sizes[i];
-    const auto right = splitting.right.middleCols(at, size);
-    const auto left = splitting.left.middleCols(at, size);
-    const Matrix own = (left.transpose() * B * right).partialPivLu().solve(left.transpose() * G * right);
-    ComplexVector spectrum = Eigen::EigenSolver<Matrix>(own, false).eigenvalues();
-    const double scale = spectrum.cwiseAbs().maxCoeff();
-    const auto is_same = [&](const ComplexVector& other) {
-      if (other.size() != size) return false;
-      return std::all_of(other.begin(), other.end(), [&](Complex s) {
-        return (spectrum.array() - s).abs().minCoeff() <=
-               magnified * equal * static_cast<double>(size) * scale;
-      });
-    };
-    first.push_back(
-        static_cast<std::size_t>(std::find_if(values.begin(), values.end(), is_same) - values.begin()));
-    values.push_back(std::move(spectrum));
-    at += size;
-  }
-  return first;
-}
 
 /// Whether the entries of left^T A right are more than rounding, for any of the matrices; within the parts.
 Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts, double magnified) {
@@ -81,9 +46,12 @@ std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coeffici
   if (all.empty() || all[0].rows() < 2) return nullptr;
   const Eigen::Index n = all[0].rows();
   const Balance scaling = balance(coefficients, n);
+  std::vector<Matrix> given;  // in units of the norms that they have when they are balanced
   for (Matrix& A : all) {
-    A = scaling.of(A);
-    A /= A.norm();
+    const Matrix balanced = scaling.of(A);
+    const double size = balanced.norm();
+    given.emplace_back(A / size);
+    A = balanced / size;
   }
   const Splitting splitting = split(all, magnified);
   const bool falls_apart = splitting.sizes.size() > 1;
@@ -96,20 +64,20 @@ std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coeffici
   parts->left = scaling.rows.asDiagonal() * splitting.left;
   parts->inverse = splitting.right.inverse() * scaling.columns.cwiseInverse().asDiagonal();
   if (!falls_apart) {
-    parts->ranges = {{0, n, 0}};
+    parts->ranges = {{0, n}};
     parts->pattern_M = parts->pattern_C = parts->pattern_K = Matrix::Ones(n, n);
     return parts;
   }
-  const std::vector<std::size_t> copy_of = copies(splitting, all, magnified);
   Eigen::Index first = 0;
-  for (std::size_t i = 0; i < copy_of.size(); ++i) {
-    parts->ranges.push_back({first, splitting.sizes[i], copy_of[i]});
+  for (std::size_t i = 0; i < splitting.sizes.size(); ++i) {
+    parts->ranges.push_back({first, splitting.sizes[i], i});
     first += splitting.sizes[i];
   }
   const double of_entries = magnified_by(splitting, magnified);
   parts->pattern_M = pattern_of(coefficients.M, *parts, of_entries);
   parts->pattern_C = pattern_of(coefficients.C, *parts, of_entries);
   parts->pattern_K = pattern_of(coefficients.K, *parts, of_entries);
+  settle_copies(given, magnified, *parts);
   return parts;
 }
 
@@ -134,9 +102,15 @@ std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix&
 
 }  // namespace
 
+Eigen::Index IndependentParts::freedoms() const {
+  Eigen::Index count = 0;
+  for (const Range& range : ranges) count += range.size * static_cast<Eigen::Index>(1 + range.copies.size());
+  return count;
+}
+
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients) {
   const auto parts = find_parts(coefficients, 1.0);
-  if (parts != nullptr && parts->count() > 1) simplify_free_motions(coefficients.M, *parts);
+  if (parts != nullptr && parts->falls_apart()) simplify_free_motions(coefficients.M, *parts);
   return parts;
 }
 
@@ -147,10 +121,14 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
                                   projected(coefficients.C, T, magnified),
                                   projected(coefficients.K, T, magnified)};
   const auto within = find_parts(inner, magnified);
-  if (within == nullptr || within->count() == 1) return nullptr;
+  if (within == nullptr || !within->falls_apart()) return nullptr;
   within->right = T * within->right;
   within->left = T * within->left;
   within->inverse = within->inverse * T.transpose();
+  for (IndependentParts::Range& range : within->ranges) {
+    for (PartCopy& copy : range.copies)
+      copy = {T * copy.right, T * copy.left, copy.inverse * T.transpose()};
+  }
   simplify_free_motions(coefficients.M, *within);
   return within;
 }

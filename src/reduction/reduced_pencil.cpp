@@ -130,9 +130,16 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};
-  if (parts.count() == 1) return whole;
+  const auto copies = [](const IndependentParts::Range& range) {
+    return static_cast<int>(range.copies.size());
+  };
+  if (parts.count() == 1) {
+    whole.copies = copies(parts.ranges.front());
+    return whole;
+  }
   for (const IndependentParts::Range& range : parts.ranges)
-    whole.parts.push_back({block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range)});
+    whole.parts.push_back(
+        {block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range), {}, copies(range)});
   return whole;
 }
 

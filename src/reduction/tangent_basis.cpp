@@ -38,14 +38,32 @@ ComplexMatrix TangentBasis::coordinates(const ComplexMatrix& V, int part) const 
   return product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
 }
 
-ComplexMatrix TangentBasis::shapes(const ComplexMatrix& Z, int part) const {
+ComplexMatrix TangentBasis::shapes(const ComplexMatrix& Z, int part, int copy) const {
   if (is_identity) return Z;
+  if (copy > 0) {
+    const auto& copies = parts->ranges[static_cast<std::size_t>(part)].copies;
+    return product(copies[static_cast<std::size_t>(copy - 1)].right, Z);
+  }
   if (parts && parts->is_diagonal) return parts->right.diagonal().asDiagonal() * Z;
   return product(parts ? Matrix(parts->columns(static_cast<std::size_t>(part))) : T[0], Z);
 }
 
 TangentBasis basis_of(std::shared_ptr<const IndependentParts> parts) {
   return {{parts->right}, false, parts};
+}
+
+int n_copies(const TangentBasis& basis, int part) {
+  return basis.parts ? static_cast<int>(basis.parts->ranges[static_cast<std::size_t>(part)].copies.size()) : 0;
+}
+
+TangentBasis basis_with_copy(const TangentBasis& basis, int part, int copy) {
+  auto parts = std::make_shared<IndependentParts>(*basis.parts);
+  const IndependentParts::Range& range = parts->ranges[static_cast<std::size_t>(part)];
+  const PartCopy& in_place = range.copies[static_cast<std::size_t>(copy - 1)];
+  parts->right.middleCols(range.first, range.size) = in_place.right;
+  parts->left.middleCols(range.first, range.size) = in_place.left;
+  parts->inverse.middleRows(range.first, range.size) = in_place.inverse;
+  return basis_of(std::move(parts));
 }
 
 TangentBasis tangent_basis(const ConstraintFactorization& constraints, const Matrix& previous) {

@@ -24,6 +24,12 @@ enum class EventKind {
   band_edge,      ///< Im s of a complex pair passes an end of the band of frequencies that is followed
 };
 
+/// What differs between an event of a mode and the same event of the equal mode of a copy of its part.
+struct EventOfCopy {
+  ComplexVector shape, sensitivity;
+  Vector shift;
+};
+
 struct Event {
   EventKind kind = EventKind::flutter;
   double p = 0.0;           ///< value of the traced parameter, in its unit
@@ -48,6 +54,9 @@ struct Event {
   Vector shift = {};    ///< dp*/dq: how the place of the event moves with every parameter; NaN likewise
   int retrackings = 0;  ///< points computed to locate it
   int node = 0;         ///< number of the first path point at or after it
+  /// While a trace runs: the same for every copy of the part that the modes belong to. Empty in its result,
+  /// where they are events of their own.
+  std::vector<EventOfCopy> copies = {};
 };
 
 /// The name of a kind in files.

@@ -11,6 +11,7 @@ struct StartingMode {
   Complex s;        ///< Im s >= 0; this member represents a complex pair
   ComplexVector z;  ///< unit length; empty if only eigenvalues were requested
   int part = 0;     ///< of the equations, where they fall apart
+  int copy = 0;     ///< number of the equal part that it belongs to, from 1; 0: the part itself
   bool is_permanent_zero =
       false;  ///< zero for every value of the parameter, and left out of choices of modes
 };
@@ -34,7 +35,7 @@ Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K);
 Spectrum compute_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
 
 /// The same of a reduced pencil at its point, part by part where it falls apart. Vectors are those of the
-/// part.
+/// part. A mode of a part with copies is followed by those of the copies, which are equal.
 Spectrum compute_spectrum(const ReducedPencil& pencil);
 Spectrum compute_eigenvalues(const ReducedPencil& pencil);
 

@@ -16,15 +16,24 @@
 
 namespace eigentrail {
 
+/// A part that equals another one, in coordinates in which its M, C and K are the same matrices as those of
+/// that one, up to rounding.
+struct PartCopy {
+  Matrix right;    ///< n x size
+  Matrix left;     ///< n x size
+  Matrix inverse;  ///< size x n, inverse * right = I
+};
+
 /// New coordinates y with x = right y, and equations multiplied from the left by left^T. In them M, C and K
-/// are block diagonal. y has as many entries as the system has freedoms, n' <= n.
+/// are block diagonal. Of equal parts y has only the first; the others are its copies. y has n' <= n entries,
+/// with the copies as many as the system has freedoms.
 struct IndependentParts {
   /// Coordinates of one part.
   struct Range {
     Eigen::Index first = 0, size = 0;
-    /// Index of the first part that is equal to this one in suitable coordinates; its own if there is none
-    /// before it.
-    std::size_t copy_of = 0;
+    /// Index of the first part with the same eigenvalues throughout; its own if there is none before it.
+    std::size_t like = 0;
+    std::vector<PartCopy> copies = {};  ///< parts that this one stands for, besides itself
   };
 
   Matrix right;    ///< n x n'
@@ -37,6 +46,10 @@ struct IndependentParts {
   bool is_diagonal = false;  ///< `right` and `left` only scale coordinates and equations
 
   std::size_t count() const { return ranges.size(); }
+  /// Whether there is more than one part, copies included.
+  bool falls_apart() const { return count() > 1 || !ranges.front().copies.empty(); }
+  /// Number of freedoms of all parts, copies included.
+  Eigen::Index freedoms() const;
   /// Whether a part is a single freedom that no force holds: a rigid-body motion, an integrator.
   bool is_free(const Range& part) const { return part.size == 1 && pattern_K(part.first, part.first) == 0.0; }
   /// Columns of `right` that belong to a part, n x size.

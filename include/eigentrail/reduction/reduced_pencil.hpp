@@ -13,6 +13,7 @@ struct ReducedPencil {
   MatrixSeries K;  ///< T^T (K + (A^T lambda)_/x) T
   /// Its diagonal blocks, where the equations fall apart into more than one part (independent_parts.hpp).
   std::vector<ReducedPencil> parts = {};
+  int copies = 0;  ///< number of further parts that have the same equations, and are not among `parts`
 
   /// The equations of one part; all of them where they do not fall apart.
   const ReducedPencil& of(int part) const {

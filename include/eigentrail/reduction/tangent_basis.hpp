@@ -22,12 +22,18 @@ struct TangentBasis {
 
   /// Reduced coordinates of physical vectors within the tangent space: T^T V, or those of one part.
   ComplexMatrix coordinates(const ComplexMatrix& V, int part) const;
-  /// T(0) times reduced vectors (of one part).
-  ComplexMatrix shapes(const ComplexMatrix& Z, int part) const;
+  /// T(0) times reduced vectors (of one part, or of one of its copies, counted from 1).
+  ComplexMatrix shapes(const ComplexMatrix& Z, int part, int copy = 0) const;
 };
 
 /// The basis of constant coordinates.
 TangentBasis basis_of(std::shared_ptr<const IndependentParts> parts);
+
+/// Number of copies of a part.
+int n_copies(const TangentBasis& basis, int part);
+
+/// The basis in which a copy of a part, counted from 1, is in the place of the part.
+TangentBasis basis_with_copy(const TangentBasis& basis, int part, int copy);
 
 /// How the basis is chosen within the null space. The eigenvalues do not depend on the choice.
 enum class BasisChoice {

@@ -39,6 +39,10 @@ void leave_unknown(std::size_t n_parameters, Event& event) {
   const auto count = static_cast<Eigen::Index>(n_parameters);
   event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
   event.shift = Vector::Constant(count, nan);
+  for (EventOfCopy& copy : event.copies) {
+    copy.sensitivity = event.sensitivity;
+    copy.shift = event.shift;
+  }
 }
 
 Complex mean_slope(const Track& track, const std::vector<Complex>& roots) {
@@ -53,7 +57,18 @@ void keep_shape(const PathNode& node, const Track& track, const std::vector<int>
   Eigen::Index nearest = 0;
   (solver.eigenvalues().array() - track.roots[members.front()]).abs().minCoeff(&nearest);
   const ComplexVector shape = evaluate_series(track.series.Z, offset) * solver.eigenvectors().col(nearest);
-  event.shape = normalize_shape(shape, node.linearization.M[0], {});
+  keep_shape(node, track.pair.part, shape, event);
+}
+
+void keep_shape(const PathNode& node, int part, const ComplexVector& shape, Event& event) {
+  const SystemMatrix& M = node.linearization.M[0];
+  event.shape = normalize_shape(shape, M, {});
+  event.copies.assign(static_cast<std::size_t>(n_copies(node.basis, part)), {});
+  if (event.copies.empty()) return;
+  const ComplexVector z = node.basis.coordinates(shape, part);
+  for (std::size_t i = 0; i < event.copies.size(); ++i)
+    event.copies[i].shape =
+        normalize_shape(node.basis.shapes(z, part, static_cast<int>(i) + 1).col(0), M, {});
 }
 
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts) {
@@ -75,18 +90,26 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
   const double speed = coefficient(node.path.parameters, problem.traced, 1);
   PathPoint of_track = point;
   of_track.pairs = {track.pair};
-  for (int q = 0; q < static_cast<int>(parameters.size()); ++q) {
-    if (parameters[static_cast<std::size_t>(q)].definition) continue;
-    if (q == problem.traced) {
-      event.sensitivity[q] = mean_slope_of_s(track, roots) / speed;
-      continue;
+  const auto keep = [&](ComplexVector& sensitivity, Vector& shift) {
+    for (int q = 0; q < static_cast<int>(parameters.size()); ++q) {
+      if (parameters[static_cast<std::size_t>(q)].definition) continue;
+      if (q == problem.traced) {
+        sensitivity[q] = mean_slope_of_s(track, roots) / speed;
+        continue;
+      }
+      const std::optional<PathNode> along = slopes_along(problem, of_track, q, counts);
+      if (!along) continue;
+      const Track& along_q = along->tracks.front();
+      sensitivity[q] = mean_slope_of_s(along_q, roots);
+      const double moved = moves(track, *along, along_q) * speed;
+      if (std::isfinite(moved)) shift[q] = moved;
     }
-    const std::optional<PathNode> along = slopes_along(problem, of_track, q, counts);
-    if (!along) continue;
-    const Track& along_q = along->tracks.front();
-    event.sensitivity[q] = mean_slope_of_s(along_q, roots);
-    const double shift = moves(track, *along, along_q) * speed;
-    if (std::isfinite(shift)) event.shift[q] = shift;
+  };
+  keep(event.sensitivity, event.shift);
+  // Other parameters may change equal parts differently.
+  for (std::size_t i = 0; i < event.copies.size(); ++i) {
+    of_track.basis = basis_with_copy(point.basis, track.pair.part, static_cast<int>(i) + 1);
+    keep(event.copies[i].sensitivity, event.copies[i].shift);
   }
 }
 

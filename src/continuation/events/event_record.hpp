@@ -19,7 +19,11 @@ Complex mean_slope(const Track& track, const std::vector<Complex>& roots);
 void keep_shape(const PathNode& node, const Track& track, const std::vector<int>& members, double offset,
                 Event& event);
 
-/// Sets all sensitivities of an event to NaN.
+/// The same from a shape of a mode of a part, in physical coordinates. Also begins the list of the event's
+/// copies, with their shapes.
+void keep_shape(const PathNode& node, int part, const ComplexVector& shape, Event& event);
+
+/// Sets all sensitivities of an event and its copies to NaN.
 void leave_unknown(std::size_t n_parameters, Event& event);
 
 /// The path point of a node as it was before differentiation, without pencil and modes.
@@ -30,7 +34,7 @@ PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCoun
 /// with its series in h; the node, and the track, with their series in q. NaN where it is not known.
 using Movement = std::function<double(const Track&, const PathNode&, const Track&)>;
 
-/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q. Both are NaN where they are not
+/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q, also of the event's copies. Both are NaN where they are not
 /// known. Every q costs one more back-substitution.
 void keep_sensitivities(const PathProblem& problem, const PathPoint& point, const PathNode& node,
                         const Track& track, const std::vector<int>& members, const Movement& moves,

@@ -157,6 +157,7 @@ Event CrossingWalk::event_here() const {
                        node, track, {static_cast<int>(root)}, stays, own[i], search_.solver.counts());
   }
   Event event = own[0];
+  event.copies.clear();  // equal modes of copies are modes of the same crossing
   event.kind = EventKind::crossing;
   event.p = seen_[0]->solved.node.p;
   event.s = 0.5 * (s_[0] + s_[1]);
@@ -231,7 +232,7 @@ FoundEvents find_part_crossings(const EventSearch& search, const Step& step) {
   if (step.left->pencil.parts.size() < 2) return found;
   const auto& ranges = search.problem().parts->ranges;
   const auto kind_of = [&](const SampledMode& mode) {
-    return ranges[static_cast<std::size_t>(step.left->tracks[mode.track].pair.part)].copy_of;
+    return ranges[static_cast<std::size_t>(step.left->tracks[mode.track].pair.part)].like;
   };
   const std::vector<SampledMode> modes = sampled_modes(step);
   for (std::size_t i = 0; i < modes.size(); ++i) {

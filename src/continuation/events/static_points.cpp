@@ -40,6 +40,7 @@ void keep_vanishing_mode(const PathNode& node, Event& event) {
     Eigen::Index member = 0;
     track.roots.cwiseAbs().minCoeff(&member);
     keep_shape(node, track, {static_cast<int>(member)}, 0.0, event);
+    event.copies.clear();
   }
 }
 
@@ -101,6 +102,7 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   event.puiseux = 0.0;
   event.s = 0.0;
   event.modes.clear();
+  event.copies.clear();
   FoundEvents found;
   found.notes.push_back(note_on_branch_point(search, event.p));
   found.events.push_back(std::move(event));

@@ -7,7 +7,6 @@
 #include "continuation/events/exceptional_point.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/block_parts.hpp"
-#include "eigentrail/modes/normalization.hpp"
 
 namespace eigentrail {
 namespace {
@@ -179,7 +178,7 @@ class PencilSearch {
     if (event.s.imag() < 0.0) event.s = std::conj(event.s);
     event.node = search_.node;
     const ComplexMatrix shape = node_->basis.shapes((*below)[0].z, track().pair.part);
-    event.shape = normalize_shape(shape.col(0), node_->linearization.M[0], {});
+    keep_shape(*node_, track().pair.part, shape.col(0), event);
     leave_unknown(search_.problem().model.description().parameters.size(), event);
     return search_.log.has_veering({event.p, event.half_width}, event.modes)
                ? std::nullopt

@@ -112,7 +112,7 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
           ? ReducedPencil{{physical.M[0].dense()}, {physical.C[0].dense()}, {physical.K[0].dense()}, {}}
           : point.pencil;
   for (const StartingMode& start : spectrum.modes) {
-    const ComplexVector shape = point.basis.shapes(start.z, start.part).col(0);
+    const ComplexVector shape = point.basis.shapes(start.z, start.part, start.copy).col(0);
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode());
     mode.shape = shape.normalized();

@@ -165,11 +165,15 @@ std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<Com
   }
   // For a large model, a complex copy of the basis for every mode would take longer than the product.
   if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
-  const IndependentParts::Range columns = basis.parts ? basis.parts->ranges[static_cast<std::size_t>(part)]
-                                                      : IndependentParts::Range{0, basis.T[0].cols()};
   std::vector<ComplexMatrix> T;
-  for (const Matrix& coefficient : basis.T)
-    T.emplace_back(coefficient.middleCols(columns.first, columns.size).cast<Complex>());
+  for (const Matrix& coefficient : basis.T) {
+    if (!basis.parts) {
+      T.emplace_back(coefficient.cast<Complex>());
+      continue;
+    }
+    const IndependentParts::Range& range = basis.parts->ranges[static_cast<std::size_t>(part)];
+    T.emplace_back(coefficient.middleCols(range.first, range.size).cast<Complex>());
+  }
   return multiply_series(T, Z, Z.size());
 }
 

@@ -49,8 +49,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<ReducedPencil> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K, parts] = self;
-  visit(M, C, K, parts);
+  auto& [M, C, K, parts, copies] = self;
+  visit(M, C, K, parts, copies);
 }
 
 template <SameAs<PathNode> Self, class Visit>
@@ -65,12 +65,18 @@ static void fields(Self& self, Visit& visit) {
   visit(x, p);
 }
 
+template <SameAs<EventOfCopy> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [shape, sensitivity, shift] = self;
+  visit(shape, sensitivity, shift);
+}
+
 template <SameAs<Event> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
-         node] = self;
+         node, copies] = self;
   visit(kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
-        node);
+        node, copies);
 }
 
 template <SameAs<Rejections> Self, class Visit>
@@ -138,6 +144,12 @@ static void fields(Self& self, Visit& visit) {
   visit(count, partners);
 }
 
+template <SameAs<ModeCopies> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [numbers] = self;
+  visit(numbers);
+}
+
 template <SameAs<EndedTrack> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [track, looks] = self;
@@ -146,9 +158,10 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TraceState> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps, ended] =
-      self;
-  visit(settings, result, control, origin, frame, branches, numbers, histories, dismissed, steps, ended);
+  auto& [settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
+         steps, ended] = self;
+  visit(settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
+        steps, ended);
 }
 
 std::string save_state(const TraceState& state) {
@@ -217,9 +230,14 @@ bool fits(const Path& path, const Model& model) {
 bool has_parts(const ReducedPencil& pencil, const IndependentParts* parts) {
   const std::size_t count = parts != nullptr && parts->count() > 1 ? parts->count() : 0;
   if (pencil.parts.size() != count) return false;
+  const auto copies = [](const IndependentParts::Range& range) {
+    return static_cast<int>(range.copies.size());
+  };
+  if (parts != nullptr && count == 0 && pencil.copies != copies(parts->ranges.front())) return false;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Index size = parts->ranges[i].size;
     const ReducedPencil& own = pencil.parts[i];
+    if (own.copies != copies(parts->ranges[i])) return false;
     if (!all_are(own.M, size, size) || !all_are(own.C, size, size) || !all_are(own.K, size, size))
       return false;
   }
@@ -269,7 +287,7 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
                          model.n_coordinates(),
                          model.n_constraints(),
                          model.n_multipliers(),
-                         result.n_independent,
+                         problem.parts ? problem.parts->right.cols() : result.n_independent,
                          result.n_columns};
   const std::size_t effects = model.description().effects.size();
   const EvaluationCounts& counts = result.counts.evaluations;
@@ -294,7 +312,12 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   for (const auto& [key, history] : state.histories) {
     if (key.first < 0 || key.second >= criteria) return "other events";
   }
-  for (const auto* list : {&result.events, &state.dismissed}) {
+  for (const auto& [mode, copies] : state.copies.numbers) {
+    for (const int copy : copies) {
+      if (copy < 0 || copy >= sizes.columns) return "a mode of an equal part that is not there";
+    }
+  }
+  for (const auto* list : {&result.events, &state.events, &state.dismissed}) {
     for (const Event& event : *list) {
       if (!is_event_kind(event.kind)) return "no kind of an event";
       for (const int mode : event.modes) {

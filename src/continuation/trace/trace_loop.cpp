@@ -129,7 +129,7 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
       narrow_places_(places_to_land(model, problem_, options)),
-      log_{state_.result.events, state_.dismissed, state_.frame.range,
+      log_{state_.events, state_.dismissed, state_.frame.range,
            problem_.thresholds,  nullptr,          equilibrium_moves(problem_)},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
@@ -174,8 +174,8 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
+  number_modes(node);
   log(std::move(met));
-  result.n_columns = state_.numbers.count;
   if (!emit(node, nullptr)) return false;
   if (!state_.frame.on_branch_point(options_.from)) return true;
   const bool leaves = leaves_path_at(node);
@@ -319,9 +319,10 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   const bool one_fails = verdict.track >= 0 && node.tracks.size() > 1 && ++memory.ended <= most_ended;
   if (!one_fails)
     return stop(TraceStatus::step_too_small, too_small_message(problem_, options_, node, verdict));
+  const std::vector<int> modes = node.tracks[static_cast<std::size_t>(verdict.track)].modes;
   const std::string who = end_track(problem_, node, static_cast<std::size_t>(verdict.track), state_.ended);
   if (!who.empty())
-    state_.result.notes.push_back(who + " ends at " + place_text(options_, node.p) + ": " + verdict.reason);
+    state_.result.notes.push_back(who + equal_modes_text(state_.copies, modes) + " ends at " + place_text(options_, node.p) + ": " + verdict.reason);
   state_.origin.tried.reset();
   state_.control.restart(memory.longest_step);
   return true;
@@ -337,12 +338,12 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   std::vector<Track> wanted;
   if (landed.meetings.empty()) wanted = newcomers(problem_, options_.modes, step.right, result.counts);
   if (follow_back(problem_, wanted, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
-    result.n_columns = state_.numbers.count;
+    number_modes(state_.origin.node);
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them
   }
   settle_events(landed);
-  const PathStep stored = stored_step(problem_, step, certified);
+  const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
   for (const std::string& who : find_again(problem_, step.right, state_.ended, result.counts))
     result.notes.push_back(who + " was found again at " + place_text(options_, step.right.p) +
                            ", by its shape");
@@ -360,7 +361,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
       result.notes.push_back("a mode that is wanted was noticed " + where +
                              " and could not be followed back; it begins there");
   }
-  result.n_columns = state_.numbers.count;
+  number_modes(step.right);
   for (const DenseBlock& block : stored.blocks) {
     result.mode_steps += static_cast<long>(block.modes.size());
     if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
@@ -397,6 +398,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
     births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
   mark_doubtful(landed.meetings, step.right);
   name_births(births, met);
+  number_modes(step.right);
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
   inherit_histories(births, criteria_, state_.histories);  // after the scan of their parents up to here
@@ -473,7 +475,7 @@ bool TraceLoop::leave_path() {
   }
   const auto births = order_on_other_path(arrived, start->next_step, start->node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
-  state_.result.n_columns = state_.numbers.count;
+  number_modes(start->node);
   state_.frame = std::move(start->frame);
   state_.origin.node = std::move(start->node);
   state_.origin.last_step = 0.0;
@@ -494,7 +496,18 @@ bool TraceLoop::leaves_path_at(const PathNode& node) const {
 }
 
 void TraceLoop::log(FoundEvents found) {
-  record(log_, std::move(found), state_.result.events, state_.dismissed, state_.result.notes);
+  const std::size_t before = state_.events.size();
+  record(log_, std::move(found), state_.events, state_.dismissed, state_.result.notes);
+  for (std::size_t i = before; i < state_.events.size(); ++i) {
+    for (Event& event : with_copies(state_.copies, state_.events[i]))
+      state_.result.events.push_back(std::move(event));
+  }
+}
+
+/// Gives numbers to the copies of modes that have begun at a point.
+void TraceLoop::number_modes(const PathNode& node) {
+  number_copies(node, state_.numbers, state_.copies);
+  state_.result.n_columns = state_.numbers.count;
 }
 
 bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
@@ -502,7 +515,7 @@ bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   result.reached = node.p;
   ++result.nodes;
   const StageTimer timer(result.counts.output_seconds);
-  if (observer_.point({node, mode_states(node, problem_.traced), step})) return true;
+  if (observer_.point({node, mode_states(node, problem_.traced, state_.copies), step})) return true;
   return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
 }
 

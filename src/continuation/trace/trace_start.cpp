@@ -96,6 +96,7 @@ std::optional<StartFailure> Start::compute() {
     return StartFailure{TraceStatus::no_equilibrium, point_.message};
   result_.n_independent = point_.pencil.size();
   find_parts();
+  if (problem_.parts) result_.n_independent = problem_.parts->freedoms();
   settle_order();
   if (auto on_branch_point = bridge_start(solver_, state_.frame, point_))
     point_ = std::move(*on_branch_point);
@@ -171,13 +172,15 @@ std::optional<StartFailure> Start::find_modes() {
     result_.notes.push_back("none of " + in_words(options_.modes) + where() +
                             "; the mode that misses this least is followed");
   result_.n_columns = state_.numbers.count = result_.n_modes;
+  state_.copies = starting_copies(spectrum.modes, result_.n_modes);
   list_permanent_zeros(spectrum);
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
   // Infinite eigenvalues are not followed, except those that coordinates of first order have in the form with
   // velocities. Independent parts are followed each by itself.
   const bool none_infinite = spectrum.n_infinite == 2 * pencil.size() - state_size(pencil.M[0]);
-  const bool at_once = settings.follows_all && none_infinite && pencil.parts.empty();
+  const bool falls_apart = problem_.parts && problem_.parts->falls_apart();
+  const bool at_once = settings.follows_all && none_infinite && !falls_apart;
   settings.route =
       cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, settings.order});
   settle_magnitudes(spectrum);

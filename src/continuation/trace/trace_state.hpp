@@ -7,6 +7,7 @@
 #include "continuation/step/certificate_patience.hpp"
 #include "continuation/step/step_solver.hpp"
 #include "continuation/tracks/ended_modes.hpp"
+#include "continuation/tracks/mode_copies.hpp"
 #include "continuation/tracks/mode_order.hpp"
 #include "eigentrail/continuation/step_control.hpp"
 #include "eigentrail/continuation/trace_result.hpp"
@@ -48,7 +49,9 @@ struct TraceState {
   PathFrame frame = {};
   BranchPassage branches = {};
   ModeNumbers numbers = {};
+  ModeCopies copies = {};
   CriterionHistories histories = {};
+  std::vector<Event> events = {};     ///< of the tracks; the result has those of copies as well
   std::vector<Event> dismissed = {};  ///< predicted veerings that turned out to be none
   StepMemory steps = {};
   std::vector<EndedTrack> ended = {};  ///< tracks that are looked for

@@ -113,7 +113,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
   Matrix cost = Matrix::Constant(n, n, unrelated);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
-      if (spectrum.modes[j].part != parts[i]) continue;
+      if (spectrum.modes[j].part != parts[i] || spectrum.modes[j].copy > 0) continue;
       const Complex s = spectrum.modes[j].s;
       const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
@@ -129,7 +129,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
   }
   std::vector<StartingMode> missing;
   for (std::size_t j = 0; j < taken.size(); ++j) {
-    if (!taken[j]) missing.push_back(spectrum.modes[j]);
+    if (!taken[j] && spectrum.modes[j].copy == 0) missing.push_back(spectrum.modes[j]);
   }
   return missing;
 }

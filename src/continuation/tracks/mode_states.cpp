@@ -65,9 +65,22 @@ ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMa
   return state;
 }
 
+/// Adds the states of the copies of the last mode: the same but for their shapes.
+void add_copies(const TangentBasis& basis, int part, const std::vector<int>& numbers,
+                std::vector<ModeState>& states) {
+  if (numbers.empty()) return;
+  const ModeState mode = states.back();
+  const ComplexVector z = basis.coordinates(mode.shape, part);
+  for (std::size_t copy = 0; copy < numbers.size(); ++copy) {
+    states.push_back(mode);
+    states.back().mode = numbers[copy];
+    states.back().shape = basis.shapes(z, part, static_cast<int>(copy) + 1);
+  }
+}
+
 }  // namespace
 
-std::vector<ModeState> mode_states(const PathNode& node, int traced) {
+std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies) {
   std::vector<ModeState> states;
   const double speed = coefficient(node.path.parameters, traced, 1);
   for (const Track& track : node.tracks) {
@@ -77,7 +90,9 @@ std::vector<ModeState> mode_states(const PathNode& node, int traced) {
         const int mode = (*modes)[static_cast<std::size_t>(i)];
         const bool seen = std::any_of(states.begin(), states.end(),
                                       [mode](const ModeState& state) { return state.mode == mode; });
-        if (mode >= 0 && !seen) states.push_back(state_of(track, i, mode, vectors, speed));
+        if (mode < 0 || seen) continue;
+        states.push_back(state_of(track, i, mode, vectors, speed));
+        add_copies(node.basis, track.pair.part, copies.of(mode), states);
       }
     }
   }

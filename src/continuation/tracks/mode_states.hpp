@@ -1,11 +1,13 @@
 // The modes of a point one by one, as the loci file stores them.
 #pragma once
 
+#include "continuation/tracks/mode_copies.hpp"
 #include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 
-/// Every mode that exists before or behind the point. `traced`: index of the traced parameter.
-std::vector<ModeState> mode_states(const PathNode& node, int traced);
+/// Every mode that exists before or behind the point, those of `copies` included. `traced`: index of the
+/// traced parameter.
+std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies = {});
 
 }  // namespace eigentrail

@@ -29,7 +29,7 @@ std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_r
   std::iota(label.begin(), label.end(), 0);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (modes[i].part != modes[j].part) continue;
+      if (modes[i].part != modes[j].part || modes[i].copy > 0 || modes[j].copy > 0) continue;
       const Complex a = modes[i].s;
       const Complex b = modes[j].s;
       const double scale = std::max({std::abs(a), std::abs(b), s_ref});
@@ -59,7 +59,7 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
   for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < modes.size(); ++i) {
-      if (labels[i] == label) members.push_back(i);
+      if (labels[i] == label && modes[i].copy == 0) members.push_back(i);
     }
     if (members.empty() || static_cast<int>(members.front()) >= n_modes) continue;
     const bool is_real = std::any_of(members.begin(), members.end(),

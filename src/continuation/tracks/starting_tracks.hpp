@@ -14,7 +14,7 @@ struct StartingGroup {
 };
 
 /// Groups that contain the first `n_modes` modes of the spectrum. Later modes are in these groups, as guests,
-/// where they are too close. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s. `least_scale`:
+/// where they are too close. Modes of copies of a part are left out. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s. `least_scale`:
 /// lower bound of s_ref, the magnitude of eigenvalues near the point; needed on a branch point, where the
 /// pencil may have no other eigenvalues than zero.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
