@@ -126,8 +126,7 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
   within->left = T * within->left;
   within->inverse = within->inverse * T.transpose();
   for (IndependentParts::Range& range : within->ranges) {
-    for (PartCopy& copy : range.copies)
-      copy = {T * copy.right, T * copy.left, copy.inverse * T.transpose()};
+    for (PartCopy& copy : range.copies) copy = {T * copy.right, T * copy.left, copy.inverse * T.transpose()};
   }
   simplify_free_motions(coefficients.M, *within);
   return within;

@@ -43,9 +43,8 @@ bool have_equal_eigenvalues(const OwnMatrices& a, const OwnMatrices& b, double m
   if (a.values.size() != b.values.size()) return false;
   const double distance =
       magnified * equal * static_cast<double>(a.values.size()) * a.values.cwiseAbs().maxCoeff();
-  return std::all_of(b.values.begin(), b.values.end(), [&](Complex s) {
-    return (a.values.array() - s).abs().minCoeff() <= distance;
-  });
+  return std::all_of(b.values.begin(), b.values.end(),
+                     [&](Complex s) { return (a.values.array() - s).abs().minCoeff() <= distance; });
 }
 
 /// Columns of V in the order in which their eigenvalues are nearest to `order`; empty if two of these have
@@ -138,7 +137,8 @@ std::optional<PartCopy> as_copy(const std::vector<Matrix>& all, const OwnMatrice
   const auto change = change_of_coordinates(a, b, random);
   if (!change) return std::nullopt;
   const auto& [S, Y] = *change;
-  PartCopy copy{without_rounding(part.right * S), without_rounding(part.left * Y), S.inverse() * part.inverse};
+  PartCopy copy{without_rounding(part.right * S), without_rounding(part.left * Y),
+                S.inverse() * part.inverse};
   const double allowed = magnified * equal * static_cast<double>(S.rows());
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Matrix difference = copy.left.transpose() * all[k] * copy.right - a.all[k];

@@ -9,7 +9,8 @@ namespace eigentrail {
 
 /// Sets `like` for parts with the same eigenvalues, and makes parts that are equal up to a change of
 /// coordinates copies of the first of them. Freedoms that no force holds stay parts of their own. The
-/// matrices are n x n, of about equal norms in balanced coordinates. `magnified`: rounding in units of their own, >= 1.
+/// matrices are n x n, of about equal norms in balanced coordinates. `magnified`: rounding in units of their
+/// own, >= 1.
 void settle_copies(const std::vector<Matrix>& all, double magnified, IndependentParts& parts);
 
 }  // namespace eigentrail

@@ -53,7 +53,8 @@ TangentBasis basis_of(std::shared_ptr<const IndependentParts> parts) {
 }
 
 int n_copies(const TangentBasis& basis, int part) {
-  return basis.parts ? static_cast<int>(basis.parts->ranges[static_cast<std::size_t>(part)].copies.size()) : 0;
+  return basis.parts ? static_cast<int>(basis.parts->ranges[static_cast<std::size_t>(part)].copies.size())
+                     : 0;
 }
 
 TangentBasis basis_with_copy(const TangentBasis& basis, int part, int copy) {

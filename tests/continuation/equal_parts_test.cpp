@@ -173,6 +173,98 @@ INSTANTIATE_TEST_SUITE_P(EqualParts, Traced,
                                          columns(6, 0.05, true), ring(3), ring(6), ring(12), ring(24)),
                          [](const auto& test) { return test.param.name; });
 
+RecordedTrace trace_of(const EqualParts& c, const std::string& more = "") {
+  const std::string C = c.C.empty() ? "" : "C = " + text(c.C) + "\n";
+  return record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = " + exact_text(c.from) +
+                                   "\nto = " + exact_text(c.to) + "\ntolerance = 1e-8\norder = 3\n" + more +
+                                   "[matrix_family]\nM = " + text(c.M) + "\n" + C + "K = " + text(c.K) +
+                                   "\n"));
+}
+
+/// One column is traced and stands for the others: points and factorizations are those of two, however many
+/// there are.
+TEST(EqualParts, CostWhatOneOfThemCosts) {
+  const RecordedTrace two = trace_of(columns(2, 0.05, true));
+  for (const Eigen::Index count : {3, 6, 12}) {
+    const RecordedTrace many = trace_of(columns(count, 0.05, true));
+    EXPECT_EQ(many.result.n_modes, 2 * count);
+    EXPECT_EQ(many.result.n_available, 2 * count);
+    EXPECT_EQ(many.result.n_independent, 2 * count);
+    EXPECT_EQ(many.result.nodes, two.result.nodes);
+    EXPECT_EQ(many.result.counts.modes.factorizations, two.result.counts.modes.factorizations);
+    EXPECT_EQ(many.result.counts.certificate_factorizations, two.result.counts.certificate_factorizations);
+    EXPECT_EQ(many.result.counts.certificate_bases, two.result.counts.certificate_bases);
+    EXPECT_EQ(many.result.mode_steps, count * (two.result.mode_steps / 2));
+  }
+}
+
+/// Every mode that is handed out, those of copies included, is an eigenpair of the whole, and the shapes of
+/// equal modes are independent.
+TEST(EqualParts, HaveShapesOfTheWhole) {
+  constexpr Eigen::Index count = 3;
+  const EqualParts c = columns(count, 0.05, true);
+  const RecordedTrace found = trace_of(c);
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  for (std::size_t node = 0; node < found.nodes.size(); ++node) {
+    const Matrix K = c.K[0] + found.nodes[node].p * c.K[1];
+    const auto& modes = found.modes[node];
+    ASSERT_EQ(modes.size(), static_cast<std::size_t>(2 * count));
+    ComplexMatrix shapes(2 * count, 2 * count);
+    for (const ModeState& mode : modes) {
+      const ComplexVector v = mode.shape.normalized();
+      const ComplexVector residual = mode.s * (mode.s * (c.M[0] * v) + c.C[0] * v) + K * v;
+      EXPECT_LT(residual.norm(), 1e-12 * K.norm());
+      shapes.col(mode.mode) = v;
+    }
+    EXPECT_GT(Eigen::JacobiSVD<ComplexMatrix>(shapes).singularValues().minCoeff(), 1e-2);
+  }
+}
+
+/// Of six modes of three columns four are followed: the three equal first ones, and one of the second.
+TEST(EqualParts, AreFollowedAsFarAsAskedFor) {
+  const RecordedTrace found = trace_of(columns(3, 0.05, false), "modes = 4\n");
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  EXPECT_EQ(found.result.n_modes, 4);
+  EXPECT_EQ(found.result.n_columns, 4);
+  const ComplexVector s = found.eigenvalues_at(1.0);
+  ASSERT_EQ(s.size(), 4);
+  EXPECT_EQ(s[0], s[1]);
+  EXPECT_EQ(s[0], s[2]);
+  EXPECT_GT(std::abs(s[3] - s[0]), 0.5);
+}
+
+/// A parameter that changes one of two equal oscillators moves the event of that one only: the damping ratio
+/// p / (2 sqrt(k)) is 0.1 at p = 0.2 sqrt(k).
+TEST(EqualParts, HaveSensitivitiesOfTheirOwn) {
+  const RecordedTrace found = record_trace(make_setting(R"(
+[parameters]
+k1 = 4.0
+k2 = 4.0
+[trace]
+parameter = "p"
+from = 0.1
+to = 1
+tolerance = 1e-9
+[events]
+damping_ratio = 0.1
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0, 0], [0, 0]], [[1, 0], [0, 1]]]
+K = [[["k1", 0], [0, "k2"]]]
+)"));
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  ASSERT_EQ(found.result.events.size(), 2U);
+  Vector moved = Vector::Zero(2);
+  for (const Event& event : found.result.events) {
+    EXPECT_NEAR(event.p, 0.4, 1e-10);
+    const Eigen::Index own = std::abs(event.shape[0]) > std::abs(event.shape[1]) ? 0 : 1;
+    EXPECT_NEAR(event.shift[own], 0.05, 1e-9);
+    EXPECT_NEAR(event.shift[1 - own], 0.0, 1e-12);
+    moved[own] += 1.0;
+  }
+  EXPECT_EQ(moved, Vector::Ones(2));
+}
+
 /// Two harmonics of a ring pass each other, and all of them meet where the blades are uncoupled.
 TEST(PartCrossings, OfAllPartsAtOncePlaceAreOneEvent) {
   const RecordedTrace trace = record_trace(make_setting(

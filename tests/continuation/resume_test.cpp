@@ -38,6 +38,25 @@ TEST(Resume, OtherPathAtABranchPointIsTheSame) {
   }
 }
 
+/// Three equal oscillators through critical damping, of which one is traced: pairs become real modes.
+TEST(Resume, TraceOfEqualPartsIsTheSame) {
+  for (const char* modes : {"all", "2"}) {
+    EXPECT_EQ(difference(make_setting(R"(
+[trace]
+parameter = "p"
+from = 1
+to = 3
+[matrix_family]
+M = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+C = [[[0, 0, 0], [0, 0, 0], [0, 0, 0]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+K = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+)",
+                                      {{"modes", modes}})),
+              "")
+        << modes;
+  }
+}
+
 TEST(Resume, TraceWithoutCertificateIsTheSame) {
   EXPECT_EQ(difference(scene_setting("rotating_mass", {{"certify", "false"}, {"order", "1"}})), "");
 }

@@ -42,9 +42,29 @@ Matrix side_by_side(const Matrix& A, const Matrix& B) {
   return both;
 }
 
+/// Coordinates of all parts, every copy behind the part that it equals.
+PartCopy with_copies(const IndependentParts& parts) {
+  const Eigen::Index n = parts.right.rows();
+  PartCopy all{Matrix(n, parts.freedoms()), Matrix(n, parts.freedoms()), Matrix(parts.freedoms(), n)};
+  Eigen::Index at = 0;
+  const auto add = [&](const Matrix& right, const Matrix& left, const Matrix& inverse) {
+    all.right.middleCols(at, right.cols()) = right;
+    all.left.middleCols(at, right.cols()) = left;
+    all.inverse.middleRows(at, right.cols()) = inverse;
+    at += right.cols();
+  };
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    const auto& range = parts.ranges[i];
+    add(parts.columns(i), parts.left.middleCols(range.first, range.size), parts.coordinates(i));
+    for (const PartCopy& copy : range.copies) add(copy.right, copy.left, copy.inverse);
+  }
+  return all;
+}
+
+/// Sizes of all parts, copies included.
 std::vector<Eigen::Index> sizes_of(const IndependentParts& parts) {
   std::vector<Eigen::Index> sizes;
-  for (const auto& range : parts.ranges) sizes.push_back(range.size);
+  for (const auto& range : parts.ranges) sizes.insert(sizes.end(), 1 + range.copies.size(), range.size);
   std::sort(sizes.begin(), sizes.end());
   return sizes;
 }
@@ -57,12 +77,19 @@ void expect_parts(const std::vector<Matrix>& all, const Sizes& sizes) {
   ASSERT_NE(parts, nullptr);
   EXPECT_EQ(sizes_of(*parts), sizes);
   const Eigen::Index n = all[0].rows();
-  EXPECT_LT((parts->inverse * parts->right - Matrix::Identity(n, n)).norm(), rounding);
+  const PartCopy coordinates = with_copies(*parts);
+  EXPECT_LT((coordinates.inverse * coordinates.right - Matrix::Identity(n, n)).norm(), rounding);
   for (const Matrix& A : all) {
-    Matrix there = parts->left.transpose() * A * parts->right;
-    const double size = parts->left.norm() * A.norm() * parts->right.norm();
-    for (const auto& range : parts->ranges)
-      there.block(range.first, range.first, range.size, range.size).setZero();
+    Matrix there = coordinates.left.transpose() * A * coordinates.right;
+    const double size = coordinates.left.norm() * A.norm() * coordinates.right.norm();
+    Eigen::Index at = 0;
+    for (const auto& range : parts->ranges) {
+      const Matrix own = there.block(at, at, range.size, range.size);
+      for (std::size_t copy = 0; copy <= range.copies.size(); ++copy, at += range.size) {
+        EXPECT_LT((there.block(at, at, range.size, range.size) - own).norm(), rounding * size);
+        there.block(at, at, range.size, range.size).setZero();
+      }
+    }
     EXPECT_LT(there.norm(), rounding * size);
   }
 }
@@ -90,6 +117,51 @@ TEST(IndependentParts, OfEqualColumnsAreTheColumns) {
     for (Matrix& A : all) A = Q.transpose() * A * Q;
     expect_parts(all, Sizes(static_cast<std::size_t>(count), 2));
   }
+}
+
+/// In any coordinates of equations and unknowns, symmetric or not, one column stands for all.
+TEST(IndependentParts, StandForTheirCopies) {
+  for (const int count : {2, 3, 6}) {
+    std::vector<Matrix> all = columns_side_by_side(count);
+    const Matrix L = mixing(2 * count, 11);
+    const Matrix R = mixing(2 * count, 12);
+    for (Matrix& A : all) A = L * A * R;
+    const auto parts = find_independent_parts({{all[0]}, {}, {all[1], all[2]}});
+    ASSERT_NE(parts, nullptr);
+    ASSERT_EQ(parts->count(), 1U);
+    EXPECT_EQ(parts->ranges.front().copies.size(), static_cast<std::size_t>(count - 1));
+    EXPECT_EQ(parts->right.cols(), 2);
+    expect_parts(all, Sizes(static_cast<std::size_t>(count), 2));
+  }
+}
+
+/// A complex pair of parts, with the commutant of the complex numbers, that is there twice.
+TEST(IndependentParts, OfComplexPairsHaveCopies) {
+  const Matrix J{{0.0, -1.0}, {1.0, 0.0}};
+  const Matrix I = Matrix::Identity(2, 2);
+  const auto twice = [&](const Matrix& A) { return side_by_side(A, A); };
+  const Matrix Q = orthogonal(4, 3);
+  std::vector<Matrix> all{twice(I), twice(J), twice(Matrix(2.0 * I + 0.3 * J))};
+  for (Matrix& A : all) A = Q.transpose() * A * Q;
+  const auto parts = find_independent_parts({{all[0]}, {all[1]}, {all[2]}});
+  ASSERT_NE(parts, nullptr);
+  ASSERT_EQ(parts->count(), 1U);
+  EXPECT_EQ(parts->ranges.front().size, 2);
+  EXPECT_EQ(parts->ranges.front().copies.size(), 1U);
+}
+
+/// Mistuning of 1e-10 makes parts of their own; of 1e-16 it is rounding.
+TEST(IndependentParts, ThatAreMistunedAreNoCopies) {
+  const auto copies = [](double mistuning) {
+    const Matrix K = side_by_side(ziegler_K, (1.0 + mistuning) * ziegler_K);
+    const auto parts = find_independent_parts(
+        {{side_by_side(ziegler_M, ziegler_M)}, {}, {K, side_by_side(ziegler_P, ziegler_P)}});
+    EXPECT_EQ(parts->freedoms(), 4);
+    return parts->ranges.front().copies.size();
+  };
+  EXPECT_EQ(copies(1e-10), 0U);
+  EXPECT_EQ(copies(1e-8), 0U);
+  EXPECT_EQ(copies(1e-16), 1U);
 }
 
 TEST(IndependentParts, OfDifferentUnsymmetricPartsAreFoundInAnyCoordinates) {
@@ -231,17 +303,21 @@ TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {
   const auto parts = find_independent_parts({{mixed(all[0])}, {}, {mixed(all[1]), mixed(all[2])}});
   ASSERT_NE(parts, nullptr);
   const ReducedPencil pencil = reduce(linearization, basis_of(parts), 3);
-  ASSERT_EQ(pencil.parts.size(), 3U);
+  EXPECT_EQ(pencil.size(), 2);
+  EXPECT_EQ(pencil.copies, 2);
   const auto squares = [](const Matrix& M, const Matrix& K) {
     ComplexVector values = Eigen::EigenSolver<Matrix>(Matrix(M.inverse() * K), false).eigenvalues();
     std::sort(values.begin(), values.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
     return values;
   };
   const ComplexVector one = squares(ziegler_M, ziegler_K + 0.7 * ziegler_P);
-  for (int i = 0; i < 3; ++i) {
-    const ReducedPencil& own = pencil.of(i);
-    EXPECT_LT((squares(own.M[0], own.K[0]) - one).norm(), rounding);
-    EXPECT_EQ(own.K.size(), 2U);
+  EXPECT_LT((squares(pencil.M[0], pencil.K[0]) - one).norm(), rounding);
+  EXPECT_EQ(pencil.K.size(), 2U);
+  // The columns of a copy, in place of those of the part, give the same equations.
+  for (const int copy : {1, 2}) {
+    const ReducedPencil other = reduce(linearization, basis_with_copy(basis_of(parts), 0, copy), 3);
+    EXPECT_LT((other.K[0] - pencil.K[0]).norm(), rounding * pencil.K[0].norm());
+    EXPECT_LT((other.M[0] - pencil.M[0]).norm(), rounding * pencil.M[0].norm());
   }
 }
 

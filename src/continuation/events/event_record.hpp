@@ -34,8 +34,8 @@ PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCoun
 /// with its series in h; the node, and the track, with their series in q. NaN where it is not known.
 using Movement = std::function<double(const Track&, const PathNode&, const Track&)>;
 
-/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q, also of the event's copies. Both are NaN where they are not
-/// known. Every q costs one more back-substitution.
+/// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q, also of the event's copies. Both
+/// are NaN where they are not known. Every q costs one more back-substitution.
 void keep_sensitivities(const PathProblem& problem, const PathPoint& point, const PathNode& node,
                         const Track& track, const std::vector<int>& members, const Movement& moves,
                         Event& event, RunCounts& counts);

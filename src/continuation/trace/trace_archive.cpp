@@ -3,6 +3,8 @@
 // The state is everything that changes from one point to the next. Models and options are not part of it.
 // The functions `fields` below list the members that are saved. They decompose each struct by a structured
 // binding: if a member is added to a struct and not listed here, the code does not compile.
+#include <algorithm>
+
 #include "continuation/archived_parts.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
@@ -278,6 +280,29 @@ bool same_matrices(const PathProblem& problem, const PathNode& node) {
          same(now.A[0], before.A[0]);
 }
 
+/// Whether the modes of a track stand for at most as many others as its part for other parts.
+bool fits(const ModeCopies& copies, const Track& track, const IndependentParts* parts) {
+  const auto part = static_cast<std::size_t>(track.pair.part);
+  const std::size_t most = parts != nullptr ? parts->ranges[part].copies.size() : 0;
+  return std::all_of(track.modes.begin(), track.modes.end(),
+                     [&](int mode) { return copies.of(mode).size() <= most; }) &&
+         std::all_of(track.arriving.begin(), track.arriving.end(),
+                     [&](int mode) { return copies.of(mode).size() <= most; });
+}
+
+bool fits(const ModeCopies& copies, const TraceState& state, const IndependentParts* parts) {
+  for (const auto& [mode, others] : copies.numbers) {
+    for (const int other : others) {
+      if (other < 0 || other >= state.result.n_columns) return false;
+    }
+  }
+  const auto& tracks = state.origin.node.tracks;
+  return std::all_of(tracks.begin(), tracks.end(),
+                     [&](const Track& track) { return fits(copies, track, parts); }) &&
+         std::all_of(state.ended.begin(), state.ended.end(),
+                     [&](const EndedTrack& one) { return fits(copies, one.track, parts); });
+}
+
 /// The first part of a state that does not fit the problem, in words; empty if all of it fits.
 std::string misfit(const TraceState& state, const PathProblem& problem, const TraceOptions& options) {
   const Model& model = problem.model;
@@ -312,11 +337,7 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   for (const auto& [key, history] : state.histories) {
     if (key.first < 0 || key.second >= criteria) return "other events";
   }
-  for (const auto& [mode, copies] : state.copies.numbers) {
-    for (const int copy : copies) {
-      if (copy < 0 || copy >= sizes.columns) return "a mode of an equal part that is not there";
-    }
-  }
+  if (!fits(state.copies, state, problem.parts.get())) return "modes of equal parts that are not there";
   for (const auto* list : {&result.events, &state.events, &state.dismissed}) {
     for (const Event& event : *list) {
       if (!is_event_kind(event.kind)) return "no kind of an event";

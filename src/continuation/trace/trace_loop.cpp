@@ -129,8 +129,8 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
       narrow_places_(places_to_land(model, problem_, options)),
-      log_{state_.events, state_.dismissed, state_.frame.range,
-           problem_.thresholds,  nullptr,          equilibrium_moves(problem_)},
+      log_{state_.events,       state_.dismissed, state_.frame.range,
+           problem_.thresholds, nullptr,          equilibrium_moves(problem_)},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
   state_.frame.range = {problem_.traced, options.from, options.to};
@@ -322,7 +322,8 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   const std::vector<int> modes = node.tracks[static_cast<std::size_t>(verdict.track)].modes;
   const std::string who = end_track(problem_, node, static_cast<std::size_t>(verdict.track), state_.ended);
   if (!who.empty())
-    state_.result.notes.push_back(who + equal_modes_text(state_.copies, modes) + " ends at " + place_text(options_, node.p) + ": " + verdict.reason);
+    state_.result.notes.push_back(who + equal_modes_text(state_.copies, modes) + " ends at " +
+                                  place_text(options_, node.p) + ": " + verdict.reason);
   state_.origin.tried.reset();
   state_.control.restart(memory.longest_step);
   return true;

@@ -14,9 +14,9 @@ struct StartingGroup {
 };
 
 /// Groups that contain the first `n_modes` modes of the spectrum. Later modes are in these groups, as guests,
-/// where they are too close. Modes of copies of a part are left out. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s. `least_scale`:
-/// lower bound of s_ref, the magnitude of eigenvalues near the point; needed on a branch point, where the
-/// pencil may have no other eigenvalues than zero.
+/// where they are too close. Modes of copies of a part are left out. `s_ref`: magnitude below which an
+/// eigenvalue counts as zero, 1/s. `least_scale`: lower bound of s_ref, the magnitude of eigenvalues near the
+/// point; needed on a branch point, where the pencil may have no other eigenvalues than zero.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale = 0.0);
