@@ -7,6 +7,7 @@
 #include "continuation/events/exceptional_point.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -43,6 +44,12 @@ class PencilSearch {
       if (!point) break;
       known.push_back(point->h);
       if (auto event = event_at(*point)) found.events.push_back(std::move(*event));
+    }
+    if (!expected_.is_rough) {
+      if (const auto mirrored = on_other_side()) {
+        auto event = event_at(*mirrored);
+        if (event && !is_in(found.events, *event)) found.events.push_back(std::move(*event));
+      }
     }
     return {std::move(found), std::move(untold_)};
   }
@@ -104,11 +111,11 @@ class PencilSearch {
     return roots;
   }
 
-  /// The mean of the two eigenvalues at the prediction. It is smooth there, unlike each of them, so that the
-  /// sum of their interpolants is accurate off the real axis; those of members of larger blocks are not known
-  /// there, and taken from the axis.
-  Complex mean_there() const {
-    const Complex t = expected_.position / step_.h;
+  /// The mean of the two eigenvalues at a predicted distance from the left end. It is smooth there, unlike
+  /// each of them, so that the sum of their interpolants is accurate off the real axis; those of members of
+  /// larger blocks are not known there, and taken from the axis.
+  Complex mean_at_prediction(Complex distance) const {
+    const Complex t = distance / step_.h;
     Complex sum = 0.0;
     double count = 0.0;
     for (const Strand* strand : {&expected_.a, &expected_.b}) {
@@ -139,8 +146,21 @@ class PencilSearch {
 
   std::optional<ExceptionalPoint> from_prediction(const std::vector<Complex>& known) const {
     const Complex h = expected_.position - position_;
-    auto point = found_from(h, mean_there(), known);
+    auto point = found_from(h, mean_at_prediction(expected_.position), known);
     return point || expected_.is_rough ? point : from_followed(h, known);
+  }
+
+  /// The exceptional point on the other side of the real axis. It is the mirror image only without damping:
+  /// with light damping it lies so close to it that a veering that is known hides its prediction.
+  std::optional<ExceptionalPoint> on_other_side() const {
+    const Complex mirrored = std::conj(expected_.position);
+    return found_from(mirrored - position_, mean_at_prediction(mirrored), {});
+  }
+
+  bool is_in(const std::vector<Event>& events, const Event& event) const {
+    return std::any_of(events.begin(), events.end(), [&](const Event& other) {
+      return are_one(other, event, search_.frame().range.length(), search_.log.thresholds.event);
+    });
   }
 
   /// From h, with both eigenvalues followed there from the real axis.
@@ -168,7 +188,7 @@ class PencilSearch {
     if (!here || !counts) return std::nullopt;
     const auto below = eigenvalues_below(pencil(), chart(), point);
     if (!below) return std::nullopt;
-    event.modes = modes_of(*below, std::clamp(t, 0.0, 1.0));
+    event.modes = modes_of(*below, t);
     if (event.modes.size() != 2) {
       event.modes = modes_;
       untold_.push_back(std::move(event));
@@ -185,32 +205,63 @@ class PencilSearch {
                : std::optional(std::move(event));
   }
 
-  /// The modes of two eigenvalues at a place of the step, by the dense output; empty if it does not tell.
+  /// The modes of two eigenvalues at a place of the step or beside it, by the dense output. Where that is not
+  /// accurate enough, by the predicted tracks computed there; empty if they do not tell either.
   std::vector<int> modes_of(const std::array<EigenvalueBelow, 2>& below, double t) const {
+    std::vector<SeenTrack> seen;
+    for (std::size_t i = 0; i < step_.left->tracks.size(); ++i) {
+      const Track& other = step_.left->tracks[i];
+      if (other.pair.part != track().pair.part || other.pair.chart != chart()) continue;
+      StrandSampler sampler(*step_.left, step_.right, i, step_.h);
+      seen.push_back({i, sampler(std::clamp(t, 0.0, 1.0))});
+    }
+    const std::vector<int> modes = nearest_modes(below, seen);
+    if (modes.size() == 2) return modes;
+    std::erase_if(seen, [&](SeenTrack& one) { return !compute(t, one); });
+    return nearest_modes(below, seen);
+  }
+
+  struct SeenTrack {
+    std::size_t track;
+    ComplexVector roots;  ///< in the order of its modes
+  };
+
+  /// Computes the eigenvalues of a predicted track at a place of the step or beside it. False for others, or
+  /// if that fails.
+  bool compute(double t, SeenTrack& seen) const {
+    if (seen.track != expected_.a.track && seen.track != expected_.b.track) return false;
+    const bool right = t > 0.5;
+    const auto there = search_.solver.follow(one_track(right ? step_.right : *step_.left, seen.track),
+                                             (right ? t - 1.0 : t) * step_.h);
+    if (!there) return false;
+    seen.roots = in_order_of(seen.roots, there->node.tracks.front().roots);
+    return true;
+  }
+
+  /// The modes of the eigenvalues that are closest to the two; empty if one is not close, or both are one.
+  std::vector<int> nearest_modes(const std::array<EigenvalueBelow, 2>& below,
+                                 const std::vector<SeenTrack>& seen) const {
     const double allowed = same_mode * std::abs(below[0].mu - below[1].mu);
     std::vector<int> modes;
     for (const EigenvalueBelow& one : below) {
-      double least = INFINITY;
+      double least = allowed;
       int nearest = Track::no_mode;
-      for (std::size_t i = 0; i < step_.left->tracks.size(); ++i) {
-        const Track& other = step_.left->tracks[i];
-        if (other.pair.part != track().pair.part || other.pair.chart != chart()) continue;
-        StrandSampler sampler(*step_.left, step_.right, i, step_.h);
-        const ComplexVector& roots = sampler(t);
-        for (Eigen::Index k = 0; k < roots.size(); ++k) {
-          const double distance =
-              std::min(std::abs(roots[k] - one.mu), std::abs(std::conj(roots[k]) - one.mu));
-          if (distance >= least || other.modes[static_cast<std::size_t>(k)] < 0) continue;
+      for (const SeenTrack& candidate : seen) {
+        const std::vector<int>& names = step_.left->tracks[candidate.track].modes;
+        for (Eigen::Index k = 0; k < candidate.roots.size(); ++k) {
+          const Complex s = candidate.roots[k];
+          const double distance = std::min(std::abs(s - one.mu), std::abs(std::conj(s) - one.mu));
+          const int mode = names[static_cast<std::size_t>(k)];
+          if (distance > least || mode < 0) continue;
           least = distance;
-          nearest = other.modes[static_cast<std::size_t>(k)];
+          nearest = mode;
         }
       }
-      if (least > allowed) return {};
+      if (nearest == Track::no_mode) return {};
       modes.push_back(nearest);
     }
     modes = sorted_modes(std::move(modes));
-    modes.erase(std::unique(modes.begin(), modes.end()), modes.end());
-    return modes;
+    return modes[0] == modes[1] ? std::vector<int>() : modes;
   }
 
   const EventSearch& search_;
