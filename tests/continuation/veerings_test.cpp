@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "continuation/planted_search.hpp"
+#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -135,6 +138,30 @@ TEST(FindVeerings, EndAtTheEndsOfTheRange) {
   range = {range.traced, Sloping::place + 1e-3, Sloping::place + 2.0};
   const FoundEvents found = sloping.find(0.0, 0.09, true);
   EXPECT_TRUE(found.events.empty() && found.dismissed.empty());
+}
+
+/// (s^2 + c s + 1 + p) (s^2 + 1 - p) = e^2: one of the two modes is damped. Exceptional points near s = i are
+/// at p = -i c / 2 +- i e, but for terms of c^2 and c e^2: on both sides of the real axis, and no mirror
+/// images of each other.
+TEST(FindVeerings, OnBothSidesOfTheAxisAreTwoUnlessTheyAreMirrorImages) {
+  for (const auto& [e, c] : {std::pair{5e-3, 1e-5}, {5e-3, 2e-7}, {9e-3, 1e-6}, {5e-3, 0.0}}) {
+    SCOPED_TRACE(testing::Message() << "e " << e << ", c " << c);
+    std::ostringstream scene;
+    scene.precision(17);
+    scene << "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 0.5\n[matrix_family]\nM = [[[1, 0], [0, 1]]]\n"
+          << "C = [[[" << c << ", 0], [0, 0]]]\nK = [[[1, " << e << "], [" << e
+          << ", 1]], [[1, 0], [0, -1]]]\n";
+    std::vector<double> half_widths;
+    for (const Event& event : record_trace(make_setting(scene.str())).result.events) {
+      if (event.kind != EventKind::veering) continue;
+      half_widths.push_back(event.half_width);
+      EXPECT_NEAR(event.p, 0.0, 1e-9);
+    }
+    std::sort(half_widths.begin(), half_widths.end());
+    const auto expected = c > 0.0 ? std::vector{e - 0.5 * c, e + 0.5 * c} : std::vector{e};
+    ASSERT_EQ(half_widths.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(half_widths[i], expected[i], 1e-9);
+  }
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ INSTANTIATE_TEST_SUITE_P(CloseCrossings, PlantedFamilyTrace, testing::Values(263
 
 /// Regression test: narrow veerings were located from series only, and beside other ones some were invented;
 /// a veering of one freedom. Seen from beyond the ends of a step a veering was dismissed for good, because
-/// the dense output there did not tell its modes (518), and was listed again some steps later (867).
-INSTANTIATE_TEST_SUITE_P(NarrowVeerings, PlantedFamilyTrace, testing::Values(508, 518, 591, 613, 867, 965),
+/// the dense output there did not tell its modes (518), and was listed again some steps later (867). Of two
+/// that share a mode one was lost, because the dense output told its modes on no step (595).
+INSTANTIATE_TEST_SUITE_P(NarrowVeerings, PlantedFamilyTrace,
+                         testing::Values(508, 518, 591, 595, 613, 867, 965),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 /// Regression test: real eigenvalues beside others, whose blocks did not converge, or were not joined with
