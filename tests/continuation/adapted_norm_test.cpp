@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
+#include <array>
 
 #include "support/families.hpp"
 
@@ -26,38 +28,76 @@ double largest(const ComplexMatrix& A) {
   return Eigen::JacobiSVD<ComplexMatrix>(A).singularValues()[0];
 }
 
-TEST(AdaptedNorm, ItsMapsAreInversesAndAdjoints) {
-  constexpr Eigen::Index n = 5;
-  std::mt19937_64 engine{4};
-  AdaptedNorm norm;
-  for (const double factor : {3.0, 50.0})
-    norm.stretch(random_complex(n, 1, engine).col(0).normalized(), factor);
-  const ComplexMatrix S = matrix_of(n, [&](ComplexVector& x) { norm.apply(x); });
-  const ComplexMatrix inverse = matrix_of(n, [&](ComplexVector& x) { norm.apply_inverse(x); });
-  const ComplexMatrix adjoint = matrix_of(n, [&](ComplexVector& x) { norm.apply_adjoint(x); });
-  const ComplexMatrix both = matrix_of(n, [&](ComplexVector& x) { norm.apply_inverse_adjoint(x); });
-  EXPECT_LT((S * inverse - ComplexMatrix::Identity(n, n)).norm(), 1e-13);
-  EXPECT_LT((S.adjoint() - adjoint).norm(), 1e-13);
-  EXPECT_LT((inverse.adjoint() - both).norm(), 1e-13);
-  EXPECT_LE(largest(S), norm.largest_factor() * (1.0 + 1e-12));
+ComplexMatrix random_orthonormal(Eigen::Index n, Eigen::Index columns, std::mt19937_64& engine) {
+  return random_complex(n, columns, engine).householderQr().householderQ() *
+         ComplexMatrix::Identity(n, columns);
 }
 
-/// A maps v to 20 u, u to 0.01 v: its square is 0.2, and a stretch of u makes the norm the root of that.
-TEST(AdaptedNorm, AStretchMakesAMapThatIsFarFromNormalSmall) {
-  constexpr Eigen::Index n = 4;
-  std::mt19937_64 engine{8};
-  const ComplexMatrix Q = random_complex(n, n, engine).householderQr().householderQ();
-  const ComplexVector u = Q.col(0), v = Q.col(1);
-  const ComplexMatrix A = 20.0 * u * v.adjoint() + 0.01 * v * u.adjoint();
-  AdaptedNorm norm;
-  norm.stretch(u, std::sqrt(20.0 / 0.01));
-  const ComplexMatrix scaled = matrix_of(n, [&](ComplexVector& x) {
+/// S^-1 T S, with the S that balances T on the columns of Q.
+ComplexMatrix balanced(const ComplexMatrix& T, const ComplexMatrix& Q) {
+  const AdaptedNorm norm = AdaptedNorm::balancing(Q, T * Q, T.adjoint() * Q);
+  return matrix_of(T.rows(), [&](ComplexVector& x) {
     norm.apply(x);
-    x = A * x;
+    x = T * x;
     norm.apply_inverse(x);
   });
-  EXPECT_NEAR(largest(A), 20.0, 1e-12);
-  EXPECT_NEAR(largest(scaled), std::sqrt(0.2), 1e-12);
+}
+
+TEST(AdaptedNorm, ItsMapsAreHermitianAndInverse) {
+  constexpr Eigen::Index n = 5;
+  std::mt19937_64 engine{4};
+  const ComplexMatrix T =
+      random_complex(n, n, engine) + 30.0 * random_complex(n, 1, engine) * random_complex(1, n, engine);
+  const ComplexMatrix Q = random_orthonormal(n, 2, engine);
+  const AdaptedNorm norm = AdaptedNorm::balancing(Q, T * Q, T.adjoint() * Q);
+  const ComplexMatrix S = matrix_of(n, [&](ComplexVector& x) { norm.apply(x); });
+  const ComplexMatrix inverse = matrix_of(n, [&](ComplexVector& x) { norm.apply_inverse(x); });
+  EXPECT_GT((S - ComplexMatrix::Identity(n, n)).norm(), 0.1);
+  EXPECT_LT((S * inverse - ComplexMatrix::Identity(n, n)).norm(), 1e-13);
+  EXPECT_LT((S.adjoint() - S).norm(), 1e-13);
+  EXPECT_NEAR(largest(S), norm.largest_factor(), 1e-12 * largest(S));
+}
+
+TEST(AdaptedNorm, IsThePlainOneUntilItIsBalanced) {
+  const AdaptedNorm norm;
+  ComplexVector x = ComplexVector::Constant(3, Complex(1.0, 2.0));
+  norm.apply(x);
+  norm.apply_inverse(x);
+  EXPECT_TRUE(norm.is_plain());
+  EXPECT_EQ(x, ComplexVector::Constant(3, Complex(1.0, 2.0)));
+  EXPECT_EQ(norm.largest_factor(), 1.0);
+}
+
+/// T maps v to 20 u, u to 0.01 v: its square is 0.2, and a balanced norm makes the norm the root of that.
+TEST(AdaptedNorm, MakesAMapThatIsFarFromNormalSmall) {
+  std::mt19937_64 engine{8};
+  const ComplexMatrix Q = random_orthonormal(4, 4, engine);
+  const ComplexVector u = Q.col(0), v = Q.col(1);
+  const ComplexMatrix T = 20.0 * u * v.adjoint() + 0.01 * v * u.adjoint();
+  EXPECT_NEAR(largest(T), 20.0, 1e-12);
+  EXPECT_NEAR(largest(balanced(T, u)), std::sqrt(0.2), 1e-9);
+}
+
+/// The map of a rotor with four large directions that lead into each other: v_i to a_i u_i, with a_i = 55,
+/// 21, 3, 3, all else to at most 0.05. One direction alone leaves 21; four make it small.
+TEST(AdaptedNorm, NeedsAllLargeDirections) {
+  constexpr Eigen::Index n = 12;
+  std::mt19937_64 engine{15};
+  const ComplexMatrix Q = random_orthonormal(n, n, engine);
+  ComplexMatrix T = ComplexMatrix::Zero(n, n);
+  const std::array<double, 4> sizes{55.0, 21.0, 3.0, 3.0};
+  for (int i = 0; i < 4; ++i) T += sizes[static_cast<std::size_t>(i)] * Q.col(i) * Q.col(4 + i).adjoint();
+  T += 1e-3 * random_complex(n, n, engine);
+  EXPECT_LT(largest(balanced(T, Q.leftCols(4))), 0.7);
+  EXPECT_GT(largest(balanced(T, Q.leftCols(1))), 15.0);
+}
+
+/// No norm makes a map smaller than its eigenvalues: what is hopeless stays so.
+TEST(AdaptedNorm, DoesNotGoBelowTheEigenvalues) {
+  std::mt19937_64 engine{16};
+  const ComplexMatrix Q = random_orthonormal(6, 6, engine);
+  const ComplexMatrix T = 1.5 * Q.col(0) * Q.col(0).adjoint() + 40.0 * Q.col(0) * Q.col(1).adjoint();
+  for (const Eigen::Index count : {1, 2, 6}) EXPECT_GE(largest(balanced(T, Q.leftCols(count))), 1.5);
 }
 
 }  // namespace

@@ -279,6 +279,62 @@ TEST(ModalCertificate, StaysOpenForABlockWhereTheEndIsAnotherOne) {
   EXPECT_FALSE(certified_together(step)[0]);
 }
 
+/// x' = A(p) x with six real eigenvalues 1e-3 apart that move in common by 1 and turn against each other,
+/// beside six more: lag states of a wing. `coupling` makes the coordinates far from normal.
+Setting common_cluster(double coupling) {
+  std::ostringstream text;
+  text.precision(17);
+  const auto row = [&](const auto& entry) {
+    text << "[ ";
+    for (int i = 0; i < 12; ++i) {
+      text << (i == 0 ? "[" : ", [");
+      for (int j = 0; j < 12; ++j) text << (j == 0 ? "" : ", ") << entry(i, j);
+      text << "]";
+    }
+    text << " ]";
+  };
+  text << "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nA = [ ";
+  row([&](int i, int j) {
+    if (i == j) return i < 6 ? -5.0 - 1e-3 * i : -20.0 - 7.0 * i;
+    return i < 6 && j >= 6 ? coupling * std::sin(1.0 + i + 3.0 * j) : 0.0;
+  });
+  text << ", ";
+  row([&](int i, int j) {
+    if (i == j) return i < 6 ? -1.0 : 0.3;
+    return i >= 6 && j < 6 ? 1e-3 * std::sin(2.0 + 3.0 * i + j) / coupling : 0.0;
+  });
+  text << " ]\n";
+  return make_setting(text.str());
+}
+
+/// Members of a cluster that move a hundred times their distance: one by one and all at once, in an adapted
+/// norm, none of them may be taken for another one.
+TEST(Certificate, StaysOpenForMembersOfAClusterThatAreExchanged) {
+  for (const double coupling : {1.0, 100.0}) {
+    Step step(common_cluster(coupling), 0.0, 0.05);
+    for (std::size_t first = 0; first < 5; ++first) {
+      std::swap(step.right.tracks[first], step.right.tracks[first + 1]);
+      const std::vector<bool> together = certified_together(step);
+      for (const std::size_t i : {first, first + 1}) {
+        EXPECT_FALSE(step.certified(i)) << i << ", coupling " << coupling;
+        EXPECT_FALSE(together[i]) << i << ", coupling " << coupling;
+      }
+      std::swap(step.right.tracks[first], step.right.tracks[first + 1]);
+    }
+  }
+}
+
+TEST(Certificate, ClosesForACoupledModeFarFromNormalInAFewPieces) {
+  Step step(common_cluster(100.0), 0.0, 0.001);
+  const auto own = [](const Track& track) { return track.roots[0].real() < -10.0; };
+  for (std::size_t i = 0; i < step.left.tracks.size(); ++i) {
+    if (own(step.left.tracks[i])) {
+      EXPECT_TRUE(step.certified(i)) << step.left.tracks[i].roots[0];
+    }
+  }
+  EXPECT_LE(step.counts.certificate_factorizations, 2U * step.left.tracks.size());
+}
+
 /// Two modes in a veering as one block, beside which the others stay.
 TEST(ModalCertificate, ClosesForABlockOfModesThatExchangeTheirShapes) {
   for (const double eps : {1e-2, 1e-4, 1e-8}) {

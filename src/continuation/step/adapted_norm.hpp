@@ -1,49 +1,38 @@
 // A norm in which an operator that is far from normal is about as large as its eigenvalues.
 #pragma once
 
-#include <vector>
+#include <algorithm>
 
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
-/// The norm |S^-1 x|, where S = S_1 S_2 ... stretches one direction after the other: S_i = I + (a_i - 1) u_i
-/// u_i^H. If A is large only because it maps some v to a multiple of u, which it maps to little, the norm of
-/// S^-1 A S with a large stretch of u is far below that of A.
+/// The norm |S^-1 x|, where S = I + Q (D - I) Q^H with orthonormal columns Q and a positive diagonal D. Where
+/// an operator T is large on few directions only, as for the bearings of a rotor, and its range there is
+/// mapped to little, the norm of S^-1 T S is far below that of T. S is Hermitian.
 class AdaptedNorm {
  public:
-  /// Stretches a direction u of length one by a >= 1.
-  void stretch(ComplexVector u, double a) { stretches_.push_back({std::move(u), a}); }
+  /// The plain norm.
+  AdaptedNorm() = default;
 
-  void apply(ComplexVector& x) const {
-    for (auto it = stretches_.rbegin(); it != stretches_.rend(); ++it) it->scale(x, it->factor);
-  }
-  void apply_inverse(ComplexVector& x) const {
-    for (const Stretch& one : stretches_) one.scale(x, 1.0 / one.factor);
-  }
-  /// S^H and S^-H.
-  void apply_adjoint(ComplexVector& x) const {
-    for (const Stretch& one : stretches_) one.scale(x, one.factor);
-  }
-  void apply_inverse_adjoint(ComplexVector& x) const {
-    for (auto it = stretches_.rbegin(); it != stretches_.rend(); ++it) it->scale(x, 1.0 / it->factor);
-  }
+  /// The norm that balances T (Osborne, Journal of the ACM 7, 1960) as a matrix of norms: one row and column
+  /// for every column of Q (n x r, orthonormal), and one for all that is orthogonal to them. The columns of Q
+  /// should be the left singular vectors of T with the largest singular values. `TQ`: T Q. `adjoint`: T^H Q.
+  static AdaptedNorm balancing(ComplexMatrix Q, const ComplexMatrix& TQ, const ComplexMatrix& adjoint);
 
-  /// Bound of |S|.
-  double largest_factor() const {
-    double largest = 1.0;
-    for (const Stretch& one : stretches_) largest *= one.factor;
-    return largest;
-  }
+  /// Overwrites x with S x; S^-1 x.
+  void apply(ComplexVector& x) const { scale(x, factors_); }
+  void apply_inverse(ComplexVector& x) const { scale(x, factors_.cwiseInverse()); }
+
+  bool is_plain() const { return factors_.size() == 0; }
+  /// |S|.
+  double largest_factor() const { return is_plain() ? 1.0 : std::max(1.0, factors_.maxCoeff()); }
 
  private:
-  struct Stretch {
-    ComplexVector direction;
-    double factor;
+  void scale(ComplexVector& x, const Vector& factors) const;
 
-    void scale(ComplexVector& x, double by) const { x += ((by - 1.0) * direction.dot(x)) * direction; }
-  };
-  std::vector<Stretch> stretches_;
+  ComplexMatrix Q_;
+  Vector factors_;  ///< the diagonal of D
 };
 
 }  // namespace eigentrail

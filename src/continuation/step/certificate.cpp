@@ -1,5 +1,7 @@
 #include "eigentrail/continuation/certificate.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,11 +25,11 @@ constexpr double falling = 0.75;
 /// makes up for the rest.
 constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
-/// Directions that are stretched so that the norm of B A becomes less than 1. More cost more, and close more
-/// pieces of sensitive eigenvalues.
-constexpr int most_stretches = 3;
-/// A direction counts as mapped to at least this share of the norm, which bounds its stretch.
-constexpr double least_share = 1e-4;
+/// Directions that the adapted norm scales: those of the largest singular values of I - B J. A larger number
+/// costs more solutions, and closes more pieces of sensitive eigenvalues.
+constexpr Eigen::Index most_directions = 12;
+/// Passes of the subspace iteration for them.
+constexpr int subspace_iterations = 1;
 /// Factor on a norm estimate. With a larger value fewer steps are certified, with a smaller one the bounds
 /// may be too small and the evidence weaker.
 constexpr double norm_safety = 1.2;
@@ -167,7 +169,9 @@ class Tube {
     const double middle = 0.5 * (begin + end);
     double Z1 = 0.0;
     if (piece_closes(begin, middle, end, Z1)) return true;
-    if (depth == max_depth || (Z1 >= 1.0 && Z1 > falling * last)) return false;
+    // Z1 decreases at best in proportion to the length of the piece.
+    if (!(Z1 < std::exp2(max_depth - depth)) || depth == max_depth || (Z1 >= 1.0 && Z1 > falling * last))
+      return false;
     if (counts_.certificate_work - before_ > most_work) {
       gave_up_ = true;
       return false;
@@ -202,7 +206,7 @@ class Tube {
   }
 
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
-  /// Y + Z1 r + Z2 r^2/2 <= r. Z1 is set to that of the begin, in the plain norm.
+  /// Y + Z1 r + Z2 r^2/2 <= r. Z1 is set to that of the begin.
   template <class Inverse>
   bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
                     double& Z1) const {
@@ -217,44 +221,58 @@ class Tube {
       double size = norm_of_solved(B, change, iterations, norm, direction);
       if (t == samples.front().t) {
         Z1 = size;
-        if (size >= 1.0) adapt(B, change, norm, size, direction);
+        if (size >= 1.0) {
+          norm = adapted_norm(B, change, direction);
+          direction = start_vector(direction.size());
+          size = norm_of_solved(B, change, power_iterations, norm, direction);
+          Z1 = size;
+        }
       }
       largest = std::max(largest, size);
       if (!(largest < 1.0)) return false;
       Y = std::max(Y, size_of_solved(B, residual(s), norm));
     }
     const double stretched = norm.largest_factor();
-    if (stretched > 1.0) Y = std::max(Y, size_of_solved(B, residual(centre), norm));
+    if (!norm.is_plain()) Y = std::max(Y, size_of_solved(B, residual(centre), norm));
     const double room = 1.0 - largest;
     return curvature_is_below(room * room / (2.0 * Y) / (stretched * stretched), centre, B, norm);
   }
 
-  /// Changes the norm such that |B A| in it, `size`, becomes less than 1, if that is possible by stretching
-  /// few directions. `direction` is that which B A magnifies most.
+  /// The norm in which B A is small, if that is possible by scaling few directions.
   template <class Inverse, class Operator>
-  static void adapt(const Inverse& B, const Operator& A, AdaptedNorm& norm, double& size,
-                    ComplexVector& direction) {
-    for (int i = 0; i < most_stretches && size >= 1.0; ++i) {
-      ComplexVector u = solved(B, A, norm, direction.normalized());
-      const double most = u.norm();
-      u /= most;
-      const double next = std::max(solved(B, A, norm, u).norm(), least_share * most);
-      // What the stretched direction leaves.
-      if (!(norm_safety * std::sqrt(most * next) < 1.0)) return;
-      norm.stretch(u, std::sqrt(most / next));
-      direction = start_vector(u.size());
-      size = norm_of_solved(B, A, power_iterations, norm, direction);
+  static AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const ComplexVector& direction) {
+    const auto each = [](ComplexMatrix X, const auto& map) {
+      for (Eigen::Index i = 0; i < X.cols(); ++i) X.col(i) = map(ComplexVector(X.col(i)));
+      return X;
+    };
+    const auto times = [&](ComplexVector v) {
+      v = A.times(v);
+      B.apply(v);
+      return v;
+    };
+    const auto adjoint_times = [&](ComplexVector v) {
+      B.apply_adjoint(v);
+      return A.adjoint_times(v);
+    };
+    ComplexMatrix Q(direction.size(), std::min(most_directions, direction.size()));
+    for (Eigen::Index j = 0; j < Q.cols(); ++j)
+      Q.col(j) = j == 0 ? direction : start_vector(Q.rows(), static_cast<double>(j));
+    ComplexMatrix adjoint;
+    for (int i = 0; i < subspace_iterations; ++i) {
+      Q = orthonormal(each(i == 0 ? Q : orthonormal(adjoint), times));
+      adjoint = each(Q, adjoint_times);
     }
+    if (!adjoint.allFinite()) return {};
+    // The left singular vectors.
+    const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(adjoint.adjoint() * adjoint);
+    Q = Q * squares.eigenvectors();
+    adjoint = adjoint * squares.eigenvectors();
+    const ComplexMatrix TQ = each(Q, times);
+    return TQ.allFinite() ? AdaptedNorm::balancing(std::move(Q), TQ, adjoint) : AdaptedNorm();
   }
 
-  /// S^-1 B A S v, with the S of the norm.
-  template <class Inverse, class Operator>
-  static ComplexVector solved(const Inverse& B, const Operator& A, const AdaptedNorm& norm, ComplexVector v) {
-    norm.apply(v);
-    v = A.times(v);
-    B.apply(v);
-    norm.apply_inverse(v);
-    return v;
+  static ComplexMatrix orthonormal(const ComplexMatrix& X) {
+    return X.householderQr().householderQ() * ComplexMatrix::Identity(X.rows(), X.cols());
   }
 
   /// The ends come first, because they differ most from the middle. The direction that the operator magnifies
@@ -307,9 +325,12 @@ class Tube {
   };
 
   /// Start of a power iteration: a vector without symmetry, so that it is not orthogonal to the wanted one.
-  static ComplexVector start_vector(Eigen::Index size) {
+  static ComplexVector start_vector(Eigen::Index size, double number = 0.0) {
     ComplexVector v(size);
-    for (Eigen::Index i = 0; i < size; ++i) v[i] = {1.0, std::sin(1.0 + 2.3 * static_cast<double>(i))};
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const auto place = static_cast<double>(i);
+      v[i] = {std::cos(1.7 * number * place), std::sin(1.0 + (2.3 + number) * place)};
+    }
     return v;
   }
 
@@ -326,10 +347,10 @@ class Tube {
       B.apply(w);
       norm.apply_inverse(w);
       size = std::max(size, w.norm());
-      norm.apply_inverse_adjoint(w);
+      norm.apply_inverse(w);  // S is Hermitian
       B.apply_adjoint(w);
       ComplexVector next = A.adjoint_times(w);
-      if (!from_plain) norm.apply_adjoint(next);
+      if (!from_plain) norm.apply(next);
       const double length = next.norm();
       if (!(length > 0.0)) return norm_safety * size;
       size = std::max(size, std::sqrt(length));

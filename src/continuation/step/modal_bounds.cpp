@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/step/balancing.hpp"
 #include "continuation/step/jacobian_change.hpp"
 
 namespace eigentrail {
@@ -13,23 +14,6 @@ namespace {
 constexpr double curvature_safety = 1.5;
 /// Sweeps of the balancing; more change the bounds by a few per cent.
 constexpr int sweeps = 2;
-
-/// Scales d such that the rows and columns of D^-1 A D are about equally large, from the squares of the
-/// entries of A.
-Vector balanced(Matrix squares) {
-  squares.diagonal().setZero();
-  Vector scales = Vector::Ones(squares.rows());
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (Eigen::Index i = 0; i < scales.size(); ++i) {
-      const double ratio = std::sqrt(squares.row(i).sum() / squares.col(i).sum());
-      if (!(ratio > 0.0) || !std::isfinite(ratio)) continue;
-      squares.col(i) *= ratio;
-      squares.row(i) /= ratio;
-      scales[i] *= std::sqrt(ratio);
-    }
-  }
-  return scales;
-}
 
 }  // namespace
 
@@ -107,7 +91,7 @@ Vector ModalBounds::balancing_scales(std::size_t track) const {
   };
   for (std::size_t a = 0; a < places_.places.size(); ++a)
     rows_of(a, [&](Eigen::Index i) { squares.row(static_cast<Eigen::Index>(a)) += divided.row(i); });
-  const Vector of_places = balanced(std::move(squares));
+  const Vector of_places = eigentrail::balancing_scales(std::move(squares), sweeps);
   Vector scales(places_.rows());
   for (std::size_t a = 0; a < places_.places.size(); ++a)
     rows_of(a, [&](Eigen::Index i) { scales[i] = of_places[static_cast<Eigen::Index>(a)]; });
