@@ -192,8 +192,7 @@ void TraceLoop::prepare_to_follow() {
   const double max_step = std::max(options_.max_step.value_or(longest_step * range), min_step);
   PathNode& node = state_.origin.node;
   state_.control = StepControl(problem_.order, first_step(node, problem_, options_), max_step, min_step);
-  part(problem_, nullptr, node, state_.control.step(), 0.0, {reach_, 0.0, options_.certify},
-       state_.result.counts);
+  part(problem_, nullptr, node, state_.control.step(), 0.0, {reach_, 0.0}, state_.result.counts);
 }
 
 void TraceLoop::follow() {
@@ -428,8 +427,8 @@ void TraceLoop::regroup(Step& step) {
   TraceResult& result = state_.result;
   const double next_step = state_.control.step();
   const std::size_t before = step.right.tracks.size();
-  part(problem_, step.left, step.right, next_step, step.h,
-       {reach_, accepted_share * options_.tolerance, options_.certify}, result.counts);
+  part(problem_, step.left, step.right, next_step, step.h, {reach_, accepted_share * options_.tolerance},
+       result.counts);
   const std::size_t after = step.right.tracks.size();
   result.regroupings.parted += static_cast<int>(after - std::min(before, after));
   if (after != before) return;

@@ -25,9 +25,6 @@ constexpr Eigen::Index small_block = 6;
 /// certificate that keeps them apart needs a number of factorizations of the order of the reciprocal. A
 /// larger value makes more blocks, a smaller one more expensive certificates; no result depends on it.
 constexpr double crowding = 0.02;
-/// As a multiple of `crowding`: a block is separated only where the distance is larger than this, so that it
-/// is not joined again on the next step.
-constexpr double crowding_hysteresis = 25.0;
 /// Eigenvalues are separated if their error as single modes is below this share of the accepted one: in
 /// blocks of two, which cost little to keep, and in larger blocks, whose eigenvalues are harder to identify.
 constexpr double parting_error = 0.03;
@@ -387,19 +384,18 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
   return result;
 }
 
-/// Unites groups whose eigenvalues are crowded on a step of length h, or inseparable.
-std::vector<std::vector<int>> without_crowding(const Track& track, std::vector<std::vector<int>> groups,
-                                               double h) {
-  const double least = std::max(crowding_hysteresis * crowding * movement(track, h), track.inseparable);
-  const auto crowded = [&](const std::vector<int>& a, const std::vector<int>& b) {
+/// Unites groups whose eigenvalues are inseparable.
+std::vector<std::vector<int>> with_inseparable(const Track& track, std::vector<std::vector<int>> groups) {
+  const auto close = [&](const std::vector<int>& a, const std::vector<int>& b) {
     return std::any_of(a.begin(), a.end(), [&](int i) {
-      return std::any_of(b.begin(), b.end(),
-                         [&](int j) { return std::abs(track.roots[i] - track.roots[j]) < least; });
+      return std::any_of(b.begin(), b.end(), [&](int j) {
+        return std::abs(track.roots[i] - track.roots[j]) < track.inseparable;
+      });
     });
   };
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = a + 1; b < groups.size();) {
-      if (!crowded(groups[a], groups[b])) {
+      if (!close(groups[a], groups[b])) {
         ++b;
         continue;
       }
@@ -526,7 +522,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
                                      share * rules.accepted);
       }
-      if (rules.certify) members = without_crowding(track, std::move(members), h);
+      members = with_inseparable(track, std::move(members));
       if (members.size() > 1 && are_told_apart(track, members))
         parts = parts_of(problem, node, track, members, counts);
     }

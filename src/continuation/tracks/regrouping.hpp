@@ -38,7 +38,6 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
 struct PartingRules {
   double reach = 3.0;     ///< in steps: meetings within this distance keep a block together
   double accepted = 0.0;  ///< largest relative error of a step
-  bool certify = false;   ///< what a certificate cannot keep apart (crowding_partners) stays together
 };
 
 /// Separates blocks into those eigenvalues that have meetings within the reach of a step of length h to

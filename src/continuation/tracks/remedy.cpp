@@ -1,5 +1,6 @@
 #include "continuation/tracks/remedy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "continuation/tracks/silent_partners.hpp"
@@ -82,8 +83,9 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   std::vector<Partner> partners;
   // What was lost or not certified among close eigenvalues is followed together with them.
   if (verdict.kind != Verdict::Kind::inaccurate) partners = crowding_partners(node, track, h);
+  double kept = 0.0;
   if (!partners.empty()) {
-    // no need to look for a meeting
+    for (const Partner& one : partners) kept = std::max(kept, kept_together * one.distance);
   } else if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
     partners = helpful_partners(problem, rules, *step, track, verdict.error,
                                 find_partners(node, track, h, rules.parting_reach));
@@ -93,7 +95,10 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   }
   remedy.tried_to_join = !partners.empty();
   if (remedy.tried_to_join) {
-    if (join(problem, node, track, partners, counts)) ++remedy.changes.joined;
+    if (join(problem, node, track, partners, counts)) {
+      ++remedy.changes.joined;
+      node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
+    }
     return remedy;
   }
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
