@@ -324,6 +324,13 @@ TEST(Certificate, StaysOpenForMembersOfAClusterThatAreExchanged) {
   }
 }
 
+/// What they move in common, fifty times their distance, needs no block.
+TEST(ModalCertificate, ClosesForMembersOfAClusterThatMoveInCommon) {
+  Step step(common_cluster(1.0), 0.0, 0.05);
+  ASSERT_EQ(step.left.tracks.size(), 12U);
+  EXPECT_EQ(certified_together(step), std::vector<bool>(12, true));
+}
+
 TEST(Certificate, ClosesForACoupledModeFarFromNormalInAFewPieces) {
   Step step(common_cluster(100.0), 0.0, 0.001);
   const auto own = [](const Track& track) { return track.roots[0].real() < -10.0; };
