@@ -14,6 +14,11 @@ Matrix with_column(const Matrix& matrix, const Vector& column) {
 
 }  // namespace
 
+KktBorder KktBorder::of(const TrimDerivatives& trim) {
+  const bool of_multipliers = !trim.lambda.isZero(0.0);
+  return {trim.force, trim.constraint, trim.x, of_multipliers ? trim.lambda : Matrix(), trim.trim};
+}
+
 KktBorder KktBorder::and_one(const Vector& of_force, const Vector& of_constraint, const Vector& along,
                              double of_unknown) const {
   const Eigen::Index k = unknown.rows();

@@ -13,6 +13,7 @@
 #include <Eigen/LU>
 
 #include "eigentrail/core/constraint_factorization.hpp"
+#include "eigentrail/model/model.hpp"
 
 namespace eigentrail {
 
@@ -21,6 +22,9 @@ struct KktBorder {
   Matrix force, constraint;  ///< F (n x q), G (m x q)
   Matrix x, lambda;          ///< X (q x n), L (q x m); empty L: zero
   Matrix unknown;            ///< U (q x q)
+
+  /// The border of trimmed parameters.
+  static KktBorder of(const TrimDerivatives& trim);
 
   /// The unknowns and equations of this border followed by one more unknown, with the columns (force,
   /// constraint, trim), and one more equation along . dx + of_unknown du = h.
@@ -35,6 +39,7 @@ class BorderedKkt {
 
   void solve(const Vector& r, const Vector& g, const Vector& h, Vector& dx, Vector& dl, Vector& du) const;
 
+  Eigen::Index n_unknowns() const { return border_.unknown.rows(); }
   Eigen::Index n_constraints() const { return border_.constraint.rows(); }
 
   /// Of the equations for y and du, with rows and columns of unit length. Near zero at a fold.

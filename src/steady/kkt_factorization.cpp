@@ -12,6 +12,10 @@ namespace {
 /// Reciprocal condition of the tangent stiffness up to which it counts as singular: the rounding level.
 constexpr double singular = 1e-14;
 
+/// Reciprocal condition from which on a bordered system is regular beyond doubt. The kernel is looked for
+/// below; a larger value costs factorizations beside folds.
+constexpr double nearly_singular = 1e-9;
+
 /// Larger systems are not solved through the null space, whose matrices are dense.
 constexpr Eigen::Index largest_dense = 5000;
 
@@ -37,14 +41,15 @@ KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A)
 }
 
 KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A, const TrimDerivatives& trim)
-    : constraints_(A),
-      bordered_(std::make_shared<BorderedKkt>(
-          K, constraints_, KktBorder{trim.force, trim.constraint, trim.x, trim.lambda, trim.trim})) {
+    : constraints_(A), bordered_(std::make_shared<BorderedKkt>(K, constraints_, KktBorder::of(trim))) {
   reciprocal_condition_ = bordered_->reciprocal_condition();
 }
 
 Matrix KktFactorization::undetermined() const {
-  return bordered_ ? bordered_->kernel_in_border() : Matrix();
+  if (!bordered_) return {};
+  // A regular system needs no search for its kernel.
+  return reciprocal_condition_ > nearly_singular ? Matrix(Matrix::Zero(2, bordered_->n_unknowns()))
+                                                 : bordered_->kernel_in_border();
 }
 
 void KktFactorization::factor_tangent() {

@@ -75,7 +75,7 @@ EvaluationFault trim_border(const Model& model, const Path& at, KktBorder& borde
   if (model.n_trims() == 0) return {};
   TrimDerivatives trim;
   if (auto fault = model.trim_derivatives(at, trim, counts)) return fault;
-  border = {trim.force, trim.constraint, trim.x, trim.lambda, trim.trim};
+  border = KktBorder::of(trim);
   return {};
 }
 
