@@ -43,7 +43,8 @@ class BorderedKkt {
   Eigen::Index n_constraints() const { return border_.constraint.rows(); }
 
   /// Of the equations for y and du, with rows and columns of unit length. Near zero at a fold.
-  double reciprocal_condition() const { return lu_.rcond(); }
+  /// The estimate of a singular matrix, whose zero pivots it leaves out, would say nothing.
+  double reciprocal_condition() const { return lu_.isInvertible() ? lu_.rcond() : 0.0; }
 
   /// 2 x q, the components of du in the kernel of the scaled matrix, and those of the equations in that of
   /// its transpose, each the norm over the kernel. Zero if the matrix is regular.
