@@ -152,7 +152,7 @@ class Inflow(RotorTest):
 
     def test_refusals(self):
         for old, new, message in (
-                ('model = "pitt_peters"', 'model = "glauert"', '[[inflow]] 1 model: expected "uniform" or "pitt_peters"'),
+                ('model = "pitt_peters"', 'model = "glauert"', '[[inflow]] 1 model: expected "uniform", "annular" or "pitt_peters"'),
                 ('wind = [0, 0, "-climb"]\n[[body]]\nname = "blade0"', 'wind = [1, 0, 0]\n[[body]]\nname = "blade0"',
                  "[[inflow]] 1 wind: must be parallel to axis"),
                 ("radius = 5.0", "radius = 0", "[[inflow]] 1 radius: must be positive"),
