@@ -18,6 +18,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"chains", chains},
                                           {"blades", blades},
                                           {"large_models", large_models},
+                                          {"largest_models", largest_models},
                                           {"threads", threads}};
   return all;
 }

@@ -44,6 +44,7 @@ Figures chains(const BenchOptions& options);
 Figures blades(const BenchOptions& options);
 // large_bench.cpp
 Figures large_models(const BenchOptions& options);
+Figures largest_models(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

@@ -47,12 +47,12 @@ double mass(int m, Eigen::Index place) {
 
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
-/// Stiffness and mass of a cube of eight nodes, edge a, by 2 x 2 x 2 Gauss points.
-struct Cube {
+/// Stiffness and mass of a brick of eight nodes with edges along the axes, by 2 x 2 x 2 Gauss points.
+struct Brick {
   Matrix24 K = Matrix24::Zero();
   Eigen::Matrix<double, 8, 8> M = Eigen::Matrix<double, 8, 8>::Zero();
 
-  explicit Cube(double a) {
+  explicit Brick(const Eigen::Vector3d& edges) {
     constexpr double E = 2.1e11, nu = 0.3, rho = 7850.0;
     const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
     Eigen::Matrix<double, 6, 6> D = Eigen::Matrix<double, 6, 6>::Zero();
@@ -69,14 +69,14 @@ struct Cube {
         const Eigen::Vector3d f = Eigen::Vector3d::Ones() + sign.cwiseProduct(point);
         N[node] = f.prod() / 8.0;
         const Eigen::Vector3d d =
-            Eigen::Vector3d(sign[0] * f[1] * f[2], sign[1] * f[0] * f[2], sign[2] * f[0] * f[1]) / 8.0 *
-            (2.0 / a);
+            Eigen::Vector3d(sign[0] * f[1] * f[2], sign[1] * f[0] * f[2], sign[2] * f[0] * f[1])
+                .cwiseQuotient(4.0 * edges);
         const int c = 3 * node;
         B(0, c) = B(3, c + 1) = B(5, c + 2) = d[0];
         B(1, c + 1) = B(3, c) = B(4, c + 2) = d[1];
         B(2, c + 2) = B(4, c + 1) = B(5, c) = d[2];
       }
-      const double volume = a * a * a / 8.0;
+      const double volume = edges.prod() / 8.0;
       K += volume * B.transpose() * D * B;
       M += volume * rho * N * N.transpose();
     }
@@ -131,7 +131,7 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
   const auto node = [&](int i, int j, int k) {
     return nodes.try_emplace({k, i, j}, static_cast<Eigen::Index>(nodes.size())).first->second;
   };
-  const Cube cube(shaft.cell);
+  const Brick brick({shaft.cell, shaft.flatness * shaft.cell, shaft.cell});
   Triplets M, G, K0, softening;
   for (int k = 0; k < shaft.length; ++k) {
     for (int i = 0; i < wide; ++i) {
@@ -143,13 +143,13 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
         for (int a = 0; a < 8; ++a) {
           for (int b = 0; b < 8; ++b) {
             const Eigen::Index r = at[static_cast<std::size_t>(a)], s = at[static_cast<std::size_t>(b)];
-            const double m = cube.M(a, b);
+            const double m = brick.M(a, b);
             for (int d = 0; d < 3; ++d) M.emplace_back(r + d, s + d, m);
             for (int d = 0; d < 2; ++d) softening.emplace_back(r + d, s + d, -m);
             G.emplace_back(r, s + 1, -2.0 * m);
             G.emplace_back(r + 1, s, 2.0 * m);
             for (int d = 0; d < 3; ++d) {
-              for (int e = 0; e < 3; ++e) K0.emplace_back(r + d, s + e, cube.K(3 * a + d, 3 * b + e));
+              for (int e = 0; e < 3; ++e) K0.emplace_back(r + d, s + e, brick.K(3 * a + d, 3 * b + e));
             }
           }
         }
@@ -169,7 +169,7 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
         J.emplace_back(at, at + 1, -share);
         J.emplace_back(at + 1, at, share);
         if (k == 1) K0.emplace_back(at + 2, at + 2, share * shaft.bearing_stiffness);
-        const double x = i - 0.5 * wide, y = j - 0.5 * wide;
+        const double x = i - 0.5 * wide, y = shaft.flatness * (j - 0.5 * wide);
         turn.emplace_back(at, -y);
         turn.emplace_back(at + 1, x);
       }

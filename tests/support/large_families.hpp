@@ -23,15 +23,19 @@ struct RotatingPlate {
 };
 AffinePencil<SparseMatrix> rotating_plate(const RotatingPlate& plate);
 
-/// A shaft of steel from cubic elements of eight nodes, square in section, with discs, in two isotropic
-/// bearings, seen from the rotating frame: gyroscopic terms, centrifugal softening, internal damping (in
-/// proportion to the stiffness) and external damping in the bearings, which is circulatory in this frame. SI
-/// units.
+/// A shaft of steel from elements of eight nodes, square in section or flattened, with discs, in two
+/// isotropic bearings, seen from the rotating frame: gyroscopic terms, centrifugal softening, internal
+/// damping (in proportion to the stiffness) and external damping in the bearings, which is circulatory in
+/// this frame. SI units.
 struct SolidShaft {
-  double cell = 0.02;              ///< edge of an element, m
-  int length = 40;                 ///< elements along the axis
-  int width = 2;                   ///< elements of the section's sides
-  int disc_width = 8;              ///< the same for discs; even if `width` is even, else odd
+  double cell = 0.02;  ///< edge of an element, m
+  int length = 40;     ///< elements along the axis
+  int width = 2;       ///< elements of the section's sides
+  int disc_width = 8;  ///< the same for discs; even if `width` is even, else odd
+  /// Height of the section and of the discs over their width. With less than 1 the shaft bends more easily in
+  /// one direction, as the rotor of a generator with two poles does: frequencies part at rest and near it,
+  /// and veer later on where those of a round shaft cross.
+  double flatness = 1.0;
   std::vector<int> discs{10, 26};  ///< first layers of the discs; each is two layers thick
   double bearing_stiffness = 2e8, bearing_damping = 2e4;  ///< N/m, N s/m
   double internal_damping = 2e-6;                         ///< s, times the stiffness
