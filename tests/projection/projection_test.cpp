@@ -236,6 +236,23 @@ TEST(Projection, AModeThatComesAmongTheFollowedOnesIsNoted) {
   EXPECT_TRUE(project(family_of(lowest), lowest.options)->projection()->notes.empty());
 }
 
+/// What explain says of the memory of the factors is near the truth, with left vectors as well: the bound
+/// over all choices of pivots that UMFPACK gives is many times too large.
+TEST(Projection, EstimatesOfFactorsAreNearTheFactors) {
+  for (const double convection : {0.0, 10.0}) {
+    RotatingPlate plate;
+    plate.cells = 40;
+    plate.convection = convection;
+    const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 4, 1e-4);
+    const ProjectionEstimate estimate = estimate_projection(family_of(setup), setup.options);
+    const auto model = project(family_of(setup), setup.options);
+    EXPECT_EQ(estimate.two_sided, true);
+    const double bytes = static_cast<double>(model->projection()->peak_bytes);
+    EXPECT_LT(estimate.factor_bytes, 2.0 * bytes) << convection;
+    EXPECT_GT(estimate.factor_bytes, 0.5 * bytes) << convection;
+  }
+}
+
 /// A free chain: its rigid-body motion has an eigenvalue that is zero up to the root of rounding.
 TEST(Projection, RigidBodyMotionsDoNotCountAsErrors) {
   constexpr int n = 200;
