@@ -27,7 +27,11 @@ constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
 /// Directions that the adapted norm scales: those of the largest singular values of I - B J. A larger number
 /// costs more solutions, and closes more pieces of sensitive eigenvalues.
+constexpr Eigen::Index least_directions = 3;
 constexpr Eigen::Index most_directions = 12;
+/// One direction for so many unknowns: in a small system the solutions for them would take longer than a few
+/// more factorizations.
+constexpr Eigen::Index unknowns_per_direction = 16;
 /// Passes of the subspace iteration for them.
 constexpr int subspace_iterations = 1;
 /// Factor on a norm estimate. With a larger value fewer steps are certified, with a smaller one the bounds
@@ -254,7 +258,9 @@ class Tube {
       B.apply_adjoint(v);
       return A.adjoint_times(v);
     };
-    ComplexMatrix Q(direction.size(), std::min(most_directions, direction.size()));
+    const Eigen::Index size = direction.size();
+    const Eigen::Index wanted = std::clamp(size / unknowns_per_direction, least_directions, most_directions);
+    ComplexMatrix Q(size, std::min(wanted, size));
     for (Eigen::Index j = 0; j < Q.cols(); ++j)
       Q.col(j) = j == 0 ? direction : start_vector(Q.rows(), static_cast<double>(j));
     ComplexMatrix adjoint;
