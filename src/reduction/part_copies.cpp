@@ -108,7 +108,11 @@ std::optional<std::pair<Matrix, Matrix>> change_of_coordinates(const OwnMatrices
   };
   const ComplexVector d = factors_of_vectors(in_vectors(a, a.V), in_vectors(b, V_b));
   if (!d.allFinite() || !(d.cwiseAbs().minCoeff() > 0.0)) return std::nullopt;
-  const ComplexMatrix complex_S = V_b * d.asDiagonal() * a.V.inverse();
+  ComplexMatrix complex_S = V_b * d.asDiagonal() * a.V.inverse();
+  // The first factor leaves a complex number open, with which S is real.
+  Eigen::Index row = 0, column = 0;
+  const double largest = complex_S.cwiseAbs().maxCoeff(&row, &column);
+  complex_S *= std::conj(complex_S(row, column)) / largest;
   Matrix S = complex_S.real();
   if (!(complex_S.imag().norm() <= 1e-6 * S.norm())) return std::nullopt;
   Matrix Y = (b.B * S * a.B.inverse()).inverse().transpose();
@@ -200,6 +204,28 @@ void settle_copies(const std::vector<Matrix>& all, double magnified, Independent
     }
   }
   if (kept.size() < parts.count()) keep_only(kept, parts);
+}
+
+double departure_from_parts(const Matrix& A, const IndependentParts& parts) {
+  const Eigen::Index n = parts.freedoms();
+  Matrix right(A.cols(), n), left(A.rows(), n);
+  Matrix expected = Matrix::Zero(n, n);
+  const Matrix own = parts.left.transpose() * A * parts.right;
+  Eigen::Index at = 0;
+  const auto add = [&](const IndependentParts::Range& range, const auto& columns, const auto& rows) {
+    right.middleCols(at, range.size) = columns;
+    left.middleCols(at, range.size) = rows;
+    expected.block(at, at, range.size, range.size) =
+        own.block(range.first, range.first, range.size, range.size);
+    at += range.size;
+  };
+  for (const IndependentParts::Range& range : parts.ranges) {
+    add(range, parts.right.middleCols(range.first, range.size),
+        parts.left.middleCols(range.first, range.size));
+    for (const PartCopy& copy : range.copies) add(range, copy.right, copy.left);
+  }
+  const double terms = magnitudes_of_terms(left, A, right).norm();
+  return terms > 0.0 ? (left.transpose() * A * right - expected).norm() / terms : 0.0;
 }
 
 }  // namespace eigentrail

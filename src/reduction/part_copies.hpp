@@ -13,4 +13,8 @@ namespace eigentrail {
 /// own, >= 1.
 void settle_copies(const std::vector<Matrix>& all, double magnified, IndependentParts& parts);
 
+/// How far a matrix is from falling apart as the parts do, in units of the terms that the differences are
+/// sums of: coupling between parts, and differences between a part and its copies. Cost O(n^3).
+double departure_from_parts(const Matrix& A, const IndependentParts& parts);
+
 }  // namespace eigentrail

@@ -388,6 +388,90 @@ coefficient = "drag"
   }
 }
 
+/// Masses on three springs each, at equal angles about the axis of a rotating frame: they move outwards as it
+/// turns faster, and nothing connects them. `stiffness` of the first spring of the last mass, 1000 N/m.
+std::string masses_in_a_rotating_frame(int count, const std::string& mass_of_last = "1",
+                                       const std::string& stiffness_of_last = "1000") {
+  std::string scene = R"(
+[parameters]
+omega = 1.0
+[trace]
+parameter = "omega"
+from = 1
+to = 12
+tolerance = 1e-9
+[frame]
+angular_velocity = [0, 0, "omega"]
+)";
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / 3.0;
+    const auto place = [angle](double along, double across, double up) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      return "[" + exact_text(c * along - s * across) + ", " + exact_text(s * along + c * across) + ", " +
+             exact_text(up) + "]";
+    };
+    const bool last = i + 1 == count;
+    const std::string name = "mass " + std::to_string(i + 1);
+    scene += "[[point]]\nname = \"" + name + "\"\nmass = " + (last ? mass_of_last : "1") +
+             "\nposition = " + place(1.0, 0.0, 0.0) + "\n";
+    const auto spring = [&](const std::string& from, const std::string& stiffness, double length) {
+      scene += "[[spring]]\nfrom = " + from + "\nto = \"" + name + "\"\nstiffness = " + stiffness +
+               "\nfree_length = " + exact_text(length) + "\n";
+    };
+    spring(place(0.0, 0.0, 0.0), last ? '"' + stiffness_of_last + '"' : "1000", 1.0);
+    spring(place(0.5, 0.8, 0.1), "300", 0.9);
+    spring(place(0.7, -0.2, 1.0), "200", 1.0);
+  }
+  return scene;
+}
+
+/// The number of copies of every part of a trace.
+std::vector<std::size_t> copies_in(const RecordedTrace& trace) {
+  std::vector<std::size_t> copies;
+  if (!trace.nodes.front().basis.parts) return copies;
+  for (const auto& range : trace.nodes.front().basis.parts->ranges) copies.push_back(range.copies.size());
+  std::sort(copies.begin(), copies.end());
+  return copies;
+}
+
+/// The equilibrium moves by a tenth of the length, and the eigenvalues are those of one mass, three times.
+TEST(EqualPartsOfAScene, ThatMovesAreTracedOnce) {
+  const RecordedTrace one = record_trace(make_setting(masses_in_a_rotating_frame(1)));
+  const RecordedTrace three = record_trace(make_setting(masses_in_a_rotating_frame(3)));
+  ASSERT_EQ(one.result.status, TraceStatus::completed) << one.result.message;
+  ASSERT_EQ(three.result.status, TraceStatus::completed) << three.result.message;
+  EXPECT_GT((one.nodes.back().path.x.col(0) - one.nodes.front().path.x.col(0)).norm(), 0.05);
+  EXPECT_EQ(copies_in(three), (std::vector<std::size_t>{2}));
+  EXPECT_EQ(three.result.n_columns, 9);
+  EXPECT_EQ(three.result.certified_steps, three.result.mode_steps);
+  for (int i = 1; i < 20; ++i) {
+    const double omega = 1.0 + 11.0 * i / 20.0;
+    const ComplexVector expected = one.eigenvalues_at(omega);
+    const ComplexVector found = three.eigenvalues_at(omega);
+    for (Eigen::Index mode = 0; mode < 9; ++mode)
+      EXPECT_LT(std::abs(found[mode] - expected[mode / 3]), 2e-9 * std::abs(expected[mode / 3]));
+  }
+}
+
+/// Mistuned by 1e-10 the masses are parts of their own, and the trace passes as well.
+TEST(EqualPartsOfAScene, ThatMovesAreNoCopiesWhereTheyAreMistuned) {
+  const RecordedTrace found = record_trace(make_setting(masses_in_a_rotating_frame(3, "1.0000000001")));
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(found.result.n_columns, 9);
+  EXPECT_TRUE(found.result.events.empty());
+}
+
+/// A stiffness that differs only on a small part of the range is seen at no place where parts are looked for.
+/// It must not be passed as if all were equal.
+TEST(EqualPartsOfAScene, ThatMovesAreTestedAtEveryPoint) {
+  const RecordedTrace found = record_trace(make_setting(
+      masses_in_a_rotating_frame(3, "1", "1000 * (1 + 0.01 * exp(-((omega - 7.77) / 0.01)^2))")));
+  EXPECT_EQ(found.result.status, TraceStatus::step_too_small);
+  EXPECT_NE(found.result.message.find("do not fall apart"), std::string::npos) << found.result.message;
+  EXPECT_NEAR(found.result.reached, 7.7, 0.1);
+}
+
 /// The drag becomes a drive: both modes flutter at once, and say in which direction.
 TEST(EqualPartsOfAScene, BothFluttersHaveADirection) {
   for (const auto& [from, to] : {std::pair{"-0.3", "0.5"}, std::pair{"0.5", "-0.3"}}) {

@@ -138,7 +138,8 @@ TEST(FindPartCrossings, UnitesAllModesOfOnePlace) {
 }
 
 /// Equal parts coincide throughout, which is no crossing, also where their eigenvalues differ by rounding. A
-/// third mode crosses both at once.
+/// third mode crosses both at once: in the search it crosses the one that is traced, in the result of a trace
+/// both.
 TEST(FindPartCrossings, OfEqualPartsAreNone) {
   const Matrix turn{{2.0 / 3.0, -2.0 / 3.0, 1.0 / 3.0},
                     {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
@@ -146,12 +147,16 @@ TEST(FindPartCrossings, OfEqualPartsAreNone) {
   for (const bool mixed : {false, true}) {
     const std::vector<Oscillator> all{{0.0, 2.0, 1.0}, {0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}};
     Parts parts(oscillators(all, mixed ? turn : Matrix()));
-    ASSERT_EQ(parts.problem.parts->count(), 3U);
+    ASSERT_EQ(parts.problem.parts->count(), 2U);
+    EXPECT_EQ(parts.problem.parts->freedoms(), 3);
     EXPECT_TRUE(parts.find(0.0, 0.2).empty());
     const std::vector<Event> found = parts.find(0.0, 0.5);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].modes.size(), 3U);
+    EXPECT_EQ(found[0].modes.size(), 2U);
     EXPECT_NEAR(found[0].p, 0.3, 1e-12);
+    const RecordedTrace trace = record_trace(oscillators(all, mixed ? turn : Matrix()));
+    ASSERT_EQ(trace.result.events.size(), 1U);
+    EXPECT_EQ(trace.result.events[0].modes, (std::vector<int>{0, 1, 2}));
   }
 }
 

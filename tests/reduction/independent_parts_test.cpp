@@ -135,6 +135,22 @@ TEST(IndependentParts, StandForTheirCopies) {
   }
 }
 
+/// Larger parts, whose eigenvectors are complex with phases that say nothing.
+TEST(IndependentParts, OfSeveralFreedomsHaveCopies) {
+  for (const Eigen::Index size : {3, 5, 8}) {
+    std::vector<Matrix> all;
+    const Matrix Q = orthogonal(3 * size, 9);
+    for (unsigned k = 0; k < 4; ++k) {
+      const Matrix A = random_matrix(size, 30 + k) + (k == 0 ? 4.0 : 0.0) * Matrix::Identity(size, size);
+      all.emplace_back(Q.transpose() * side_by_side(side_by_side(A, A), A) * Q);
+    }
+    const auto parts = find_independent_parts({{all[0]}, {all[1]}, {all[2], all[3]}});
+    ASSERT_NE(parts, nullptr);
+    ASSERT_EQ(parts->count(), 1U) << size;
+    EXPECT_EQ(parts->ranges.front().copies.size(), 2U);
+  }
+}
+
 /// A complex pair of parts, with the commutant of the complex numbers, that is there twice.
 TEST(IndependentParts, OfComplexPairsHaveCopies) {
   const Matrix J{{0.0, -1.0}, {1.0, 0.0}};

@@ -7,6 +7,7 @@
 
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/reduction/restricted_basis.hpp"
+#include "reduction/part_copies.hpp"
 
 namespace eigentrail {
 namespace {
@@ -80,6 +81,23 @@ EvaluationFault series_along_path(const PathProblem& problem, const PathPoint& p
                                    counts.evaluations);
 }
 
+/// Whether the equations at a point have the parts of the problem. Those of a family, and of a scene at rest,
+/// have them everywhere. Where the equilibrium moves they are found from a few places, and another
+/// equilibrium may have less symmetry.
+bool falls_apart_here(const PathProblem& problem, const PathPoint& point) {
+  const Structure& structure = problem.structure;
+  if (problem.rests || structure.fixed_equilibrium || structure.known_equilibrium) return true;
+  if (!problem.parts->falls_apart()) return true;
+  // The rounding of the equilibrium, a few units in the last place of the forces, times its condition. It has
+  // to be far below the tolerance of a trace: a larger departure is followed as if it were zero.
+  constexpr double rounding = 1e-11;
+  const Linearization& here = point.equilibrium.linearization;
+  const auto departure = [&](const SystemSeries& B) {
+    return departure_from_parts(B[0].dense(), *problem.parts);
+  };
+  return std::max({departure(here.M), departure(here.C), departure(here.K)}) <= rounding;
+}
+
 /// Tangent basis and reduced pencil at the point's equilibrium. Sets the status if there is no equilibrium.
 void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
                   RunCounts& counts) {
@@ -90,6 +108,11 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
   }
   const StageTimer timer(counts.reduction_seconds);
   if (problem.parts) {
+    if (!falls_apart_here(problem, point)) {
+      point.status = PointStatus::no_equilibrium;
+      point.message = "the equations do not fall apart here as they do at other places of the range";
+      return;
+    }
     point.basis = basis_of(problem.parts);
     point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
     return;

@@ -45,7 +45,48 @@ bool leaves_its_path(const TraceOptions& options) {
   return std::any_of(options.branch.begin(), options.branch.end(), [](int choice) { return choice != 1; });
 }
 
+/// The parts of a scene whose equilibrium moves while its constraints stay the same: the coordinates are
+/// constant, and the matrices at the equilibria of the range take the place of coefficients. Two of them tell
+/// most scenes that do not fall apart.
+std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem& problem,
+                                                              const TraceOptions& options, const Vector& x,
+                                                              const Vector& lambda) {
+  std::vector<double> places;
+  for (int i = 0; i < n_places; ++i) places.push_back(place(options, i));
+  std::sort(places.begin(), places.end());
+  if (options.to < options.from) std::reverse(places.begin(), places.end());
+  RunCounts counts;
+  EquilibriumGuess guess{x, lambda, true};
+  CoefficientMatrices samples;
+  std::shared_ptr<const IndependentParts> parts;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const PathPoint point = reduce_at(problem, places[i], guess, Matrix(), counts);
+    if (point.status != PointStatus::computed) return nullptr;
+    const Linearization& there = point.equilibrium.linearization;
+    if (there.K[0].is_sparse()) return nullptr;
+    for (const auto& [from, to] :
+         {std::pair{&there.M, &samples.M}, std::pair{&there.C, &samples.C}, std::pair{&there.K, &samples.K}})
+      to->push_back((*from)[0].dense());
+    guess = {point.equilibrium.x, point.equilibrium.lambda, true};
+    if (i != 1 && i + 1 != places.size()) continue;
+    const Matrix T =
+        point.basis.is_identity ? Matrix(Matrix::Identity(x.size(), x.size())) : point.basis.T[0];
+    if (T.cols() < 2) return nullptr;
+    parts = find_independent_parts(samples, T);
+    if (!parts) return nullptr;
+  }
+  return parts;
+}
+
 }  // namespace
+
+SceneOnRange scene_at_start(const PathProblem& problem, const TraceOptions& options) {
+  RunCounts counts;
+  const Vector guess = problem.model.initial_guess(parameters_at(problem, options.from));
+  const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
+  if (point.status != PointStatus::computed) return {};
+  return scene_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda);
+}
 
 SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& options, const Vector& x,
                             const Vector& lambda) {
@@ -61,6 +102,8 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   Matrix A;
   for (int i = 0; i < n_places; ++i) {
     const auto there = linearize_at_rest(problem, place(options, i), x, lambda, counts);
+    if (!there && i == 0 && structure.constant_constraints)
+      return {false, parts_of_moving_scene(problem, options, x, lambda)};
     if (!there || there->A[0].is_sparse()) return {};
     if (i == 0) A = there->A[0].dense();
     if (there->A[0].dense() != A) return {};

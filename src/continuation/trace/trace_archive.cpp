@@ -364,8 +364,7 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     throw InputError(std::string("the state of the trace is damaged: ") + error.what());
   }
   if (!problem.parts && fits(state.origin.node.path, problem.model)) {
-    const Path& path = state.origin.node.path;
-    const SceneOnRange scene = scene_on_range(problem, options, path.x.col(0), path.lambda.col(0));
+    const SceneOnRange scene = scene_at_start(problem, options);
     problem.rests = scene.rests;
     problem.parts = scene.parts;
   }
