@@ -40,11 +40,15 @@ EigenvalueCount eigenvalues_on_step(const RecordedPath& path, std::size_t step, 
   return count;
 }
 
-/// Number of eigenvalues of the pencil: twice its size; 0 (unknown) if the mass matrix is singular.
+/// Number of eigenvalues of the pencil, those of copies of its parts included: twice its size; 0 (unknown) if
+/// the mass matrix is singular.
 int expected_eigenvalues(const ReducedPencil& pencil) {
   constexpr double singular = 1e-12;
   const Matrix& M = pencil.M[0];
-  return reciprocal_condition(M.partialPivLu()) > singular ? 2 * static_cast<int>(M.rows()) : 0;
+  if (!(reciprocal_condition(M.partialPivLu()) > singular)) return 0;
+  auto freedoms = static_cast<int>(M.rows()) * (1 + pencil.copies);
+  for (const ReducedPencil& part : pencil.parts) freedoms += static_cast<int>(part.size()) * part.copies;
+  return 2 * freedoms;
 }
 
 /// Per step: whether it follows as many eigenvalues as its ends have (`expected`, per node). If that is
