@@ -102,6 +102,30 @@ TEST(StabilityMap, CellsOnABoundaryCountTheCalmerSide) {
   }
 }
 
+/// s^2 + c s + 3 - p, twice: both pairs grow where c < 0, both real roots where p > 3. One of the equal parts
+/// is traced, and cells count both.
+TEST(StabilityMap, CellsCountTheModesOfAllEqualParts) {
+  const StabilityMap map = stability_map(map_setup(R"(
+[parameters]
+c = 0.1
+[trace]
+parameter = "p"
+from = 0.5
+to = 4
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[["c", 0], [0, "c"]]]
+K = [[[3, 0], [0, 3]], [[-1, 0], [0, -1]]]
+)",
+                                                   {"c", -0.5, 0.5, 2, 8}));
+  for_cells(map, [](const MapLine& line, std::size_t cell, double p) {
+    if (p == 3.0 || (p > 3.0 && line.second < 0.0)) return;  // on the boundary; one root of two grows in each
+    const bool grows = p > 3.0 || line.second < 0.0;
+    EXPECT_EQ(line.unstable[cell], grows ? 2 : 0) << p;
+    EXPECT_EQ(line.doubtful_cells, 0);
+  });
+}
+
 /// K = [[1, q], [-q, 1 + d]] has real eigenvalues, all modes on the imaginary axis, where |d| >= 2 |q|.
 TEST(StabilityMap, UndampedSystemsAreMarginalOutsideFlutter) {
   const std::string scene =
