@@ -42,6 +42,33 @@ TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
   EXPECT_TRUE(tracked.is_doubtful());
 }
 
+/// One conjugate beside the other is the same mode, of which the first track stays.
+TEST(Conjugates, AreOneMode) {
+  Tracked tracked(coupled);
+  const std::vector<Track> own = tracked.node.tracks;
+  Track conjugate = own[1];
+  conjugate.pair.Z = (Complex(0.6, 0.8) * conjugate.pair.Z).conjugate();
+  conjugate.pair.Lambda = conjugate.pair.Lambda.conjugate().eval();
+  conjugate.roots = conjugate.roots.conjugate().eval();
+  conjugate.modes = {7};
+  tracked.node.tracks.push_back(conjugate);
+  ModeNumbers numbers;
+  numbers.count = 8;
+  const Completion found = complete(tracked.problem, true, tracked.node, numbers, tracked.counts);
+  ASSERT_EQ(found.pairs.size(), 1u);
+  EXPECT_EQ(found.pairs[0].kept, own[1].modes[0]);
+  EXPECT_EQ(found.pairs[0].ended, 7);
+  EXPECT_EQ(found.added, 0);
+  EXPECT_FALSE(found.doubtful);
+  EXPECT_EQ(tracked.node.tracks.size(), own.size());
+}
+
+TEST(Conjugates, OfOthersAreNone) {
+  Tracked tracked(coupled);
+  ModeNumbers numbers;
+  EXPECT_TRUE(complete(tracked.problem, true, tracked.node, numbers, tracked.counts).pairs.empty());
+}
+
 TEST(DoubtfulTrack, OneEigenvalueWithTwoVectorsIsNot) {
   EXPECT_FALSE(Tracked("[[4, 0, 0], [0, 4, 0], [0, 0, 9]]").is_doubtful());
 }

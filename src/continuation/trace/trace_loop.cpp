@@ -344,6 +344,12 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   }
   settle_events(landed);
   const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
+  std::vector<std::uint64_t> lineages;
+  for (const Track& track : step.right.tracks) lineages.push_back(track.lineage);
+  state_.steps.patience.count_step(lineages, tests_, certified);
+  for (std::size_t i = 0; i < certified.size(); ++i) {
+    if (certified[i]) step.right.tracks[i].unproven = false;
+  }
   for (const std::string& who : find_again(problem_, step.right, state_.ended, result.counts))
     result.notes.push_back(who + " was found again at " + place_text(options_, step.right.p) +
                            ", by its shape");
@@ -353,6 +359,10 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   if (found.doubtful && result.notes.size() < most_notes)
     result.notes.push_back(where +
                            " two tracks share an eigenvalue, or one has left the spectrum; see verify");
+  for (const OnePair& pair : found.pairs)
+    result.notes.push_back(where + " modes " + std::to_string(pair.kept + 1) + " and " +
+                           std::to_string(pair.ended + 1) + " are one complex pair, which goes on as mode " +
+                           std::to_string(pair.kept + 1));
   for (int i = 0; i < found.added; ++i) result.notes.push_back("a mode that was missing was added " + where);
   result.regroupings.repaired += found.added;
   const int begun = begin_here(problem_, std::move(wanted), step.right, state_.numbers);
@@ -365,12 +375,6 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   for (const DenseBlock& block : stored.blocks) {
     result.mode_steps += static_cast<long>(block.modes.size());
     if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
-  }
-  std::vector<std::uint64_t> lineages;
-  for (const Track& track : step.right.tracks) lineages.push_back(track.lineage);
-  state_.steps.patience.count_step(lineages, tests_, certified);
-  for (std::size_t i = 0; i < certified.size(); ++i) {
-    if (certified[i]) step.right.tracks[i].unproven = false;
   }
   const bool go_on = emit(step.right, &stored);
   for (Track& track : step.right.tracks) track.arriving = track.modes;

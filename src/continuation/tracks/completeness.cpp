@@ -175,6 +175,44 @@ bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
 
 namespace {
 
+/// A track of a complex eigenvalue as the track of its conjugate.
+Track conjugated(const Track& track) {
+  Track result;
+  result.pair = track.pair;
+  result.pair.Z = track.pair.Z.conjugate();
+  result.pair.Lambda = track.pair.Lambda.conjugate();
+  result.roots = track.roots.conjugate();
+  return result;
+}
+
+/// Whether a track follows one numbered mode, whose eigenvalue is apart from its conjugate.
+bool is_complex(const Track& track, double reference, double merged_distance) {
+  return track.size() == 1 && track.modes[0] >= 0 && !track.pair.is_real &&
+         2.0 * std::abs(track.roots[0].imag()) >
+             merged_distance * std::max(std::abs(track.roots[0]), reference);
+}
+
+/// Ends every track that is the conjugate of one before it.
+std::vector<OnePair> end_conjugates(const PathProblem& problem, PathNode& node) {
+  std::vector<OnePair> pairs;
+  const IdentityThresholds& thresholds = problem.thresholds.identity;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& kept = node.tracks[i];
+    const double reference = problem.reference(kept.pair.chart);
+    if (!is_complex(kept, reference, thresholds.merged_distance)) continue;
+    const Track other = conjugated(kept);
+    for (std::size_t j = node.tracks.size() - 1; j > i; --j) {
+      const Track& candidate = node.tracks[j];
+      if (candidate.size() != 1 || candidate.modes[0] < 0 ||
+          !have_common_eigenpair(candidate, other, reference, thresholds))
+        continue;
+      pairs.push_back({kept.modes[0], candidate.modes[0]});
+      node.tracks.erase(node.tracks.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+  return pairs;
+}
+
 /// Missing eigenvalues are added if their magnitude is at most this share of that which counts as infinite.
 /// Larger ones come from infinity, where the mass was singular, and are added later.
 constexpr double arrived = 0.1;
@@ -201,6 +239,11 @@ Completion complete(const PathProblem& problem, bool follows_all, PathNode& node
   const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
                                    [](const Track& track) { return track.departure.has_value(); });
   if (meeting) return found;
+  found.pairs = end_conjugates(problem, node);
+  for (const OnePair& pair : found.pairs) {
+    numbers.partners[pair.kept] = pair.ended;
+    numbers.partners[pair.ended] = pair.kept;
+  }
   found.doubtful = has_doubtful_track(node, problem);
   if (!follows_all || checksum_holds(node, problem)) return found;
   for (const StartingGroup& group : missing_groups(problem, node, counts)) {
