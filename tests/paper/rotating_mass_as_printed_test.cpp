@@ -22,7 +22,7 @@ class AsPrinted final : public Model {
  public:
   /// `centrifugal_on_z`: 1 for the equilibrium, 0 for the eigenproblem.
   explicit AsPrinted(double centrifugal_on_z)
-      : Model({{"x", "y", "z"}, {"m", "m", "m"}, {"hinge"}, {}, {}, {}, {}}),
+      : Model({{"x", "y", "z"}, {"m", "m", "m"}, {"hinge"}, {}, {}, {}, {}, {}}),
         centrifugal_on_z_(centrifugal_on_z) {}
 
   Vector initial_guess(const Vector&) const override { return Vector{{length, 0.0, 0.0}}; }
