@@ -165,7 +165,8 @@ std::string describe_equal(const IndependentParts& parts) {
     text += one ? "; part " : "; parts ";
     for (const std::size_t i : which)
       text += (i == which.front() ? "" : i == which.back() ? " and " : ", ") + std::to_string(i);
-    text += (one ? " stands for " : " stand for ") + std::to_string(equal) + (one ? " equal ones" : " equal ones each");
+    text += (one ? " stands for " : " stand for ") + std::to_string(equal) +
+            (one ? " equal ones" : " equal ones each");
   }
   return text;
 }

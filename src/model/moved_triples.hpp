@@ -17,8 +17,8 @@ Vec3<Base> triple_of(const std::vector<Base>& coordinates, int triple) {
 template <class Base>
 class MovedTriples {
  public:
-  MovedTriples(const VirtualMotion& motion, const PathValues<Base>& values) {
-    axis_ = values.vector(motion.axis);
+  MovedTriples(const VirtualMotion& motion, const PathValues<Base>& values)
+      : axis_(values.vector(motion.axis)) {
     const bool turns = motion.about.has_value();
     const Vec3<Base> centre = turns ? values.vector(*motion.about) : Vec3<Base>(Vec3<Base>::Zero());
     const auto add = [&](int triple, const Vec3<Base>& arm) {

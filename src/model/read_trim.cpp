@@ -258,6 +258,9 @@ class TrimReader {
       for (const std::string_view kind : {Strip::name, BladeElement::name}) {
         const std::vector<const Table*> all = tables(draft_.scene, std::string(kind));
         for (std::size_t i = 0; i < all.size(); ++i) names.push_back(name_of(*all[i], kind, i));
+        if (draft_.is_left_out(kind) && std::find(names.begin(), names.end(), name) != names.end())
+          table.fail("condition", "the " + std::string(kind) + " '" + name +
+                                      "' is left out; leave out the condition, too");
       }
     }
     table.fail("condition", std::string("no ") + (moment ? "joint or torsional spring" : "joint or strips") +

@@ -45,6 +45,8 @@ TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
 /// One conjugate beside the other is the same mode, of which the first track stays.
 TEST(Conjugates, AreOneMode) {
   Tracked tracked(coupled);
+  for (std::size_t i = 0; i < tracked.node.tracks.size(); ++i)
+    tracked.node.tracks[i].modes = {static_cast<int>(i)};
   const std::vector<Track> own = tracked.node.tracks;
   Track conjugate = own[1];
   conjugate.pair.Z = (Complex(0.6, 0.8) * conjugate.pair.Z).conjugate();
@@ -65,6 +67,7 @@ TEST(Conjugates, AreOneMode) {
 
 TEST(Conjugates, OfOthersAreNone) {
   Tracked tracked(coupled);
+  for (Track& track : tracked.node.tracks) track.modes = {0};
   ModeNumbers numbers;
   EXPECT_TRUE(complete(tracked.problem, true, tracked.node, numbers, tracked.counts).pairs.empty());
 }

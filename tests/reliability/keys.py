@@ -50,8 +50,10 @@ DEPENDENT = {"torsional_spring about", "torsional_damper about", "torsional_maxw
 
 
 # Tables that are tried elsewhere: options, families, rotors, which stand in scenes without points and bodies
-# (tests/cli/mistakes_test.py, mode_names_test.py), and rotors of several blades (hammond_ground_resonance_test.py).
-APART = {"[trace]", "[events]", "[modes]", "[matrix_family]", "[sampled_family]", "[[shaft]]", "[[disc]]", "[[support]]", "[rotor]"}
+# (tests/cli/mistakes_test.py, mode_names_test.py), rotors of several blades (hammond_ground_resonance_test.py), and conditions,
+# which need a parameter of their own (tests/steady/trim_test.cpp).
+APART = {"[trace]", "[events]", "[modes]", "[matrix_family]", "[sampled_family]", "[[shaft]]", "[[disc]]", "[[support]]", "[rotor]",
+         "[[trim]]"}
 
 # What a table needs beside it.
 WING = """

@@ -52,6 +52,10 @@ constexpr double uncertified_error = 30.0;
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
+/// Steps below this share of the range are short where an eigenvalue is close to infinity. It is that from a
+/// distance of about 1e-6 of the range on if it runs there like a root of the parameter; where it passes
+/// infinity smoothly, steps of a hundredth are usual.
+constexpr double short_at_infinity = 1e-5;
 /// Points in a row on which the position grows as towards a pole, until the trace ends. Fewer might be met
 /// beside folds.
 constexpr int enough_towards_pole = 10;
@@ -61,6 +65,33 @@ constexpr double forgetting = 0.85;
 /// A note on a doubtful track is added only while there are fewer notes than this, because such notes may
 /// come at every point.
 constexpr std::size_t most_notes = 20;
+
+/// Gives numbers to the modes of copies at a point, and counts all modes.
+void number_modes(TraceState& state, const PathNode& node) {
+  number_copies(node, state.numbers, state.copies);
+  state.result.n_columns = state.numbers.count;
+}
+
+/// Ends a track that runs to infinity like a root of the parameter, as where a massless freedom loses its
+/// stiffness: short steps are rejected because of it, though it is close to infinity. One that passes
+/// infinity has a smooth reciprocal, and long steps. `place`: of the point, for the note.
+bool end_at_infinity(const PathProblem& problem, const std::string& place, const Verdict& verdict, double h,
+                     TraceState& state) {
+  PathNode& node = state.origin.node;
+  if (verdict.track < 0 || node.tracks.size() < 2) return false;
+  if (!(std::abs(h) < short_at_infinity * state.frame.range.length())) return false;
+  const auto index = static_cast<std::size_t>(verdict.track);
+  if (!is_close_to_infinity(problem, node.tracks[index])) return false;
+  const std::vector<int> modes = node.tracks[index].modes;
+  std::vector<EndedTrack> not_looked_for;
+  const std::string who = end_track(problem, node, index, not_looked_for);
+  if (!who.empty() && state.result.notes.size() < most_notes)
+    state.result.notes.push_back(who + equal_modes_text(state.copies, modes) + " ends at " + place +
+                                 ": it runs to infinity");
+  state.origin.tried.reset();
+  state.control.restart(state.steps.longest_step);
+  return true;
+}
 
 void count(const Verdict& verdict, Rejections& rejections) {
   switch (verdict.kind) {
@@ -174,7 +205,7 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
-  number_modes(node);
+  number_modes(state_, node);
   log(std::move(met));
   if (!emit(node, nullptr)) return false;
   if (!state_.frame.on_branch_point(options_.from)) return true;
@@ -252,6 +283,8 @@ bool TraceLoop::advance() {
   };
   const Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
   if (!verdict.accepted()) {
+    if (end_at_infinity(problem_, place_text(options_, state_.origin.node.p), verdict, h, state_))
+      return true;
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
     if (!may_be_taken) return shorten(verdict, length);
@@ -338,7 +371,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   std::vector<Track> wanted;
   if (landed.meetings.empty()) wanted = newcomers(problem_, options_.modes, step.right, result.counts);
   if (follow_back(problem_, wanted, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
-    number_modes(state_.origin.node);
+    number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them
   }
@@ -371,7 +404,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
       result.notes.push_back("a mode that is wanted was noticed " + where +
                              " and could not be followed back; it begins there");
   }
-  number_modes(step.right);
+  number_modes(state_, step.right);
   for (const DenseBlock& block : stored.blocks) {
     result.mode_steps += static_cast<long>(block.modes.size());
     if (block.certified) result.certified_steps += static_cast<long>(block.modes.size());
@@ -402,7 +435,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
     births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
   mark_doubtful(landed.meetings, step.right);
   name_births(births, met);
-  number_modes(step.right);
+  number_modes(state_, step.right);
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
   inherit_histories(births, criteria_, state_.histories);  // after the scan of their parents up to here
@@ -479,7 +512,7 @@ bool TraceLoop::leave_path() {
   }
   const auto births = order_on_other_path(arrived, start->next_step, start->node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
-  number_modes(start->node);
+  number_modes(state_, start->node);
   state_.frame = std::move(start->frame);
   state_.origin.node = std::move(start->node);
   state_.origin.last_step = 0.0;
@@ -509,11 +542,6 @@ void TraceLoop::log(FoundEvents found) {
 }
 
 /// Gives numbers to the copies of modes that have begun at a point.
-void TraceLoop::number_modes(const PathNode& node) {
-  number_copies(node, state_.numbers, state_.copies);
-  state_.result.n_columns = state_.numbers.count;
-}
-
 bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   TraceResult& result = state_.result;
   result.reached = node.p;

@@ -192,13 +192,31 @@ bool is_complex(const Track& track, double reference, double merged_distance) {
              merged_distance * std::max(std::abs(track.roots[0]), reference);
 }
 
-/// Ends every track that is the conjugate of one before it.
+/// In a real block, a complex pair is two members, of which only that with Im > 0 has a mode.
+void end_conjugates_within(Track& track, double reference, double merged_distance,
+                           std::vector<OnePair>& pairs) {
+  if (!track.pair.is_real) return;
+  for (Eigen::Index i = 0; i < track.size(); ++i) {
+    int& below = track.modes[static_cast<std::size_t>(i)];
+    const Complex root = track.roots[i];
+    if (below < 0 || -2.0 * root.imag() <= merged_distance * std::max(std::abs(root), reference)) continue;
+    Eigen::Index other = 0;
+    (track.roots.array() - std::conj(root)).abs().minCoeff(&other);
+    int& above = track.modes[static_cast<std::size_t>(other)];
+    if (above >= 0) pairs.push_back({std::min(above, below), std::max(above, below)});
+    above = above >= 0 ? std::min(above, below) : below;
+    below = Track::no_mode;
+  }
+}
+
+/// Ends every mode that is the conjugate of one before it.
 std::vector<OnePair> end_conjugates(const PathProblem& problem, PathNode& node) {
   std::vector<OnePair> pairs;
   const IdentityThresholds& thresholds = problem.thresholds.identity;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
-    const Track& kept = node.tracks[i];
+    Track& kept = node.tracks[i];
     const double reference = problem.reference(kept.pair.chart);
+    end_conjugates_within(kept, reference, thresholds.merged_distance, pairs);
     if (!is_complex(kept, reference, thresholds.merged_distance)) continue;
     const Track other = conjugated(kept);
     for (std::size_t j = node.tracks.size() - 1; j > i; --j) {
@@ -215,7 +233,7 @@ std::vector<OnePair> end_conjugates(const PathProblem& problem, PathNode& node) 
 
 /// Missing eigenvalues are added if their magnitude is at most this share of that which counts as infinite.
 /// Larger ones come from infinity, where the mass was singular, and are added later.
-constexpr double arrived = 0.1;
+constexpr double arrived = 0.005;
 
 /// The missing modes, grouped into single modes and blocks.
 std::vector<StartingGroup> missing_groups(const PathProblem& problem, const PathNode& node,

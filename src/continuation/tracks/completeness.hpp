@@ -36,15 +36,16 @@ struct OnePair {
 /// The result of `complete`.
 struct Completion {
   std::vector<OnePair> pairs = {};  ///< modes that are one complex pair now
-  bool doubtful = false;  ///< as has_doubtful_track
-  int added = 0;          ///< modes that were missing
+  bool doubtful = false;            ///< as has_doubtful_track
+  int added = 0;                    ///< modes that were missing
 };
 
 /// Checks that no mode is lost or followed twice at a point. Of two tracks that are conjugates of each other,
-/// the later one ends: two real eigenvalues that passed infinity are one complex pair behind it. Where all modes are followed (`follows_all`) and
-/// the checksum does not hold, computes a full spectrum and adds the missing modes to the node, with new
-/// numbers. At a point where eigenvalues coincide nothing is checked, since they are known to the square root
-/// of rounding only. Cost: that of the checksum, and if it fails of a spectrum, O(n^3) each.
+/// the later one ends: two real eigenvalues that passed infinity are one complex pair behind it. Where all
+/// modes are followed (`follows_all`) and the checksum does not hold, computes a full spectrum and adds the
+/// missing modes to the node, with new numbers. At a point where eigenvalues coincide nothing is checked,
+/// since they are known to the square root of rounding only. Cost: that of the checksum, and if it fails of a
+/// spectrum, O(n^3) each.
 Completion complete(const PathProblem& problem, bool follows_all, PathNode& node, ModeNumbers& numbers,
                     RunCounts& counts);
 

@@ -26,6 +26,15 @@ constexpr double shrinking = 0.25;
 /// is lost.
 constexpr Eigen::Index most_of_few = 4;
 
+/// Of two tracks on their way to infinity, whether one is so much closer to it that nothing but infinity
+/// itself can keep it from being certified: a tenth of |1/s|, so that they part further on any step to it.
+bool one_is_at_infinity(const Track& a, const Track& b) {
+  constexpr double much_closer = 0.1;
+  if (a.pair.chart != Chart::reciprocal) return false;
+  const Vector of_a = a.roots.cwiseAbs(), of_b = b.roots.cwiseAbs();
+  return of_a.maxCoeff() < much_closer * of_b.minCoeff() || of_b.maxCoeff() < much_closer * of_a.minCoeff();
+}
+
 /// Joins a track that is not certified with the nearest other one, and keeps both together. A block for which
 /// this was done before, without effect, is not made larger.
 bool join_nearest(const PathProblem& problem, const JoiningRules& rules, PathNode& node, std::size_t track,
@@ -33,6 +42,7 @@ bool join_nearest(const PathProblem& problem, const JoiningRules& rules, PathNod
   if (node.tracks[track].unproven) return false;
   const std::optional<Partner> nearest = nearest_partner(node, track);
   if (!nearest || node.tracks[nearest->track].unproven) return false;
+  if (one_is_at_infinity(node.tracks[track], node.tracks[nearest->track])) return false;
   const Eigen::Index size = node.tracks[track].size() + node.tracks[nearest->track].size();
   if (!rules.follows_all && size > most_of_few) return false;
   if (!join(problem, node, track, {*nearest}, counts)) return false;
