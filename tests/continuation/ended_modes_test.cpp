@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "continuation/planted_search.hpp"
+#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -75,6 +78,71 @@ TEST(FindAgain, GivesUp) {
     EXPECT_EQ(there.tracks.size(), 2U);
   }
   EXPECT_TRUE(lines.ended.empty());
+}
+
+/// Two freedoms with mass, and one without whose stiffness p passes zero: s runs to infinity like 1 /
+/// sqrt(p).
+TraceResult through_infinity(const std::string& from, const std::string& to, ComplexVector& at_the_end) {
+  const RecordedTrace trace = record_trace(make_setting(R"([trace]
+parameter = "p"
+from = )" + from + "\nto = " + to + R"(
+[matrix_family]
+M = [[[1, 0, 0], [0, 1, 0], [0, 0, 0]]]
+K = [[[1, 0.1, 0.3], [0.1, 4, 0.2], [0.3, 0.2, 0]], [[0, 0, 0], [0, 0, 0], [0, 0, 1]]]
+)"));
+  at_the_end = trace.eigenvalues_of_node(trace.nodes.size() - 1);
+  return trace.result;
+}
+
+/// The massless freedom eliminated: x'' + (K - k k^T / p) x = 0.
+Eigen::Vector2d frequencies(double p) {
+  Eigen::Matrix2d K{{1.0, 0.1}, {0.1, 4.0}};
+  const Eigen::Vector2d k(0.3, 0.2);
+  K -= k * k.transpose() / p;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(K).eigenvalues().cwiseSqrt();
+}
+
+TEST(ModeThatRunsToInfinity, EndsAndTheOthersGoOn) {
+  for (const double end : {-1.0, 1.0}) {
+    SCOPED_TRACE(end);
+    ComplexVector last;
+    const TraceResult result =
+        end < 0.0 ? through_infinity("1", "-1", last) : through_infinity("-1", "1", last);
+    EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
+    std::vector<double> found;
+    for (const Complex s : last) {
+      if (!std::isfinite(s.real())) continue;
+      EXPECT_NEAR(s.real(), 0.0, 1e-9);
+      found.push_back(s.imag());
+    }
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found.size(), 2U);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(found[static_cast<std::size_t>(i)], frequencies(end)[i], 1e-6);
+    EXPECT_TRUE(std::any_of(
+        result.notes.begin(), result.notes.end(),
+        [](const std::string& note) { return note.find("it runs to infinity") != std::string::npos; }))
+        << "of " << result.notes.size() << " notes";
+  }
+}
+
+/// One mode alone does not end: it is a complex pair behind infinity, and its second real eigenvalue no mode.
+TEST(ModeThatRunsToInfinity, AloneGoesOnAsOnePair) {
+  const RecordedTrace trace = record_trace(make_setting(R"([trace]
+parameter = "p"
+from = 1
+to = -1
+[matrix_family]
+M = [[[1, 0], [0, 0]]]
+K = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]
+)"));
+  EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  int finite = 0;
+  for (const Complex s : trace.eigenvalues_of_node(trace.nodes.size() - 1)) {
+    if (!std::isfinite(s.real())) continue;
+    ++finite;
+    EXPECT_NEAR(std::abs(s - std::sqrt(1.09) * j), 0.0, 1e-6);
+  }
+  EXPECT_EQ(finite, 1);
 }
 
 }  // namespace

@@ -78,10 +78,11 @@ void number_modes(TraceState& state, const PathNode& node) {
 bool end_at_infinity(const PathProblem& problem, const std::string& place, const Verdict& verdict, double h,
                      TraceState& state) {
   PathNode& node = state.origin.node;
-  if (verdict.track < 0 || node.tracks.size() < 2) return false;
-  if (!(std::abs(h) < short_at_infinity * state.frame.range.length())) return false;
+  if (verdict.track < 0 || !(std::abs(h) < short_at_infinity * state.frame.range.length())) return false;
   const auto index = static_cast<std::size_t>(verdict.track);
-  if (!is_close_to_infinity(problem, node.tracks[index])) return false;
+  const auto is_close = [&](const Track& track) { return is_close_to_infinity(problem, track); };
+  if (!is_close(node.tracks[index])) return false;
+  if (std::all_of(node.tracks.begin(), node.tracks.end(), is_close)) return false;  // nothing would be left
   const std::vector<int> modes = node.tracks[index].modes;
   std::vector<EndedTrack> not_looked_for;
   const std::string who = end_track(problem, node, index, not_looked_for);
