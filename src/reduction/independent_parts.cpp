@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/products.hpp"
@@ -81,23 +82,59 @@ std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coeffici
   return parts;
 }
 
-/// T^T A T for all matrices. `magnified` is raised to how many times larger than the result the terms are
-/// that cancel in it, up to a bound: beyond that, rounding would hide a coupling that matters. A result that
-/// is nothing but rounding is zero.
-std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix& T, double& magnified) {
+/// T^T A T. `magnified` is raised to how many times larger than the result the terms are that cancel in it,
+/// up to a bound: beyond that, rounding would hide a coupling that matters. A result that is nothing but
+/// rounding is zero.
+Matrix projected(const Matrix& A, const Matrix& T, double& magnified) {
   constexpr double most = 100.0;
   constexpr double nothing = 1e-14;
-  std::vector<Matrix> result;
-  for (const Matrix& A : matrices) {
-    result.emplace_back(T.transpose() * A * T);
-    const double terms = magnitudes_of_terms(T, A, T).norm();
-    if (result.back().norm() <= nothing * terms) {
-      result.back().setZero();
-      continue;
-    }
-    magnified = std::clamp(terms / result.back().norm(), magnified, most);
-  }
+  const Matrix result = T.transpose() * A * T;
+  const double terms = magnitudes_of_terms(T, A, T).norm();
+  if (result.norm() <= nothing * terms) return Matrix::Zero(T.cols(), T.cols());
+  magnified = std::clamp(terms / result.norm(), magnified, most);
   return result;
+}
+
+std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix& T, double& magnified) {
+  std::vector<Matrix> result;
+  for (const Matrix& A : matrices) result.push_back(projected(A, T, magnified));
+  return result;
+}
+
+/// Parts of matrices T^T A T as parts of the whole: T times their coordinates.
+void place_in(const Matrix& T, IndependentParts& parts) {
+  const auto place = [&T](Matrix& right, Matrix& left, Matrix& inverse) {
+    right = T * right;
+    left = T * left;
+    inverse = inverse * T.transpose();
+  };
+  place(parts.right, parts.left, parts.inverse);
+  for (IndependentParts::Range& range : parts.ranges) {
+    for (PartCopy& copy : range.copies) place(copy.right, copy.left, copy.inverse);
+  }
+}
+
+/// The frames at all places that are closest to the tangent space of one of them; empty if there is a place
+/// that has turned too far. The place is that from which the others have turned least.
+std::vector<Matrix> common_frames(const std::vector<PlaceOnPath>& places) {
+  std::vector<Matrix> best;
+  double least_turn = std::numeric_limits<double>::infinity();
+  for (const PlaceOnPath& at : places) {
+    const Matrix& frame = at.constraints.null_basis();
+    std::vector<Matrix> frames;
+    double turn = 0.0;
+    for (const PlaceOnPath& there : places) {
+      auto T = turned_frame(there.constraints, frame);
+      if (!T) break;
+      turn = std::max(turn, (*T - frame).norm());
+      frames.push_back(std::move(*T));
+    }
+    if (frames.size() < places.size() || turn >= least_turn) continue;
+    least_turn = turn;
+    best = std::move(frames);
+    best.push_back(frame);
+  }
+  return best;
 }
 
 }  // namespace
@@ -122,13 +159,25 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
                                   projected(coefficients.K, T, magnified)};
   const auto within = find_parts(inner, magnified);
   if (within == nullptr || !within->falls_apart()) return nullptr;
-  within->right = T * within->right;
-  within->left = T * within->left;
-  within->inverse = within->inverse * T.transpose();
-  for (IndependentParts::Range& range : within->ranges) {
-    for (PartCopy& copy : range.copies) copy = {T * copy.right, T * copy.left, copy.inverse * T.transpose()};
-  }
+  place_in(T, *within);
   simplify_free_motions(coefficients.M, *within);
+  return within;
+}
+
+std::shared_ptr<const IndependentParts> find_turning_parts(const std::vector<PlaceOnPath>& places) {
+  const std::vector<Matrix> frames = common_frames(places);
+  if (frames.empty() || frames.back().cols() < 2) return nullptr;
+  double magnified = 1.0;
+  CoefficientMatrices inner;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    inner.M.push_back(projected(places[i].M, frames[i], magnified));
+    inner.C.push_back(projected(places[i].C, frames[i], magnified));
+    inner.K.push_back(projected(places[i].K, frames[i], magnified));
+  }
+  const auto within = find_parts(inner, magnified);
+  if (within == nullptr || !within->falls_apart()) return nullptr;
+  place_in(frames.back(), *within);
+  within->frame = frames.back();
   return within;
 }
 

@@ -116,17 +116,23 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
 }
 
 /// The same where the basis changes along the path: left(h)^T B(h) right(h), of which the diagonal blocks are
-/// used.
-MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, int order) {
+/// used. Freedoms that no force holds stay without force.
+MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const Matrix& pattern, int order) {
   const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
-  return transposed_product(basis.left, BT, count);
+  MatrixSeries result = transposed_product(basis.left, BT, count);
+  for (const IndependentParts::Range& range : basis.parts->ranges) {
+    if (range.size > 1) continue;
+    for (Matrix& coefficient : result)
+      coefficient(range.first, range.first) *= pattern(range.first, range.first);
+  }
+  return result;
 }
 
 ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
   const IndependentParts& parts = *basis.parts;
   const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
-    return basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, order);
+    return basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order);
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};

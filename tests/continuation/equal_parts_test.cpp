@@ -472,6 +472,65 @@ TEST(EqualPartsOfAScene, ThatMovesAreTestedAtEveryPoint) {
   EXPECT_NEAR(found.result.reached, 7.7, 0.1);
 }
 
+/// Masses on rods that hang from a hub in a rotating frame and rise as it turns faster. Nothing connects
+/// them. `stiffness_of_last`: of the spring of the last mass, 20 N/m.
+std::string pendulums_in_a_rotating_frame(int count, double from, double to,
+                                          const std::string& stiffness_of_last = "20") {
+  std::string scene =
+      "[parameters]\nomega = 1.0\n[trace]\nparameter = \"omega\"\ntolerance = 1e-9\nfrom = " +
+      exact_text(from) + "\nto = " + exact_text(to) +
+      "\n[frame]\nangular_velocity = [0, 0, \"omega\"]\n[gravity]\nacceleration = [0, 0, -9.81]\n";
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / 3.0;
+    const auto place = [angle](double along, double across, double up) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      return "[" + exact_text(c * along - s * across) + ", " + exact_text(s * along + c * across) + ", " +
+             exact_text(up) + "]";
+    };
+    const std::string name = "mass " + std::to_string(i + 1);
+    scene += "[[point]]\nname = \"" + name + "\"\nmass = 2\nposition = " + place(0.93, -0.21, -0.45) + "\n";
+    scene += "[[rod]]\nfrom = " + place(0.3, 0.0, 0.0) + "\nto = \"" + name + "\"\nlength = 0.8\n";
+    scene += "[[spring]]\nfrom = " + place(0.5, 0.4, 0.1) + "\nto = \"" + name +
+             "\"\nfree_length = 0.6\nstiffness = " + (i + 1 == count ? stiffness_of_last : "20") + "\n";
+    scene += "[[damper]]\nfrom = " + place(0.5, -0.4, 0.1) + "\nto = \"" + name + "\"\ncoefficient = 0.3\n";
+  }
+  return scene;
+}
+
+/// The rods turn, and with them the space of the motions that they allow; the eigenvalues are those of one
+/// mass, three times.
+TEST(EqualPartsOfAScene, WhoseTangentSpaceTurnsAreTracedOnce) {
+  for (const auto& [from, to] : {std::pair{2.0, 9.0}, std::pair{9.0, 2.0}}) {
+    SCOPED_TRACE(from);
+    const RecordedTrace one = record_trace(make_setting(pendulums_in_a_rotating_frame(1, from, to)));
+    const RecordedTrace three = record_trace(make_setting(pendulums_in_a_rotating_frame(3, from, to)));
+    ASSERT_EQ(one.result.status, TraceStatus::completed) << one.result.message;
+    ASSERT_EQ(three.result.status, TraceStatus::completed) << three.result.message;
+    const Vector first = one.nodes.front().path.x.col(0), last = one.nodes.back().path.x.col(0);
+    EXPECT_GT((last - first).norm(), 0.3) << "of a rod of 0.8 m";
+    EXPECT_EQ(copies_in(three), (std::vector<std::size_t>{2}));
+    EXPECT_EQ(three.result.n_columns, 6);
+    EXPECT_EQ(three.result.certified_steps, three.result.mode_steps);
+    for (int i = 1; i < 20; ++i) {
+      const double omega = 2.0 + 7.0 * i / 20.0;
+      const ComplexVector expected = one.eigenvalues_at(omega);
+      const ComplexVector found = three.eigenvalues_at(omega);
+      for (Eigen::Index mode = 0; mode < 6; ++mode)
+        EXPECT_LT(std::abs(found[mode] - expected[mode / 3]), 2e-9 * std::abs(expected[mode / 3]));
+    }
+  }
+}
+
+/// One spring that is stiffer by 1e-10 makes its mass a part of its own.
+TEST(EqualPartsOfAScene, WhoseTangentSpaceTurnsAreNoCopiesWhereTheyAreMistuned) {
+  const RecordedTrace found =
+      record_trace(make_setting(pendulums_in_a_rotating_frame(3, 2.0, 9.0, "20.000000002")));
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(found.result.n_columns, 6);
+  EXPECT_TRUE(found.result.events.empty());
+}
+
 /// The drag becomes a drive: both modes flutter at once, and say in which direction.
 TEST(EqualPartsOfAScene, BothFluttersHaveADirection) {
   for (const auto& [from, to] : {std::pair{"-0.3", "0.5"}, std::pair{"0.5", "-0.3"}}) {

@@ -53,6 +53,10 @@ class StepPencil {
  private:
   std::shared_ptr<const Sample> sample(double t) const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
+  /// Brings the right pencil of a part into the reduced coordinates of the left point.
+  void turn_part(const TangentBasis& left, const TangentBasis& right, std::size_t part);
+  /// Gives a series that is not constant its `count_` coefficients.
+  void fill_up(MatrixSeries& series) const;
 
   const PathNode& left_;
   const ReducedPencil& left_pencil_;

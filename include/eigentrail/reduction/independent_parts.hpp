@@ -10,8 +10,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "eigentrail/core/constraint_factorization.hpp"
 #include "eigentrail/model/model.hpp"
 
 namespace eigentrail {
@@ -44,6 +46,9 @@ struct IndependentParts {
   Matrix pattern_M, pattern_C, pattern_K;
   std::vector<Range> ranges;
   bool is_diagonal = false;  ///< `right` and `left` only scale coordinates and equations
+  /// n x freedoms. Where the tangent space turns along the path: the orthonormal basis of it, at one place,
+  /// in which the coordinates are constant (`turned`). Empty where `right` itself is constant.
+  Matrix frame;
 
   std::size_t count() const { return ranges.size(); }
   /// Whether there is more than one part, copies included.
@@ -69,5 +74,28 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
 /// coordinates within the tangent space. T: its orthonormal basis, n x n'. Null where they do not fall apart.
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
                                                                const Matrix& T);
+
+/// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there.
+struct PlaceOnPath {
+  Matrix M, C, K;
+  ConstraintFactorization constraints;
+};
+
+/// The same for equations whose tangent space turns: the parts of T^T A T at all places, T = turned_frame at
+/// each of them. The frame is the tangent space of the place from which the others have turned least. Null
+/// where they do not fall apart in these coordinates, or where the tangent space turns by more than 80
+/// degrees.
+std::shared_ptr<const IndependentParts> find_turning_parts(const std::vector<PlaceOnPath>& places);
+
+/// The orthonormal basis of the tangent space that is closest to `frame`, n x n': the polar factor of P =
+/// (I - A+ A) frame. Orthogonal maps that leave the tangent spaces as they are commute with it: a symmetry of
+/// the structure is the same matrix in the coordinates of all frames, and so are its parts. Empty if the
+/// tangent space has turned by more than 80 degrees.
+std::optional<Matrix> turned_frame(const ConstraintFactorization& constraints, const Matrix& frame);
+
+/// Parts in the coordinates of another place: T' (T^T right) and so forth, T the frame and T' that of the
+/// place. The parts themselves where they have no frame; null if the tangent space has turned too far.
+std::shared_ptr<const IndependentParts> turned(const std::shared_ptr<const IndependentParts>& parts,
+                                               const ConstraintFactorization& constraints);
 
 }  // namespace eigentrail

@@ -84,17 +84,15 @@ EvaluationFault series_along_path(const PathProblem& problem, const PathPoint& p
 /// Whether the equations at a point have the parts of the problem. Those of a family, and of a scene at rest,
 /// have them everywhere. Where the equilibrium moves they are found from a few places, and another
 /// equilibrium may have less symmetry.
-bool falls_apart_here(const PathProblem& problem, const PathPoint& point) {
+bool falls_apart_here(const PathProblem& problem, const IndependentParts& parts, const PathPoint& point) {
   const Structure& structure = problem.structure;
   if (problem.rests || structure.fixed_equilibrium || structure.known_equilibrium) return true;
-  if (!problem.parts->falls_apart()) return true;
+  if (!parts.falls_apart()) return true;
   // The rounding of the equilibrium, a few units in the last place of the forces, times its condition. It has
   // to be far below the tolerance of a trace: a larger departure is followed as if it were zero.
   constexpr double rounding = 1e-11;
   const Linearization& here = point.equilibrium.linearization;
-  const auto departure = [&](const SystemSeries& B) {
-    return departure_from_parts(B[0].dense(), *problem.parts);
-  };
+  const auto departure = [&](const SystemSeries& B) { return departure_from_parts(B[0].dense(), parts); };
   return std::max({departure(here.M), departure(here.C), departure(here.K)}) <= rounding;
 }
 
@@ -108,12 +106,13 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
   }
   const StageTimer timer(counts.reduction_seconds);
   if (problem.parts) {
-    if (!falls_apart_here(problem, point)) {
+    auto parts = turned(problem.parts, point.equilibrium.kkt.constraints());
+    if (!parts || !falls_apart_here(problem, *parts, point)) {
       point.status = PointStatus::no_equilibrium;
       point.message = "the equations do not fall apart here as they do at other places of the range";
       return;
     }
-    point.basis = basis_of(problem.parts);
+    point.basis = basis_of(std::move(parts));
     point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
     return;
   }

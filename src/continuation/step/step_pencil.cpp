@@ -50,7 +50,12 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
   for (const Track& track : left.tracks) {
     count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
   }
-  if (left.basis.is_identity || left.basis.parts) return;  // both have the same basis
+  if (left.basis.is_identity) return;
+  if (left.basis.parts) {
+    if (left.basis.parts->frame.size() > 0)
+      turn_part(left.basis, right.basis, static_cast<std::size_t>(part));
+    return;  // without a frame both have the same coordinates
+  }
   // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
   // coordinates of the left point.
   const bool large = right.linearization.K[0].is_sparse();
@@ -59,8 +64,7 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
     overlap = transposed_product(MatrixSeries{left.basis.T[0]}, right.basis.T, right.basis.T.size());
   else
     for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
-  if (overlap.size() > 1)
-    overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
+  fill_up(overlap);
   const int order = static_cast<int>(count_) - 1;
   if (large) {
     const MatrixSeries G = inverse_by_blocks(overlap);
@@ -71,6 +75,36 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
   const TangentBasis change{inverse_series(overlap), false};
   right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
             project(change, right.pencil.K, order)};
+}
+
+void StepPencil::fill_up(MatrixSeries& series) const {
+  if (series.size() > 1)
+    series.resize(static_cast<std::size_t>(count_), Matrix::Zero(series[0].rows(), series[0].cols()));
+}
+
+/// The same for a part: its coordinates at the left point are those with the inverse of its own columns, and
+/// likewise for its equations.
+void StepPencil::turn_part(const TangentBasis& left, const TangentBasis& right, std::size_t part) {
+  const IndependentParts::Range& range = left.parts->ranges[part];
+  const auto columns = [&](const Matrix& all) { return all.middleCols(range.first, range.size); };
+  const auto change = [&](const Matrix& inverse, const MatrixSeries& there) {
+    MatrixSeries overlap;
+    for (const Matrix& coefficient : there) overlap.push_back(inverse * columns(coefficient));
+    fill_up(overlap);
+    return inverse_series(overlap);
+  };
+  const MatrixSeries G = change(left.parts->coordinates(part), right.T);
+  const MatrixSeries left_there = right.left.empty() ? MatrixSeries{right.parts->left} : right.left;
+  const Matrix equations = columns(left.parts->left).completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixSeries H = change(equations, left_there);
+  const auto turn = [&](MatrixSeries& B) {
+    const auto count = static_cast<std::size_t>(count_);
+    const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
+    B = transposed_product(H, BG, std::min(count, BG.size() + H.size() - 1));
+  };
+  turn(right_.M);
+  turn(right_.C);
+  turn(right_.K);
 }
 
 bool StepPencil::has_constant_leading_matrix() const {

@@ -45,9 +45,21 @@ bool leaves_its_path(const TraceOptions& options) {
   return std::any_of(options.branch.begin(), options.branch.end(), [](int choice) { return choice != 1; });
 }
 
-/// The parts of a scene whose equilibrium moves while its constraints stay the same: the coordinates are
-/// constant, and the matrices at the equilibria of the range take the place of coefficients. Two of them tell
-/// most scenes that do not fall apart.
+/// The parts at all places so far. Where the constraints stay the same, the coordinates are constant.
+std::shared_ptr<const IndependentParts> parts_at(const std::vector<PlaceOnPath>& places,
+                                                 bool constant_constraints) {
+  if (!constant_constraints) return find_turning_parts(places);
+  CoefficientMatrices samples;
+  for (const PlaceOnPath& place : places) {
+    samples.M.push_back(place.M);
+    samples.C.push_back(place.C);
+    samples.K.push_back(place.K);
+  }
+  return find_independent_parts(samples, places.front().constraints.null_basis());
+}
+
+/// The parts of a scene whose equilibrium moves: the matrices at the equilibria of the range take the place
+/// of coefficients. Two of them tell most scenes that do not fall apart.
 std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem& problem,
                                                               const TraceOptions& options, const Vector& x,
                                                               const Vector& lambda) {
@@ -57,22 +69,18 @@ std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem&
   if (options.to < options.from) std::reverse(places.begin(), places.end());
   RunCounts counts;
   EquilibriumGuess guess{x, lambda, true};
-  CoefficientMatrices samples;
+  std::vector<PlaceOnPath> samples;
   std::shared_ptr<const IndependentParts> parts;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const PathPoint point = reduce_at(problem, places[i], guess, Matrix(), counts);
-    if (point.status != PointStatus::computed) return nullptr;
+    if (point.status != PointStatus::computed || point.pencil.size() < 2) return nullptr;
     const Linearization& there = point.equilibrium.linearization;
     if (there.K[0].is_sparse()) return nullptr;
-    for (const auto& [from, to] :
-         {std::pair{&there.M, &samples.M}, std::pair{&there.C, &samples.C}, std::pair{&there.K, &samples.K}})
-      to->push_back((*from)[0].dense());
+    samples.push_back(
+        {there.M[0].dense(), there.C[0].dense(), there.K[0].dense(), point.equilibrium.kkt.constraints()});
     guess = {point.equilibrium.x, point.equilibrium.lambda, true};
     if (i != 1 && i + 1 != places.size()) continue;
-    const Matrix T =
-        point.basis.is_identity ? Matrix(Matrix::Identity(x.size(), x.size())) : point.basis.T[0];
-    if (T.cols() < 2) return nullptr;
-    parts = find_independent_parts(samples, T);
+    parts = parts_at(samples, problem.structure.constant_constraints);
     if (!parts) return nullptr;
   }
   return parts;
@@ -102,11 +110,10 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   Matrix A;
   for (int i = 0; i < n_places; ++i) {
     const auto there = linearize_at_rest(problem, place(options, i), x, lambda, counts);
-    if (!there && i == 0 && structure.constant_constraints)
+    if (there && there->A[0].is_sparse()) return {};
+    if (there && i == 0) A = there->A[0].dense();
+    if (!there || there->A[0].dense() != A)
       return {false, parts_of_moving_scene(problem, options, x, lambda)};
-    if (!there || there->A[0].is_sparse()) return {};
-    if (i == 0) A = there->A[0].dense();
-    if (there->A[0].dense() != A) return {};
     add(there->M, structure.constant_mass, samples.M);
     add(there->C, structure.constant_damping, samples.C);
     add(there->K, structure.constant_stiffness, samples.K);

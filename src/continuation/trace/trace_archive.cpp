@@ -352,6 +352,14 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   return "";
 }
 
+/// The parts of the problem in the coordinates of a node; null if they have none there.
+void restore_parts(const PathProblem& problem, PathNode& node) {
+  node.basis.parts = problem.parts;
+  const bool turns = problem.parts && problem.parts->frame.size() > 0;
+  if (turns && !node.linearization.A.empty() && node.linearization.A[0].cols() == problem.parts->frame.rows())
+    node.basis.parts = turned(problem.parts, ConstraintFactorization(node.linearization.A[0]));
+}
+
 }  // namespace
 
 TraceState restore_state(std::string_view bytes, PathProblem& problem, const TraceOptions& options) {
@@ -368,8 +376,8 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     problem.rests = scene.rests;
     problem.parts = scene.parts;
   }
-  for (PathNode* node : {&state.origin.node, &state.origin.previous}) node->basis.parts = problem.parts;
-  if (state.origin.tried) state.origin.tried->basis.parts = problem.parts;
+  for (PathNode* node : {&state.origin.node, &state.origin.previous}) restore_parts(problem, *node);
+  if (state.origin.tried) restore_parts(problem, *state.origin.tried);
   state.frame.range = {problem.traced, options.from, options.to};
   if (const std::string fault = misfit(state, problem, options); !fault.empty())
     throw InputError("the state of the trace does not fit the scene: " + fault);

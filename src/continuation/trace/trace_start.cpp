@@ -114,9 +114,10 @@ void Start::find_parts() {
   const Equilibrium& equilibrium = point_.equilibrium;
   const SceneOnRange scene = scene_on_range(problem_, options_, equilibrium.x, equilibrium.lambda);
   problem_.rests = scene.rests;
+  auto here = scene.parts ? turned(scene.parts, equilibrium.kkt.constraints()) : nullptr;
+  if (!here) return;
   problem_.parts = scene.parts;
-  if (!problem_.parts) return;
-  point_.basis = basis_of(problem_.parts);
+  point_.basis = basis_of(std::move(here));
   point_.pencil = reduce(equilibrium.linearization, point_.basis, 0);
 }
 
