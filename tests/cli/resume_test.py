@@ -48,6 +48,35 @@ kyy = 2e7
 cxx = 100
 """
 
+# Equal pendulums on rods that rise as their frame turns faster: one is traced, in coordinates that turn with it.
+PENDULUMS = """
+[parameters]
+omega = { value = 5, unit = "rad/s" }
+[trace]
+parameter = "omega"
+from = 5
+to = 9
+order = 1
+tolerance = 1e-9
+max_step = 0.004
+[frame]
+angular_velocity = [0, 0, "omega"]
+[gravity]
+acceleration = [0, 0, -9.81]
+""" + "".join(f"""
+[[point]]
+name = "mass {x}"
+mass = 2
+position = [{0.9 * x}, 0, -0.5]
+[[rod]]
+from = [{0.3 * x}, 0, 0]
+to = "mass {x}"
+length = 0.8
+[[drag]]
+point = "mass {x}"
+coefficient = 0.1
+""" for x in (1, -1))
+
 
 class Interrupted(ProgramTest):
     def setUp(self):
@@ -87,6 +116,17 @@ class Interrupted(ProgramTest):
         with h5py.File(self.folder / "out.h5") as file:
             self.assertIn("1st forward bending", [name.decode() for name in file["mode_name"][:]])
             self.assertTrue(np.isfinite(file["whirl"][-1]).all())
+
+    def test_equal_parts_go_on_in_coordinates_that_turn(self):
+        self.write("scene.toml", PENDULUMS)
+        self.assertIn("part 1 stands for 2 equal ones", self.run_well("explain", "scene.toml"))
+        run = self.start()
+        self.wait_for("out.h5")
+        time.sleep(0.1)
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(run.returncode, 130)
+        self.assert_resumes_to_whole()
 
     def test_signals_save_and_say_how_to_go_on(self):
         for number in (signal.SIGINT, signal.SIGTERM):
