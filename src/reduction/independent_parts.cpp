@@ -10,6 +10,7 @@
 #include "reduction/balance.hpp"
 #include "reduction/free_motions.hpp"
 #include "reduction/part_copies.hpp"
+#include "reduction/separated_basis.hpp"
 #include "reduction/splitting.hpp"
 
 namespace eigentrail {
@@ -120,7 +121,7 @@ std::vector<Matrix> common_frames(const std::vector<PlaceOnPath>& places) {
   std::vector<Matrix> best;
   double least_turn = std::numeric_limits<double>::infinity();
   for (const PlaceOnPath& at : places) {
-    const Matrix& frame = at.constraints.null_basis();
+    const Matrix frame = separated_basis(at.constraints);
     std::vector<Matrix> frames;
     double turn = 0.0;
     for (const PlaceOnPath& there : places) {

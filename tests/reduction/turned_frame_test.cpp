@@ -6,6 +6,7 @@
 
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "eigentrail/reduction/tangent_basis.hpp"
+#include "reduction/separated_basis.hpp"
 
 namespace eigentrail {
 namespace {
@@ -70,6 +71,35 @@ TEST(TurnedFrame, KeepsASymmetry) {
   }
   EXPECT_LT(kept, 1e-13);
   EXPECT_GT(rival, 1e-3);
+}
+
+TEST(SeparatedBasis, HasColumnsOfOnePartEach) {
+  const ConstraintFactorization constraints = constraints_of_three(0.3);
+  const Matrix T = separated_basis(constraints);
+  EXPECT_LT((T.transpose() * T - Matrix::Identity(6, 6)).norm(), 1e-14);
+  EXPECT_LT((constraints.allowed_part(T) - T).norm(), 1e-14);
+  const auto touches = [](const Matrix& basis, Eigen::Index column) {
+    int parts = 0;
+    for (Eigen::Index i = 0; i < 3; ++i) parts += basis.block(4 * i, column, 4, 1).norm() > 1e-12;
+    return parts;
+  };
+  int mixed = 0;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    EXPECT_EQ(touches(T, j), 1);
+    mixed += touches(constraints.null_basis(), j) > 1;
+  }
+  EXPECT_GT(mixed, 0) << "the basis of the factorization would do";
+}
+
+/// A held coordinate is in no column, and a free one is a column by itself.
+TEST(SeparatedBasis, LeavesOutWhatIsHeld) {
+  const ConstraintFactorization held{SystemMatrix(Matrix{{1.0, 0.0, 0.0}})};
+  const Matrix T = separated_basis(held);
+  ASSERT_EQ(T.cols(), 2);
+  EXPECT_EQ(T.row(0).norm(), 0.0);
+  EXPECT_LT((T.bottomRows(2).cwiseAbs() - Matrix::Identity(2, 2)).norm(), 1e-15);
+  const ConstraintFactorization none{SystemMatrix(Matrix(0, 3))};
+  EXPECT_LT((separated_basis(none).cwiseAbs() - Matrix::Identity(3, 3)).norm(), 1e-15);
 }
 
 /// Stiffness of the three parts by p, equal but for the factor of the last.

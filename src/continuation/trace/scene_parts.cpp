@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "eigentrail/continuation/path_point.hpp"
+#include "reduction/separated_basis.hpp"
 
 namespace eigentrail {
 namespace {
@@ -55,7 +56,7 @@ std::shared_ptr<const IndependentParts> parts_at(const std::vector<PlaceOnPath>&
     samples.C.push_back(place.C);
     samples.K.push_back(place.K);
   }
-  return find_independent_parts(samples, places.front().constraints.null_basis());
+  return find_independent_parts(samples, separated_basis(places.front().constraints));
 }
 
 /// The parts of a scene whose equilibrium moves: the matrices at the equilibria of the range take the place
@@ -121,7 +122,7 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   const ConstraintFactorization constraints{SystemMatrix(A)};
   const Eigen::Index freedoms = model.n_coordinates() - constraints.rank();
   if (freedoms < 2 || freedoms > most_freedoms) return {true, nullptr};
-  return {true, find_independent_parts(samples, constraints.null_basis())};
+  return {true, find_independent_parts(samples, separated_basis(constraints))};
 }
 
 }  // namespace eigentrail
