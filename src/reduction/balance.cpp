@@ -20,14 +20,15 @@ Matrix sum_of_magnitudes(const std::vector<Matrix>& matrices, Eigen::Index n) {
 
 /// The sum |M| w^2 + |C| w + |K| of magnitudes, at the frequency w at which the first and the last have the
 /// same norm; without M, the last two. No term then counts for more because of the unit of time. Freedoms
-/// that no force holds have no frequency: their mass does not count, or else scaling it up would lower w
-/// further and further.
+/// that no force holds, or that have no mass, have no frequency: their mass or stiffness does not count, or
+/// else scaling it would change w further and further.
 Matrix at_typical_frequency(const Matrix& M, const Matrix& C, const Matrix& K) {
   const Vector held = (K.rowwise().norm().array() > 0.0).cast<double>();
+  const Vector heavy = (M.rowwise().norm().array() > 0.0).cast<double>();
   const double m = (held.asDiagonal() * M).norm();
-  const double c = C.norm();
-  const double k = K.norm();
-  const double w = m > 0.0 && k > 0.0 ? std::sqrt(k / m) : c > 0.0 && k > 0.0 ? k / c : 1.0;
+  const double k = (heavy.asDiagonal() * K).norm();
+  const double of_damped = C.norm() > 0.0 && K.norm() > 0.0 ? K.norm() / C.norm() : 1.0;
+  const double w = m > 0.0 && k > 0.0 ? std::sqrt(k / m) : of_damped;
   return M * (w * w) + C * w + K;
 }
 
