@@ -19,6 +19,7 @@
 #include "continuation/tracks/mode_states.hpp"
 #include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
+#include "continuation/tracks/towards_infinity.hpp"
 #include "scene/narrow_places.hpp"
 
 namespace eigentrail {
@@ -52,10 +53,9 @@ constexpr double uncertified_error = 30.0;
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
-/// Steps below this share of the range are short where an eigenvalue is close to infinity. It is that from a
-/// distance of about 1e-6 of the range on if it runs there like a root of the parameter; where it passes
-/// infinity smoothly, steps of a hundredth are usual.
-constexpr double short_at_infinity = 1e-5;
+/// A step towards a place of infinity covers this share of the way. A larger one lets the eigenvalue that
+/// runs there grow more on the step, and its series converge less; a smaller one costs points.
+constexpr double share_of_way_to_infinity = 0.9;
 /// Points in a row on which the position grows as towards a pole, until the trace ends. Fewer might be met
 /// beside folds.
 constexpr int enough_towards_pole = 10;
@@ -70,28 +70,6 @@ constexpr std::size_t most_notes = 20;
 void number_modes(TraceState& state, const PathNode& node) {
   number_copies(node, state.numbers, state.copies);
   state.result.n_columns = state.numbers.count;
-}
-
-/// Ends a track that runs to infinity like a root of the parameter, as where a massless freedom loses its
-/// stiffness: short steps are rejected because of it, though it is close to infinity. One that passes
-/// infinity has a smooth reciprocal, and long steps. `place`: of the point, for the note.
-bool end_at_infinity(const PathProblem& problem, const std::string& place, const Verdict& verdict, double h,
-                     TraceState& state) {
-  PathNode& node = state.origin.node;
-  if (verdict.track < 0 || !(std::abs(h) < short_at_infinity * state.frame.range.length())) return false;
-  const auto index = static_cast<std::size_t>(verdict.track);
-  const auto is_close = [&](const Track& track) { return is_close_to_infinity(problem, track); };
-  if (!is_close(node.tracks[index])) return false;
-  if (std::all_of(node.tracks.begin(), node.tracks.end(), is_close)) return false;  // nothing would be left
-  const std::vector<int> modes = node.tracks[index].modes;
-  std::vector<EndedTrack> not_looked_for;
-  const std::string who = end_track(problem, node, index, not_looked_for);
-  if (!who.empty() && state.result.notes.size() < most_notes)
-    state.result.notes.push_back(who + equal_modes_text(state.copies, modes) + " ends at " + place +
-                                 ": it runs to infinity");
-  state.origin.tried.reset();
-  state.control.restart(state.steps.longest_step);
-  return true;
 }
 
 void count(const Verdict& verdict, Rejections& rejections) {
@@ -265,8 +243,10 @@ void TraceLoop::follow() {
 /// special point (landing), and commits it. If the step is rejected, applies a remedy or shortens the next
 /// attempt. Returns whether the trace goes on.
 bool TraceLoop::advance() {
-  const double ahead = std::min(remaining(state_.frame, state_.origin.node),
-                                distance_to_next(narrow_places_, state_.frame, state_.origin.node));
+  const auto to_infinity = way_to_infinity();
+  if (!to_infinity) return false;
+  const double ahead = std::min({remaining(state_.frame, state_.origin.node), *to_infinity,
+                                 distance_to_next(narrow_places_, state_.frame, state_.origin.node)});
   const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
   const double h = state_.frame.direction * length;
   AttemptedStep attempted = steps().attempt(h);
@@ -284,8 +264,6 @@ bool TraceLoop::advance() {
   };
   const Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
   if (!verdict.accepted()) {
-    if (end_at_infinity(problem_, place_text(options_, state_.origin.node.p), verdict, h, state_))
-      return true;
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
     if (!may_be_taken) return shorten(verdict, length);
@@ -310,6 +288,35 @@ bool TraceLoop::advance() {
   }
   state_.control.accept(length, verdict.error);
   return commit(std::move(*landed), anew.certified);
+}
+
+/// Ends the modes that run to infinity and have come close to it; the next step then leads to where they come
+/// back. Returns how far a step may go towards the places where others run to infinity, infinite without any;
+/// empty if the trace ends because no mode is left that is followed.
+std::optional<double> TraceLoop::way_to_infinity() {
+  PathNode& node = state_.origin.node;
+  const double direction = state_.frame.direction;
+  const std::string place = place_text(options_, node.p);
+  const EndedAtInfinity ended =
+      end_at_infinity(problem_, runs_to_infinity(node, direction), node, state_.result.counts);
+  for (const std::string& who : ended.who) {
+    if (state_.result.notes.size() < most_notes)
+      state_.result.notes.push_back(who + equal_modes_text(state_.copies, ended.modes) + " ends at " + place +
+                                    ": it runs to infinity");
+  }
+  if (ended.behind > 0.0) {
+    state_.origin.tried.reset();
+    state_.control.restart(ended.behind);
+    if (node.tracks.empty() && !state_.settings.follows_all) {
+      stop(TraceStatus::step_too_small, "all modes that are followed run to infinity at " + place +
+                                            "; begin another trace behind it, or follow all modes");
+      return std::nullopt;
+    }
+  }
+  double way = INFINITY;
+  for (const RunToInfinity& run : runs_to_infinity(node, direction))
+    way = std::min(way, share_of_way_to_infinity * run.distance);
+  return way;
 }
 
 Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {

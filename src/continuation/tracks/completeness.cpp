@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "continuation/tracks/starting_tracks.hpp"
+#include "continuation/tracks/towards_infinity.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
@@ -231,10 +232,6 @@ std::vector<OnePair> end_conjugates(const PathProblem& problem, PathNode& node) 
   return pairs;
 }
 
-/// Missing eigenvalues are added if their magnitude is at most this share of that which counts as infinite.
-/// Larger ones come from infinity, where the mass was singular, and are added later.
-constexpr double arrived = 0.005;
-
 /// The missing modes, grouped into single modes and blocks.
 std::vector<StartingGroup> missing_groups(const PathProblem& problem, const PathNode& node,
                                           RunCounts& counts) {
@@ -244,7 +241,7 @@ std::vector<StartingGroup> missing_groups(const PathProblem& problem, const Path
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> missing = missing_modes(node, spectrum, problem.s_ref);
   std::erase_if(missing,
-                [&](const StartingMode& mode) { return std::abs(mode.s) > arrived * problem.s_max; });
+                [&](const StartingMode& mode) { return !has_arrived(problem, node, mode.s); });
   return starting_groups(pencil, missing, static_cast<int>(missing.size()), problem.s_ref);
 }
 

@@ -14,9 +14,6 @@ namespace {
 /// Newton's method; each look costs some factorizations.
 constexpr int most_looks = 10;
 
-/// Largest |1/s| of a track close to infinity, in those that count as zero.
-constexpr double close_to_infinity = 100.0;
-
 /// Name of the coordinate with the largest amplitude in a shape.
 const std::string& largest_motion(const Model& model, const ComplexVector& shape) {
   Eigen::Index most = 0;
@@ -62,11 +59,6 @@ std::string end_track(const PathProblem& problem, PathNode& node, std::size_t tr
   ended.back().track.pair.factors.reset();
   node.tracks.erase(place);
   return text;
-}
-
-bool is_close_to_infinity(const PathProblem& problem, const Track& track) {
-  return track.pair.chart == Chart::reciprocal &&
-         track.roots.cwiseAbs().maxCoeff() <= close_to_infinity * problem.reference(Chart::reciprocal);
 }
 
 std::vector<std::string> find_again(const PathProblem& problem, PathNode& node,

@@ -20,9 +20,6 @@ struct EndedTrack {
 std::string end_track(const PathProblem& problem, PathNode& node, std::size_t track,
                       std::vector<EndedTrack>& ended);
 
-/// Whether all eigenvalues of a track are at least a hundredth of what counts as infinite.
-bool is_close_to_infinity(const PathProblem& problem, const Track& track);
-
 /// Looks for ended tracks at a later point, by Newton's method from their last pairs. Those that converge to
 /// similar shapes, at eigenpairs that no other track has, are added to the point with their mode numbers.
 /// Returns a text for each. A track is looked for at the next few points only. Cost: a few LU for each.

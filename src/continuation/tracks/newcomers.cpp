@@ -6,16 +6,13 @@
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
+#include "continuation/tracks/towards_infinity.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// Eigenvalues above this share of the magnitude that counts as infinite come from infinity; they are taken
-/// when they have arrived.
-constexpr double arrived = 0.1;
 
 /// Gives numbers to the wanted modes of a track, and adds it to a point. Returns their number.
 int add(Track track, PathNode& node, ModeNumbers& numbers) {
@@ -56,7 +53,7 @@ std::vector<Track> newcomers(const PathProblem& problem, const ModeChoice& choic
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
   const auto wanted_end = std::stable_partition(others.begin(), others.end(), [&](const StartingMode& mode) {
-    return choice.wants(mode.s) && std::abs(mode.s) <= arrived * problem.s_max;
+    return choice.wants(mode.s) && has_arrived(problem, node, mode.s);
   });
   std::vector<Track> found;
   for (const StartingGroup& group :

@@ -504,6 +504,18 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
   return result;
 }
 
+std::optional<Track> without(const PathProblem& problem, const PathNode& node, const Track& track,
+                             const std::vector<int>& members, RunCounts& counts) {
+  std::vector<int> others;
+  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
+    if (std::find(members.begin(), members.end(), i) == members.end()) others.push_back(i);
+  }
+  if (!are_told_apart(track, {members, others})) return std::nullopt;
+  std::vector<Track> parts = parts_of(problem, node, track, {others}, counts);
+  if (parts.empty()) return std::nullopt;
+  return std::move(parts.front());
+}
+
 void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
           const PartingRules& rules, RunCounts& counts) {
   const StageTimer timer(counts.modes_seconds);

@@ -34,6 +34,11 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t track, const s
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
                               const std::vector<int>& members, RunCounts& counts);
 
+/// A block without some of its members; without its departure, if it has one. Empty if the others are too
+/// close to them or the corrector fails.
+std::optional<Track> without(const PathProblem& problem, const PathNode& node, const Track& track,
+                             const std::vector<int>& members, RunCounts& counts);
+
 /// When a block is separated.
 struct PartingRules {
   double reach = 3.0;     ///< in steps: meetings within this distance keep a block together

@@ -1,0 +1,112 @@
+#include "continuation/tracks/towards_infinity.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "continuation/tracks/ended_modes.hpp"
+#include "continuation/tracks/regrouping.hpp"
+#include "core/reciprocal_condition.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Reciprocal condition of M up to which an eigenvalue may be infinite: its |1/s| is about this share of that
+/// of a typical one, squared.
+constexpr double singular = 1e-9;
+/// The step that ends where an eigenvalue has come back is longer by this factor: its place of infinity is
+/// known from two terms of a series.
+constexpr double well_behind = 1.2;
+
+/// Series of the reciprocal of a root of a track; empty where it is not simple or zero.
+ComplexVector reciprocal_of(const Track& track, Complex root) {
+  if (root == 0.0) return {};
+  const ComplexVector own = track.size() == 1 ? ComplexVector(track.functions.row(0).transpose())
+                                              : root_series(track.functions, root);
+  if (own.size() < 3 || own[0] == 0.0) return {};
+  return track.pair.chart == Chart::reciprocal ? own : reciprocal_series(own);
+}
+
+/// Signed distance of the place where mu vanishes like a root; empty if it does not.
+std::optional<double> distance_of_infinity(const ComplexVector& mu, const InfinityThresholds& thresholds) {
+  if (mu.size() < 3 || mu[1] == 0.0) return std::nullopt;
+  const Complex bends = 2.0 * mu[0] * mu[2] / (mu[1] * mu[1]);  // mu mu'' / mu'^2
+  if (!(std::abs(bends + 1.0) <= thresholds.like_a_root)) return std::nullopt;
+  const Complex distance = -0.5 * mu[0] / mu[1];
+  if (!(std::abs(distance.imag()) <= thresholds.like_a_root * std::abs(distance.real()))) return std::nullopt;
+  return distance.real();
+}
+
+/// Whether all modes of a track are among the members; conjugates and guests do not count.
+bool are_all(const Track& track, const std::vector<int>& members) {
+  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
+    const bool is_member = std::find(members.begin(), members.end(), i) != members.end();
+    if (!is_member && track.modes[static_cast<std::size_t>(i)] >= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<RunToInfinity> runs_to_infinity(const PathNode& node, double direction,
+                                            const InfinityThresholds& thresholds) {
+  std::vector<RunToInfinity> runs;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& track = node.tracks[i];
+    for (int j = 0; j < static_cast<int>(track.size()); ++j) {
+      const ComplexVector mu = reciprocal_of(track, track.roots[j]);
+      const auto distance = distance_of_infinity(mu, thresholds);
+      if (distance && *distance * direction > 0.0)
+        runs.push_back({i, j, std::abs(*distance), 1.0 / std::abs(mu[0])});
+    }
+  }
+  return runs;
+}
+
+EndedAtInfinity end_at_infinity(const PathProblem& problem, const std::vector<RunToInfinity>& runs,
+                                PathNode& node, RunCounts& counts, const InfinityThresholds& thresholds) {
+  EndedAtInfinity ended;
+  for (std::size_t track = node.tracks.size();
+       track-- > 0;) {  // from the last on: those in front keep their places
+    std::vector<int> members;
+    double behind = 0.0;
+    for (const RunToInfinity& run : runs) {
+      if (run.track != track || !(run.magnitude >= thresholds.leaves * problem.s_max)) continue;
+      members.push_back(run.member);
+      // |s| falls like 1 / sqrt(distance) on the other side, too.
+      const double share = run.magnitude / (thresholds.arrived * problem.s_max);
+      behind = std::max(behind, run.distance * (1.0 + well_behind * share * share));
+    }
+    if (members.empty()) continue;
+    const bool whole = are_all(node.tracks[track], members);
+    std::optional<Track> others;
+    if (!whole) {
+      others = without(problem, node, node.tracks[track], members, counts);
+      if (!others) continue;
+    }
+    std::vector<int>& modes = node.tracks[track].modes;
+    for (int j = 0; j < static_cast<int>(modes.size()); ++j) {
+      const bool is_member = std::find(members.begin(), members.end(), j) != members.end();
+      if (!is_member) modes[static_cast<std::size_t>(j)] = Track::no_mode;
+    }
+    std::copy_if(modes.begin(), modes.end(), std::back_inserter(ended.modes),
+                 [](int mode) { return mode >= 0; });
+    std::vector<EndedTrack> not_looked_for;
+    const std::string who = end_track(problem, node, track, not_looked_for);
+    if (!who.empty()) ended.who.push_back(who);
+    if (others) node.tracks.push_back(std::move(*others));
+    ended.behind = std::max(ended.behind, behind);
+  }
+  return ended;
+}
+
+bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
+                 const InfinityThresholds& thresholds) {
+  if (std::abs(s) <= thresholds.arrived * problem.s_max) return true;
+  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(node.pencil.M[0])) > singular;
+}
+
+}  // namespace eigentrail
