@@ -21,5 +21,12 @@ TEST_P(RandomFamilyTrace, HasAllEventsOfTheReference) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFamilyTrace, testing::Range(1, 51),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
+/// Steps towards a collision of two modes, which were followed one by one, shorter than the distance at which
+/// places are the same; a second collision of the two is 7e-6 away.
+TEST(RandomFamilies, HaveCollisionsBesideWhichStepsAreShort) {
+  const CompletenessReport report = check_completeness(random_family(953));
+  EXPECT_TRUE(report.passed()) << report.problems();
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -242,8 +242,8 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
-        const double first =
-            have_just_met(track, strands[a].members, strands[b].members) ? behind_a_meeting : 0.0;
+        const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
+        const double first = has_just_met ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero);
         std::vector<double> found;
         for (const Complex t : roots.find()) {
@@ -253,6 +253,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         for (const double position : found) {
           meetings.push_back({strands[b], strands[a], position});
           meetings.back().doubt = doubt_of_root(left, right, i, length, position);
+          meetings.back().has_just_met = has_just_met;
         }
       }
     }

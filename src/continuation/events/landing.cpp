@@ -134,6 +134,7 @@ class MeetingLanding {
   RealSight look_from(double distance, const ExpectedMeeting& expected, bool trusting, StrandSampler& strands,
                       double& earlier, double& rounding);
   std::optional<Meeting> meeting_at_end(const ExpectedMeeting& expected) const;
+  bool is_left_end(const ExpectedMeeting& expected, double distance) const;
   bool attempt(double distance);
   void record(const ExpectedMeeting& expected, int looks);
   const Track& left_track(const ExpectedMeeting& expected) const {
@@ -167,12 +168,20 @@ std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& exp
   return meeting;
 }
 
+/// Whether a meeting at this distance is at the left end of the step, and known there. Steps towards a
+/// collision of two modes that were followed one by one are shorter than `at_point` themselves; nothing has
+/// met at their left end.
+bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distance) const {
+  const double nearest = settled * solver_.points().frame().coordinate_range();
+  return std::abs(distance) <= (expected.has_just_met ? at_point_ : nearest);
+}
+
 /// Ends the step at the predicted position, if the prediction is accurate enough. `nothing` if it is not, or
 /// if the point there does not have the meeting.
 MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& expected) {
   const double position = expected.position.real();
   if (expected.doubt > sure * at_point_ || left_track(expected).departure || position == step_.h ||
-      std::abs(position) <= at_point_)
+      is_left_end(expected, position))
     return Approach::nothing;
   if (!attempt(position)) return Approach::failed;
   if (meeting_at_end(expected)) return Approach::reached;
@@ -265,8 +274,7 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     }
     // The walk may have converged to a later meeting than the first.
     const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
-    // A meeting at the left end of the step is known already.
-    if (!goes_back) return std::abs(distance) > at_point_ ? Approach::reached : no_other();
+    if (!goes_back) return is_left_end(expected, distance) ? no_other() : Approach::reached;
     later = distance;
     distance += earlier;
   }
