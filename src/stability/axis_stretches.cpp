@@ -169,6 +169,15 @@ void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& 
   if (!stretch.to.on_axis) add(to.step, to.t);
 }
 
+/// Whether a mode that grows at a cut is infinite there: it is too large for anything else, or it is large
+/// and does not exist on the other side, where the trace has ended it or not yet begun it.
+bool is_at_infinity(const RecordedPath& path, const AxisCut& cut, const PathPosition& other_side,
+                    const Judging& judging) {
+  const double size = std::abs(cut.s) / judging.accuracy.reference;
+  const bool exists = std::isfinite(path.eigenvalues_at(other_side)[cut.modes.front()].real());
+  return size > infinite_size || (!exists && size > large_size);
+}
+
 /// The place between two samples, one growing and one not, at which the dense output changes from growing to
 /// not growing, by bisection.
 AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const AxisSample& second,
@@ -199,7 +208,7 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
   cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = std::abs(cut.s) > infinite_size * judging.accuracy.reference ? "infinity" : "sign change";
+  cut.cause = is_at_infinity(path, cut, position(outside), judging) ? "infinity" : "sign change";
   return cut;
 }
 

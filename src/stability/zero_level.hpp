@@ -14,6 +14,10 @@ namespace eigentrail {
 constexpr double vanishing_damping = 1e-9;
 /// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
 constexpr double infinite_size = 1e9;
+/// A mode that begins or ends and is larger than this multiple of the reference comes from infinity or runs
+/// there: typical eigenvalues are a thousand references, and modes that run to infinity end a hundred times
+/// above the largest one at the start.
+constexpr double large_size = 1e4;
 
 /// Magnitude up to which an eigenvalue of a block counts as zero, 1/s: it may be a double one. `s`: all
 /// eigenvalues, 1/s; those that are not finite do not count.

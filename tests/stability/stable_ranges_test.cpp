@@ -182,6 +182,26 @@ TEST(StableRanges, OfThePathReversedAreTheSame) {
                  {stable, 14.196322617088708071, 5, "flutter", "end"}});
 }
 
+/// A massless freedom with the stiffness p beside a damped oscillator: s^2 + 0.1 s + 1 - 0.09 / p. Where p
+/// falls the oscillator diverges at 0.09; its unstable eigenvalue runs to infinity at p = 0, and comes back
+/// as a damped pair.
+TEST(StableRanges, BeginWhereAnUnstableModeEndsAtInfinity) {
+  const std::string matrices =
+      "M = [[[1, 0], [0, 0]]]\nC = [[[0.1, 0], [0, 0]]]\nK = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]";
+  for (const bool falls : {true, false}) {
+    SCOPED_TRACE(falls ? "p falls" : "p rises");
+    const TracedRanges traced = traced_family(falls ? "from = 1\nto = -1" : "from = -1\nto = 1", matrices);
+    ASSERT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
+    ASSERT_EQ(traced.ranges.size(), 2U) << text(traced.ranges);
+    const StableRange& negative = traced.ranges[falls ? 1 : 0];
+    const StableRange& positive = traced.ranges[falls ? 0 : 1];
+    EXPECT_EQ((falls ? negative.from : negative.to).cause, "infinity");
+    EXPECT_NEAR((falls ? negative.from : negative.to).p, 0.0, 1e-3);
+    EXPECT_EQ((falls ? positive.to : positive.from).cause, "divergence");
+    EXPECT_NEAR((falls ? positive.to : positive.from).p, 0.09, 1e-9);
+  }
+}
+
 /// Without any event the dense output alone finds the boundary, to its own accuracy.
 TEST(StableRanges, AreFoundWithoutEventsToo) {
   const HardCase& c = hard_case("H11_internal_damping");
