@@ -1,44 +1,76 @@
 #include "projection/family_pencils.hpp"
 
+#include <algorithm>
+
+#include "core/products.hpp"
 #include "core/transposition.hpp"
 #include "model/affine_factor.hpp"
+#include "projection/row_block.hpp"
 
 namespace eigentrail {
 
 FamilyPencils::FamilyPencils(const SparseFamily& family)
     : family_(family),
-      M_(symmetries(family.pencil().M)),
-      C_(symmetries(family.pencil().C)),
-      K_(symmetries(family.pencil().K)) {}
+      M_(family.pencil().M, family.n_coordinates()),
+      C_(family.pencil().C, family.n_coordinates()),
+      K_(family.pencil().K, family.n_coordinates()) {}
 
-std::vector<FamilyPencils::Symmetry> FamilyPencils::symmetries(
-    const std::vector<AffineTerm<SparseMatrix>>& terms) {
-  std::vector<Symmetry> result;
+FamilyPencils::Terms::Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index n)
+    : terms(the_terms), sum(the_terms, n) {
   for (const AffineTerm<SparseMatrix>& term : terms)
-    result.push_back({equals_transpose(term.matrix, 1.0), equals_transpose(term.matrix, -1.0)});
-  return result;
+    symmetries.push_back({equals_transpose(term.matrix, 1.0), equals_transpose(term.matrix, -1.0)});
+}
+
+FamilyPencils::Sum FamilyPencils::sum_at(const Terms& terms, std::span<const Series<double, 0>> si) {
+  Symmetry symmetry;
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < terms.terms.size(); ++i) {
+    factors.push_back(factor_of(terms.terms[i], si)[0]);
+    if (factors.back() == 0.0) continue;
+    symmetry.symmetric = symmetry.symmetric && terms.symmetries[i].symmetric;
+    symmetry.skew = symmetry.skew && terms.symmetries[i].skew;
+  }
+  return {terms.sum.with(factors), symmetry};
 }
 
 SparsePencil FamilyPencils::at(const Vector& parameters) const {
-  const AffinePencil<SparseMatrix> at = family_.at(parameters);
   const auto si = si_series<double, 0>(family_.description().parameters, {parameters, {}, {}});
-  const auto sum = [&](const std::vector<AffineTerm<SparseMatrix>>& terms,
-                       const std::vector<Symmetry>& symmetries) {
-    Symmetry result;
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      if (factor_of(terms[i], std::span<const Series<double, 0>>(si))[0] == 0.0) continue;
-      result.symmetric = result.symmetric && symmetries[i].symmetric;
-      result.skew = result.skew && symmetries[i].skew;
-    }
-    return result;
-  };
-  const Symmetry M = sum(family_.pencil().M, M_), C = sum(family_.pencil().C, C_),
-                 K = sum(family_.pencil().K, K_);
-  SparsePencil pencil{at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
-  const bool conservative = M.symmetric && K.symmetric;
-  pencil.symmetric = conservative && C.symmetric;
-  pencil.one_sided = pencil.symmetric || (conservative && C.skew);
+  Sum M = sum_at(M_, si), C = sum_at(C_, si), K = sum_at(K_, si);
+  SparsePencil pencil{std::move(M.matrix), std::move(C.matrix), std::move(K.matrix)};
+  const bool conservative = M.symmetry.symmetric && K.symmetry.symmetric;
+  pencil.symmetric = conservative && C.symmetry.symmetric;
+  pencil.one_sided = pencil.symmetric || (conservative && C.symmetry.skew);
   return pencil;
+}
+
+Matrix projected(const SparseMatrix& A, const Matrix& basis) {
+  constexpr Eigen::Index few = 16;  // columns at a time, so that little memory is taken
+  Matrix result(basis.cols(), basis.cols());
+  for (Eigen::Index first = 0; first < basis.cols(); first += few) {
+    const Eigen::Index count = std::min(few, basis.cols() - first);
+    const RowBlock columns = basis.middleCols(first, count);
+    result.middleCols(first, count) = transposed_product(basis, Matrix(RowBlock(A * columns)));
+  }
+  return result;
+}
+
+std::vector<AffineTerm<Matrix>> FamilyPencils::Terms::projected(const Matrix& basis) const {
+  std::vector<AffineTerm<Matrix>> result;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    Matrix reduced = eigentrail::projected(terms[i].matrix, basis);
+    if (symmetries[i].symmetric || symmetries[i].skew) {
+      const double sign = symmetries[i].symmetric ? 1.0 : -1.0;
+      reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
+    }
+    result.emplace_back(terms[i].factor, std::move(reduced), terms[i].name);
+    result.back().table = terms[i].table;
+    result.back().scale = terms[i].scale;
+  }
+  return result;
+}
+
+AffinePencil<Matrix> FamilyPencils::projected(const Matrix& basis) const {
+  return {M_.projected(basis), C_.projected(basis), K_.projected(basis)};
 }
 
 }  // namespace eigentrail

@@ -1,13 +1,14 @@
-// The pencils of a sparse family at places, with their symmetry.
+// The pencils of a sparse family at places, with their symmetry, and its projection.
 #pragma once
 
 #include "projection/nearest_modes.hpp"
+#include "projection/sparse_sum.hpp"
 
 namespace eigentrail {
 
 class FamilyPencils {
  public:
-  /// Finds the symmetry of each matrix of the family, once.
+  /// Finds the symmetry of each matrix of the family, and the patterns of their sums, once.
   explicit FamilyPencils(const SparseFamily& family);
 
   const SparseFamily& family() const { return family_; }
@@ -16,14 +17,34 @@ class FamilyPencils {
   /// factor is not zero there; matrices whose skew parts cancel in the sum do not.
   SparsePencil at(const Vector& parameters) const;
 
+  /// The family on the space of the orthonormal columns of `basis`, n x k: basis^T A basis for each of its
+  /// matrices; symmetric ones stay so exactly.
+  AffinePencil<Matrix> projected(const Matrix& basis) const;
+
  private:
   struct Symmetry {
     bool symmetric = true, skew = true;
   };
-  static std::vector<Symmetry> symmetries(const std::vector<AffineTerm<SparseMatrix>>& terms);
+  /// The terms of M, C or K.
+  struct Terms {
+    const std::vector<AffineTerm<SparseMatrix>>& terms;
+    std::vector<Symmetry> symmetries;
+    SparseSum sum;
+
+    Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index n);
+    std::vector<AffineTerm<Matrix>> projected(const Matrix& basis) const;
+  };
+  struct Sum {
+    SparseMatrix matrix;
+    Symmetry symmetry;
+  };
+  static Sum sum_at(const Terms& terms, std::span<const Series<double, 0>> si);
 
   const SparseFamily& family_;
-  std::vector<Symmetry> M_, C_, K_;
+  Terms M_, C_, K_;
 };
+
+/// basis^T A basis, k x k, for an n x k basis.
+Matrix projected(const SparseMatrix& A, const Matrix& basis);
 
 }  // namespace eigentrail

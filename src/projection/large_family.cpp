@@ -1,3 +1,4 @@
+#include "core/products.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
 
@@ -20,17 +21,18 @@ class LargeFamily final : public LargeModel {
 
   std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
                                  double frequency, Projection& projection) const override {
-    const AffinePencil<Matrix> whole = project_onto(space.basis(), family_.pencil());
-    const Matrix principal = space.principal(energy(whole, middle, frequency), accuracy);
+    const SparsePencil there = pencils_.at(middle);
+    const Matrix energy = projected(there.K + frequency * frequency * there.M, space.basis());
+    const Matrix principal = space.principal(0.5 * (energy + energy.transpose()), accuracy);
     ModelDescription description = family_.description();
     projection.freedoms = family_.n_coordinates();
     projection.names = std::move(description.coordinate_names);
-    projection.basis = space.basis() * principal;
+    projection.basis = product(space.basis(), principal);
     description.coordinate_names.clear();
     for (Eigen::Index i = 0; i < principal.cols(); ++i)
       description.coordinate_names.push_back("x" + std::to_string(i + 1));
     description.coordinate_units.assign(static_cast<std::size_t>(principal.cols()), "1");
-    return std::make_unique<ProjectedFamily>(std::move(description), project_onto(principal, whole),
+    return std::make_unique<ProjectedFamily>(std::move(description), pencils_.projected(projection.basis),
                                              projection);
   }
 
@@ -46,16 +48,6 @@ class LargeFamily final : public LargeModel {
   }
 
  private:
-  /// Energy of motion at the middle of the range: K and M weighted by a frequency that was found.
-  Matrix energy(const AffinePencil<Matrix>& pencil, const Vector& middle, double frequency) const {
-    ModelDescription description = family_.description();
-    description.coordinate_names.assign(static_cast<std::size_t>(pencil.K.front().matrix.cols()), "");
-    const AffineFamily<Matrix> reduced(std::move(description), pencil);
-    const AffinePencil<Matrix> at = reduced.at(middle);
-    const Matrix sum = at.K.front().matrix + frequency * frequency * at.M.front().matrix;
-    return 0.5 * (sum + sum.transpose());
-  }
-
   const SparseFamily& family_;
   FamilyPencils pencils_;
 };

@@ -3,7 +3,7 @@
 
 #include "eigentrail/continuation/trace_result.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "projection/nearest_modes.hpp"
+#include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
 
 namespace eigentrail {
@@ -13,11 +13,6 @@ struct LargePlace {
   double p = 0.0;     ///< traced parameter
   Vector parameters;  ///< all of them, declared units
   Vector x, lambda;   ///< the equilibrium of a scene; empty for a family
-};
-
-/// The matrices of a projected model at a place, k x k.
-struct SmallPencil {
-  Matrix M, C, K;
 };
 
 class LargeModel {

@@ -90,9 +90,7 @@ class Inverse {
     return pencil.M.norm() == 0.0 ? Form::first_order : Form::quadratic;
   }
 
-  Eigen::Index rows() const {
-    return form_of(pencil_) == Form::quadratic ? 2 * pencil_.size() : pencil_.size();
-  }
+  Eigen::Index rows() const { return form_ == Form::quadratic ? 2 * pencil_.size() : pencil_.size(); }
   Eigen::Index cols() const { return rows(); }
 
   void perform_op(const double* in, double* out) const {
@@ -109,8 +107,9 @@ class Inverse {
         return;
       case Form::quadratic: {
         const Eigen::Map<const Vector> v(in + n, n);
-        const ComplexVector right = (scale_ * times(pencil_.M, v) + times(pencil_.C, x)).cast<Complex>() +
-                                    shift_ * times(pencil_.M, x);
+        ComplexVector right =
+            (times(pencil_.M, scale_ * v + shift_.real() * x) + times(pencil_.C, x)).cast<Complex>();
+        if (shift_.imag() != 0.0) right += Complex(0.0, shift_.imag()) * times(pencil_.M, x);
         const ComplexVector a = real_part_of_solution(right);
         result = a.real();
         Eigen::Map<Vector>(out + n, n) = (x.cast<Complex>() + shift_ * a).real() / scale_;

@@ -12,14 +12,19 @@ namespace {
 /// Eigenvalues of the projected pencil with a larger relative indicator stand for none of the large one.
 constexpr double closeness = 1e-3;
 
-/// Whether an eigenvalue of the projected pencil is close to one of the large pencil, as those of the kept
+/// Those eigenvalues of the projected pencil that are close to one of the large pencil, as those of the kept
 /// modes are.
-bool is_exact(const SmallPencil& small, const SparsePencil& large, const Matrix& basis, Complex s,
-              double reference) {
-  const ComplexVector right = left_vector(small.M.transpose(), small.C.transpose(), small.K.transpose(), s);
-  const ProjectedMode mode{s, (basis * right).normalized(),
-                           (basis * left_vector(small.M, small.C, small.K, s)).normalized()};
-  return eigenvalue_error(large, mode).distance < closeness * std::max(std::abs(s), reference);
+std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& large, const Matrix& basis,
+                                const std::vector<Complex>& eigenvalues, double reference) {
+  std::vector<ProjectedMode> modes;
+  for (const Complex s : eigenvalues) modes.push_back(lifted(mode_of(small, s), basis));
+  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, modes);
+  std::vector<Complex> exact;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Complex s = eigenvalues[i];
+    if (errors[i].distance < closeness * std::max(std::abs(s), reference)) exact.push_back(s);
+  }
+  return exact;
 }
 
 /// The spectrum of the projected pencil without the followed modes, and how far these reach from the centre.
@@ -32,7 +37,7 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, C
   Others others;
   for (const StartingMode& mode : compute_eigenvalues(small.M, small.C, small.K).modes)
     others.s.push_back(mode.s);
-  for (const ModeState& mode : place.modes) {
+  for (const ProjectedMode& mode : place.modes) {
     if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
     others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
     others.largest = std::max(others.largest, std::abs(mode.s));
@@ -56,7 +61,7 @@ std::vector<Complex> among_the_followed(const LargeModel& large, const Model& mo
   const SparsePencil pencil = large.pencil(place.at);
   const auto basis = large.basis(model, pencil);
   if (!basis) return {};
-  std::erase_if(others.s, [&](Complex s) { return !is_exact(small, pencil, *basis, s, reference); });
+  others.s = exact_ones(small, pencil, *basis, others.s, reference);
   std::sort(others.s.begin(), others.s.end(),
             [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
   return others.s;

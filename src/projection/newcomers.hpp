@@ -12,11 +12,11 @@ namespace eigentrail {
 /// Eigenvalues below this share of the largest one beside them are rigid-body motions: nobody asks for them.
 inline constexpr double rigid = 1e-6;
 
-/// A place on the path of a projected family, with its followed modes; shapes are in projected coordinates.
+/// A place on the path of a projected family, with its followed modes in projected coordinates.
 struct ProjectedPlace {
   LargePlace at;
   SmallPencil small;
-  std::vector<ModeState> modes;
+  std::vector<ProjectedMode> modes;
 };
 
 struct Newcomers {

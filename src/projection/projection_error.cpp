@@ -1,39 +1,59 @@
 #include "projection/projection_error.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/products.hpp"
+#include "eigentrail/core/complex_lu.hpp"
+#include "projection/row_block.hpp"
+
 namespace eigentrail {
 
-ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s) {
+ProjectedMode mode_of(const SmallPencil& small, Complex s) {
+  constexpr int solutions = 3;
   // A shift beside the eigenvalue keeps the solution finite; its distance is far below that to others.
   const Complex beside = s + 1e-10 * std::max(std::abs(s), 1e-300);
-  const ComplexMatrix P =
-      (beside * beside * M.cast<Complex>() + beside * C.cast<Complex>() + K.cast<Complex>());
-  const Eigen::PartialPivLU<ComplexMatrix> lu(P.transpose());
-  ComplexVector y = ComplexVector::LinSpaced(P.rows(), Complex(1.0, 0.5), Complex(2.0, -0.3));
-  for (int i = 0; i < 3; ++i) y = lu.solve(y).normalized();
-  return y;
+  const ComplexLu lu(ComplexMatrix(beside * beside * small.M + beside * small.C + small.K));
+  const ComplexVector start = ComplexVector::LinSpaced(lu.size(), Complex(1.0, 0.5), Complex(2.0, -0.3));
+  ProjectedMode mode{s, start, start};
+  for (int i = 0; i < solutions; ++i) {
+    lu.solve_in_place(mode.right);
+    mode.right.normalize();
+    lu.solve_adjoint_in_place(mode.left);  // its solutions are the conjugates of left vectors
+    mode.left.normalize();
+  }
+  mode.left = mode.left.conjugate().eval();
+  return mode;
 }
 
-void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode) {
+ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
   constexpr double elsewhere = 0.05;  // of |s|: far above the tolerance of the trace
-  constexpr int rounds = 3;           // each doubles the digits
-  if (!std::isfinite(std::abs(mode.s)) || mode.s == 0.0) return;
-  Complex s = mode.s;
-  ComplexVector right;
-  for (int i = 0; i < rounds; ++i) {
-    right = left_vector(M.transpose(), C.transpose(), K.transpose(), s);
-    const ComplexVector left = left_vector(M, C, K, s);
-    const Complex residual = left.transpose() * (s * s * (M * right) + s * (C * right) + K * right);
-    const Complex slope = left.transpose() * (2.0 * s * (M * right) + C * right);
-    s -= residual / slope;
-    if (!(std::abs(s - mode.s) < elsewhere * std::abs(mode.s))) return;
+  constexpr int rounds = 3;
+  constexpr double settled = 1e-6;  // change of |s|; convergence is cubic
+  if (!std::isfinite(std::abs(s)) || s == 0.0) return {s, {}, {}};
+  const auto& [M, C, K] = small;
+  ProjectedMode mode{s, {}, {}};
+  double change = INFINITY;
+  for (int i = 0; i < rounds && change > settled * std::abs(s); ++i) {
+    mode = mode_of(small, mode.s);
+    const ComplexVector inertia = M * mode.right, damping = C * mode.right;
+    const Complex residual = mode.left.transpose() * (mode.s * (mode.s * inertia + damping) + K * mode.right);
+    const Complex slope = mode.left.transpose() * (2.0 * mode.s * inertia + damping);
+    const Complex correction = residual / slope;
+    change = std::abs(correction);
+    mode.s -= correction;
+    if (!(std::abs(mode.s - s) < elsewhere * std::abs(s))) return {s, shape, mode_of(small, s).left};
   }
-  mode.s = s;
-  mode.shape = right;
+  return mode;
+}
+
+ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis) {
+  Matrix parts(basis.cols(), 4);
+  parts << mode.right.real(), mode.right.imag(), mode.left.real(), mode.left.imag();
+  const Matrix all = product(basis, parts);
+  const Complex i(0.0, 1.0);
+  return {mode.s, (all.col(0) + i * all.col(1)).normalized(), (all.col(2) + i * all.col(3)).normalized()};
 }
 
 double EigenvalueError::relative_to(double size) const {
@@ -53,13 +73,11 @@ class DualNorm {
     normal_.compute(S_ * SparseMatrix(S_.transpose()));
   }
 
-  double operator()(const ComplexVector& r) const {
-    Matrix parts(r.size(), 2);
-    parts << r.real(), r.imag();
-    parts = weights_.asDiagonal() * parts;
-    for (int pass = 0; pass < 2 && S_.rows() > 0; ++pass)
-      parts -= S_.transpose() * normal_.solve(Matrix(S_ * parts));
-    return parts.norm();
+  /// `r`: real and imaginary part of the force, n x 2.
+  double operator()(Matrix r) const {
+    r = weights_.asDiagonal() * r;
+    for (int pass = 0; pass < 2 && S_.rows() > 0; ++pass) r -= S_.transpose() * normal_.solve(Matrix(S_ * r));
+    return r.norm();
   }
 
  private:
@@ -68,27 +86,73 @@ class DualNorm {
   Eigen::SimplicialLDLT<SparseMatrix> normal_;
 };
 
-}  // namespace
+/// M, C and K times vectors, whose real parts are the first half of the columns, n x 2k.
+struct TermProducts {
+  RowBlock M, C, K;
 
-EigenvalueError eigenvalue_error(const SparsePencil& pencil, const ProjectedMode& mode) {
-  const double s = std::abs(mode.s);
-  const Vector scale = s * s * pencil.M.diagonal().cwiseAbs() + s * pencil.C.diagonal().cwiseAbs() +
-                       pencil.K.diagonal().cwiseAbs();
-  const DualNorm size(pencil.A, (scale.array() + 1e-12 * scale.maxCoeff()).matrix());
-  const double residual =
-      size(pencil.times(mode.s, mode.right).col(0)) * size(pencil.transposed_times(mode.s, mode.left).col(0));
-  const ComplexVector inertia = 2.0 * (pencil.M * mode.right);
-  const double slope = std::abs(mode.left.cwiseProduct(mode.s * inertia + pencil.C * mode.right).sum());
-  const double curvature = std::abs(mode.left.cwiseProduct(inertia).sum());
-  return {2.0 * residual / (slope + std::sqrt(slope * slope + 2.0 * curvature * residual)),
-          slope / curvature};
+  Eigen::Index count() const { return M.cols() / 2; }
+  ComplexVector of(const RowBlock& products, Eigen::Index j) const {
+    return products.col(j).cast<Complex>() + Complex(0.0, 1.0) * products.col(count() + j).cast<Complex>();
+  }
+  /// (M s^2 + C s + K) times vector j, real and imaginary part.
+  Matrix residual(Complex s, Eigen::Index j) const {
+    const Complex square = s * s;
+    const Eigen::Index i = count() + j;
+    Matrix parts(M.rows(), 2);
+    parts.col(0) = square.real() * M.col(j) - square.imag() * M.col(i) + s.real() * C.col(j) -
+                   s.imag() * C.col(i) + K.col(j);
+    parts.col(1) = square.real() * M.col(i) + square.imag() * M.col(j) + s.real() * C.col(i) +
+                   s.imag() * C.col(j) + K.col(i);
+    return parts;
+  }
+};
+
+RowBlock side_by_side(const std::vector<ProjectedMode>& modes, ComplexVector ProjectedMode::*vector) {
+  const auto k = static_cast<Eigen::Index>(modes.size());
+  RowBlock block((modes.front().*vector).size(), 2 * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    block.col(j) = (modes[static_cast<std::size_t>(j)].*vector).real();
+    block.col(k + j) = (modes[static_cast<std::size_t>(j)].*vector).imag();
+  }
+  return block;
 }
 
-double half_gap(const Matrix& M, const Matrix& C, const Matrix& K, const ModeState& mode) {
-  const ComplexVector left = left_vector(M, C, K, mode.s);
-  const ComplexVector inertia = 2.0 * (M * mode.shape);
-  const Complex slope = left.cwiseProduct(mode.s * inertia + C * mode.shape).sum();
-  return std::abs(slope) / std::abs(left.cwiseProduct(inertia).sum());
+}  // namespace
+
+std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
+                                               const std::vector<ProjectedMode>& modes) {
+  if (modes.empty()) return {};
+  const Vector M = pencil.M.diagonal().cwiseAbs(), C = pencil.C.diagonal().cwiseAbs(),
+               K = pencil.K.diagonal().cwiseAbs();
+  const RowBlock right = side_by_side(modes, &ProjectedMode::right);
+  const TermProducts products{pencil.M * right, pencil.C * right, pencil.K * right};
+  TermProducts transposed;
+  if (!pencil.symmetric) {
+    const RowBlock left = side_by_side(modes, &ProjectedMode::left);
+    transposed = {pencil.M.transpose() * left, pencil.C.transpose() * left, pencil.K.transpose() * left};
+  }
+  std::vector<EigenvalueError> errors;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto j = static_cast<Eigen::Index>(i);
+    const Complex s = modes[i].s;
+    const ComplexVector& y = pencil.symmetric ? modes[i].right : modes[i].left;
+    const Vector scale = std::norm(s) * M + std::abs(s) * C + K;
+    const DualNorm size(pencil.A, (scale.array() + 1e-12 * scale.maxCoeff()).matrix());
+    const double right_size = size(products.residual(s, j));
+    const double residual = right_size * (pencil.symmetric ? right_size : size(transposed.residual(s, j)));
+    const ComplexVector inertia = 2.0 * products.of(products.M, j);
+    const double slope = std::abs(y.cwiseProduct(s * inertia + products.of(products.C, j)).sum());
+    const double curvature = std::abs(y.cwiseProduct(inertia).sum());
+    errors.push_back({2.0 * residual / (slope + std::sqrt(slope * slope + 2.0 * curvature * residual)),
+                      slope / curvature});
+  }
+  return errors;
+}
+
+double half_gap(const SmallPencil& small, const ProjectedMode& mode) {
+  const ComplexVector inertia = 2.0 * (small.M * mode.right);
+  const Complex slope = mode.left.cwiseProduct(mode.s * inertia + small.C * mode.right).sum();
+  return std::abs(slope) / std::abs(mode.left.cwiseProduct(inertia).sum());
 }
 
 }  // namespace eigentrail

@@ -1,25 +1,34 @@
 // How far an eigenvalue of a projected family is from one of the large family.
 #pragma once
 
-#include "eigentrail/continuation/trace_result.hpp"
+#include <vector>
+
 #include "projection/nearest_modes.hpp"
 
 namespace eigentrail {
 
-/// An eigenvalue of the projected pencil with its vectors in the coordinates of the large pencil.
-struct ProjectedMode {
-  Complex s;
-  ComplexVector right;  ///< n, unit length
-  ComplexVector left;   ///< n, unit length: y^T P(s) = 0 on the space
+/// The matrices of a projected model at a place, k x k.
+struct SmallPencil {
+  Matrix M, C, K;
 };
 
-/// Left vector of the eigenvalue s of the small pencil (M s^2 + C s + K): unit length, y^T P(s) = 0. Two
-/// steps of inverse iteration.
-ComplexVector left_vector(const Matrix& M, const Matrix& C, const Matrix& K, Complex s);
+/// An eigenvalue of the projected pencil with unit vectors: (M s^2 + C s + K) right = 0, left^T (M s^2 + C s
+/// + K) = 0 on the space. They have k entries, or n in the coordinates of the large pencil.
+struct ProjectedMode {
+  Complex s;
+  ComplexVector right, left;
+};
 
-/// Corrects the eigenvalue and the shape of a mode of the small pencil, which a rough trace knows to few
-/// digits, by inverse iteration and two-sided Rayleigh quotients. Leaves it where these lead elsewhere.
-void refine(const Matrix& M, const Matrix& C, const Matrix& K, ModeState& mode);
+/// The mode of an eigenvalue s of the small pencil, by inverse iteration.
+ProjectedMode mode_of(const SmallPencil& small, Complex s);
+
+/// The mode of an eigenvalue that a rough trace knows to few digits, corrected by inverse iteration and
+/// two-sided Rayleigh quotients. Where these lead elsewhere s and the shape stay as they are; where s is not
+/// finite or zero there are no vectors.
+ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape);
+
+/// The mode with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
+ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis);
 
 /// How far an eigenvalue may be from one of the large pencil.
 struct EigenvalueError {
@@ -33,12 +42,14 @@ struct EigenvalueError {
   double relative_to(double size) const;
 };
 
-/// An indicator of |s - s_large|, the root of |P(s) z| |y^T P(s)| = |y^T P'(s) z| d + |y^T P'' z| d^2 / 2
-/// with both residuals measured by the diagonal of the pencil's terms. It is of the order of the error in its
-/// dependence on the vectors; its factor is found where exact eigenvalues are known.
-EigenvalueError eigenvalue_error(const SparsePencil& pencil, const ProjectedMode& mode);
+/// An indicator of |s - s_large| for each of the modes, with vectors of n entries: the root of |P(s) z| |y^T
+/// P(s)| = |y^T P'(s) z| d + |y^T P'' z| d^2 / 2 with both residuals measured by the diagonal of the pencil's
+/// terms. It is of the order of the error in its dependence on the vectors; its factor is found where exact
+/// eigenvalues are known.
+std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
+                                               const std::vector<ProjectedMode>& modes);
 
-/// The half gap of an eigenvalue of the small pencil, whose right vector is known.
-double half_gap(const Matrix& M, const Matrix& C, const Matrix& K, const ModeState& mode);
+/// The half gap of an eigenvalue of the small pencil.
+double half_gap(const SmallPencil& small, const ProjectedMode& mode);
 
 }  // namespace eigentrail

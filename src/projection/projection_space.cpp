@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/singular_vectors.hpp"
-#include "core/transposition.hpp"
 
 namespace eigentrail {
 namespace {
@@ -17,26 +16,6 @@ constexpr double negligible = 1e-10;
 /// Removes from the columns of B their components in the space of Q; twice, because one pass leaves rounding.
 void orthogonalize(const Matrix& Q, Matrix& B) {
   for (int pass = 0; pass < 2 && Q.cols() > 0; ++pass) B -= Q * (Q.transpose() * B);
-}
-
-template <class Storage>
-AffinePencil<Matrix> project_terms(const Matrix& basis, const AffinePencil<Storage>& pencil) {
-  const auto reduce = [&basis](const std::vector<AffineTerm<Storage>>& terms) {
-    std::vector<AffineTerm<Matrix>> result;
-    for (const AffineTerm<Storage>& term : terms) {
-      Matrix reduced = basis.transpose() * (term.matrix * basis);
-      for (const double sign : {1.0, -1.0}) {
-        if (!equals_transpose(term.matrix, sign)) continue;
-        reduced = (0.5 * (reduced + sign * reduced.transpose())).eval();
-        break;
-      }
-      result.emplace_back(term.factor, std::move(reduced), term.name);
-      result.back().table = term.table;
-      result.back().scale = term.scale;
-    }
-    return result;
-  };
-  return {reduce(pencil.M), reduce(pencil.C), reduce(pencil.K)};
 }
 
 }  // namespace
@@ -85,14 +64,6 @@ Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {
   const Matrix parts =
       solver.eigenvectors() * (weights.cwiseInverse().asDiagonal() * components.V.leftCols(rank));
   return Eigen::HouseholderQR<Matrix>(parts).householderQ() * Matrix::Identity(parts.rows(), rank);
-}
-
-AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<SparseMatrix>& pencil) {
-  return project_terms(basis, pencil);
-}
-
-AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<Matrix>& pencil) {
-  return project_terms(basis, pencil);
 }
 
 }  // namespace eigentrail

@@ -1,7 +1,7 @@
 // The space onto which a large family is projected: an orthonormal basis of the vectors of its modes.
 #pragma once
 
-#include "eigentrail/model/affine_family.hpp"
+#include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
@@ -23,11 +23,5 @@ class ProjectionSpace {
   Matrix basis_;
   Matrix vectors_;  ///< k x N: the vectors that were added, in this basis
 };
-
-/// The family on the space of the orthonormal columns of `basis`, n x k: basis^T A basis for each of its
-/// matrices; symmetric ones stay so exactly.
-AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<SparseMatrix>& pencil);
-/// The same for a family that is projected already.
-AffinePencil<Matrix> project_onto(const Matrix& basis, const AffinePencil<Matrix>& pencil);
 
 }  // namespace eigentrail

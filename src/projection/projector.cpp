@@ -210,10 +210,11 @@ class Projector {
       ProjectedPlace& place = places.emplace_back(
           ProjectedPlace{{point.node.p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)},
                          large_.small(model, point),
-                         point.modes});
-      for (ModeState& mode : place.modes) {
-        if (mode.shape.size() > 0) mode.shape = large_.coordinates(point, mode.shape);
-        refine(place.small.M, place.small.C, place.small.K, mode);
+                         {}});
+      for (const ModeState& mode : point.modes) {
+        const ComplexVector shape =
+            mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
+        place.modes.push_back(refined_mode(place.small, mode.s, shape));
       }
       return true;
     };
@@ -222,15 +223,15 @@ class Projector {
   }
 
   /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
-  static std::vector<ModeState> moving_modes(const ProjectedPlace& place) {
+  static std::vector<ProjectedMode> moving_modes(const ProjectedPlace& place) {
     double largest = 0.0;
-    std::vector<ModeState> modes;
-    for (const ModeState& mode : place.modes) {
+    std::vector<ProjectedMode> modes;
+    for (const ProjectedMode& mode : place.modes) {
       if (!std::isfinite(std::abs(mode.s))) continue;
       largest = std::max(largest, std::abs(mode.s));
       modes.push_back(mode);
     }
-    std::erase_if(modes, [&](const ModeState& mode) { return std::abs(mode.s) <= rigid * largest; });
+    std::erase_if(modes, [&](const ProjectedMode& mode) { return std::abs(mode.s) <= rigid * largest; });
     return modes;
   }
 
@@ -250,17 +251,12 @@ class Projector {
     const SparsePencil pencil = large_.pencil(place.at);
     const auto basis = large_.basis(model, pencil);
     if (!basis) return 0.0;
-    const auto& [M, C, K] = place.small;
+    std::vector<ProjectedMode> modes = moving_modes(place);
+    for (ProjectedMode& mode : modes) mode = lifted(mode, *basis);
+    const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
     double largest = 0.0;
-    for (const ModeState& mode : moving_modes(place)) {
-      ProjectedMode one{mode.s, (*basis * mode.shape).normalized(), {}};
-      if (!pencil.one_sided) {
-        one.left = (*basis * left_vector(M, C, K, mode.s)).normalized();
-      } else {
-        one.left = pencil.symmetric ? one.right : one.right.conjugate();
-      }
-      largest = std::max(largest, eigenvalue_error(pencil, one).relative_to(size(mode.s)));
-    }
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      largest = std::max(largest, errors[i].relative_to(size(modes[i].s)));
     return largest;
   }
 
@@ -269,10 +265,10 @@ class Projector {
   double error_at(const ProjectedPlace& place) {
     const SparsePencil pencil = large_.pencil(place.at);
     const Complex centre = usual_shift(trace_.modes).value();
-    const std::vector<ModeState> modes = moving_modes(place);
+    const std::vector<ProjectedMode> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ModeState& mode : modes) {
+    for (const ProjectedMode& mode : modes) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
@@ -283,10 +279,10 @@ class Projector {
     std::vector<Complex> known(exact.s.begin(), exact.s.end());
     for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.at.p)) known.push_back(s);
     double largest = 0.0;
-    for (const ModeState& mode : modes) {
+    for (const ProjectedMode& mode : modes) {
       EigenvalueError error{std::numeric_limits<double>::infinity()};
       for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
-      error.half_gap = half_gap(place.small.M, place.small.C, place.small.K, mode);
+      error.half_gap = half_gap(place.small, mode);
       largest = std::max(largest, error.relative_to(size(mode.s)));
     }
     return largest;
