@@ -29,8 +29,8 @@ ProjectedMode mode_of(const SmallPencil& small, Complex s) {
 
 ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
   constexpr double elsewhere = 0.05;  // of |s|: far above the tolerance of the trace
-  constexpr int rounds = 3;
-  constexpr double settled = 1e-6;  // change of |s|; convergence is cubic
+  constexpr int rounds = 3;           // each doubles the digits
+  constexpr double settled = 1e-8;    // of |s|: what is left is the square of the last correction
   if (!std::isfinite(std::abs(s)) || s == 0.0) return {s, {}, {}};
   const auto& [M, C, K] = small;
   ProjectedMode mode{s, {}, {}};
