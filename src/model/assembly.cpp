@@ -352,7 +352,7 @@ EvaluationFault Assembly<Real, Q>::condition(const TrimCondition& trim, Base& va
     const MovedTriples<Base> moved(load.motion, values_);
     value = Base(0.0);
     moved.for_each([&](int triple, const Vec3<Base>& w) { value -= w.dot(triple_of(force, triple)); });
-    value *= Real(load.motion.sign);
+    value *= Real(load.motion.factor);
   }
   value -= values_.values[static_cast<std::size_t>(trim.target.slot)];
   using std::isfinite;
@@ -394,8 +394,8 @@ EvaluationFault Assembly<Real, Q>::trim_rows(TrimDerivatives& result, Evaluation
         });
         of_x = -of_load.K[0].transposed_times(w);
         moved.add_gradient(load.motion, values_, -work.force.col(0), of_x);
-        of_x *= load.motion.sign;
-        result.lambda.row(i) = -load.motion.sign * (of_load.A[0] * w).transpose();
+        of_x *= load.motion.factor;
+        result.lambda.row(i) = -load.motion.factor * (of_load.A[0] * w).transpose();
       }
       result.x.row(i) = of_x.transpose();
     }

@@ -109,40 +109,46 @@ void settle_states(const Model& model, Eigen::Index n_states, const Vector& para
   }
 }
 
-Structure structure_of(const MultibodyData& data, int traced_parameter) {
+std::vector<int> moving_parameters(const ModelDescription& description, int traced_parameter) {
+  std::vector<int> moving = {traced_parameter};
+  for (const Trim& trim : description.trims) moving.push_back(trim.parameter);
+  return moving;
+}
+
+Structure structure_of(std::initializer_list<const MultibodyData*> parts, const std::vector<int>& moving) {
   Structure result;
   Enters changes;
   bool curved_constraints = false;
   bool turning_damping = false;
   bool turning_mass = false;
-  // Trimmed parameters follow the traced one.
-  std::vector<int> moving = {traced_parameter};
-  for (const TrimCondition& trim : data.trims) moving.push_back(trim.parameter);
-  TracedRoles roles(data.parameters, moving, changes);
-  data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
-    constexpr Dependence depends = Element::depends;
-    roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
-    constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
-    constexpr bool only_inertia = Element::contribution.inertia && !depends.position;
-    for (const Placed<Element>& placed : list) {
-      Element::fields(placed.element, roles);
-      roles.strength(placed.strength,
-                     {.mass = depends.acceleration, .damping = damping, .force = !only_inertia});
+  TracedRoles roles((*parts.begin())->parameters, moving, changes);
+  for (const MultibodyData* data : parts) {
+    data->elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+      constexpr Dependence depends = Element::depends;
+      roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
+      constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
+      constexpr bool only_inertia = Element::contribution.inertia && !depends.position;
+      for (const Placed<Element>& placed : list) {
+        Element::fields(placed.element, roles);
+        roles.strength(placed.strength,
+                       {.mass = depends.acceleration, .damping = damping, .force = !only_inertia});
+      }
+      if (list.empty()) return;
+      result.damped = result.damped || Element::contribution.dissipative;
+      result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
+      result.circulatory = result.circulatory || Element::contribution.circulatory;
+      turning_damping = turning_damping || depends.turning;
+      turning_mass = turning_mass || depends.turning_mass;
+    });
+    for (const Constraint& constraint : data->constraints) {
+      roles.constraint(constraint);
+      curved_constraints = curved_constraints || is_curved(constraint);
     }
-    if (list.empty()) return;
-    result.damped = result.damped || Element::contribution.dissipative;
-    result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
-    result.circulatory = result.circulatory || Element::contribution.circulatory;
-    turning_damping = turning_damping || depends.turning;
-    turning_mass = turning_mass || depends.turning_mass;
-  });
-  for (const Constraint& constraint : data.constraints) {
-    roles.constraint(constraint);
-    curved_constraints = curved_constraints || is_curved(constraint);
   }
   // K and curved constraints (A) change with the equilibrium, and so do some damping matrices and the mass of
   // the air.
-  result.fixed_equilibrium = !changes.force && !changes.constraint && data.trims.empty();
+  const bool trimmed = moving.size() > 1;
+  result.fixed_equilibrium = !changes.force && !changes.constraint && !trimmed;
   result.constant_mass = !changes.mass && (result.fixed_equilibrium || !turning_mass);
   result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);
   result.constant_stiffness = result.fixed_equilibrium;
@@ -151,7 +157,7 @@ Structure structure_of(const MultibodyData& data, int traced_parameter) {
 }
 
 Structure Multibody::structure(int traced_parameter) const {
-  return structure_of(data_, traced_parameter);
+  return structure_of({&data_}, moving_parameters(description(), traced_parameter));
 }
 
 EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
@@ -166,10 +172,10 @@ EvaluationFault Multibody::linearize(const Path& path, int order, Linearization&
                     [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
 }
 
-EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& result,
-                                            EvaluationCounts& counts) const {
-  const Eigen::Index k = n_trims(), m = n_constraints();
-  result.force.resize(n_coordinates(), k);
+EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
+                                          EvaluationCounts& counts) {
+  const Eigen::Index k = model.n_trims(), m = model.n_constraints();
+  result.force.resize(model.n_coordinates(), k);
   result.constraint.resize(m, k);
   result.trim.resize(k, k);
   for (Eigen::Index i = 0; i < k; ++i) {
@@ -177,11 +183,17 @@ EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& res
     along.lambda.col(0) = at.lambda.col(0);
     along.lambda(m + i, 1) = 1.0;
     SteadyResidual slope;
-    if (auto fault = residual(along, 1, slope, counts)) return fault;
+    if (auto fault = model.residual(along, 1, slope, counts)) return fault;
     result.force.col(i) = slope.force.col(1);
     result.constraint.col(i) = slope.constraint.col(1).head(m);
     result.trim.col(i) = slope.constraint.col(1).tail(k);
   }
+  return {};
+}
+
+EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& result,
+                                            EvaluationCounts& counts) const {
+  if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
   return Assembly<double, 0>(data_, at).trim_rows(result, counts);
 }
 

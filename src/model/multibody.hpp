@@ -7,8 +7,17 @@
 
 namespace eigentrail {
 
-/// Structure of the equations of these elements and constraints, as Model::structure.
-Structure structure_of(const MultibodyData& data, int traced_parameter);
+/// Structure of the equations of these elements and constraints together, as Model::structure, while the
+/// `moving` parameters change: the traced one and the unknowns of trims.
+Structure structure_of(std::initializer_list<const MultibodyData*> parts, const std::vector<int>& moving);
+
+/// The traced parameter, and the trimmed ones, which follow it.
+std::vector<int> moving_parameters(const ModelDescription& description, int traced_parameter);
+
+/// The derivatives of the steady equations and conditions with respect to the trimmed parameters: `force`,
+/// `constraint` and `trim` of `result`.
+EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
+                                          EvaluationCounts& counts);
 
 /// The expressions that are not constant, each once.
 std::vector<Expression> varying(const std::vector<Expression>& quantities);

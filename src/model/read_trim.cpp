@@ -25,7 +25,7 @@ struct QuantityKind {
   std::string_view name, arguments, unit;
 };
 constexpr std::array<QuantityKind, 5> quantity_kinds = {
-    {{"thrust", "inflow", "N"},
+    {{"thrust", "inflow, or strips on the blade of [rotor]", "N"},
      {"force", "strips or joint, axis", "N"},
      {"moment", "joint, axis, or torsional spring", "N m"},
      {"angle", "joint", "rad"},
@@ -117,7 +117,7 @@ class TrimReader {
     if (parts.arguments.size() != (has_axis ? 2u : 1u))
       table.fail("condition", parts.quantity + (has_axis ? ": expected a name and an axis, x, y or z"
                                                          : ": expected one name in the brackets"));
-    if (parts.quantity == "thrust") return thrust(table, name);
+    if (parts.quantity == "thrust") return draft_.rotor ? thrust_of_blades(table, name) : thrust(table, name);
     if (parts.quantity == "angle") return angle(table, name);
     if (spring) return spring_moment(name);
     const Axis axis = read_axis(table, parts.arguments[1]);
@@ -157,8 +157,43 @@ class TrimReader {
                      (names.empty() ? "; force(strips, axis) needs none" : "; " + suggestion(name, names)));
     take<Inflow>(name, load);
     load.motion.axis = fixed_axis({0});
-    load.motion.sign = -1.0;
+    load.motion.factor = -1.0;
     return load;
+  }
+
+  /// The force of the air on all blades of a [rotor] along its axis. Across it their forces cancel.
+  TrimLoad thrust_of_blades(TableReader& table, const std::string& name) {
+    TrimLoad load;
+    if (!take_strips(name, load)) fail_unknown(table, name, Quantities::strips);
+    if (!on_blade(load))
+      table.fail("condition", "thrust: the strips '" + name +
+                                  "' are not on the blade of [rotor]; expected force(" + name +
+                                  ", z), of the support");
+    move_all(load.motion);
+    load.motion.axis = fixed_axis({2});
+    load.motion.factor = draft_.rotor->blades;
+    return load;
+  }
+
+  /// Whether strips are on the blade of a [rotor].
+  bool on_blade(TrimLoad& load) const {
+    const auto moves_with_blade = [&](const auto& placed) {
+      return std::any_of(placed.arguments.begin(), placed.arguments.end(), [&](const Place& place) {
+        return std::any_of(place.terms.begin(), place.terms.end(),
+                           [&](const Term& term) { return !draft_.stands(term.triple); });
+      });
+    };
+    const auto& strips = list_of<Strip>(load.elements);
+    const auto& elements = list_of<BladeElement>(load.elements);
+    return std::any_of(strips.begin(), strips.end(), moves_with_blade) ||
+           std::any_of(elements.begin(), elements.end(), moves_with_blade);
+  }
+
+  /// A translation of everything.
+  void move_all(VirtualMotion& motion) const {
+    motion.places.resize(draft_.points.size());
+    std::iota(motion.places.begin(), motion.places.end(), 0);
+    for (const BodyDraft& body : draft_.bodies) motion.places.push_back(body.triple);
   }
 
   TrimAngle angle(TableReader& table, const std::string& name) {
@@ -187,7 +222,7 @@ class TrimReader {
     const HingeAngle& angle = list_of<TorsionalSpring>(load.elements).front().element.angle;
     load.motion.axis = angle.axis;
     load.motion.about = draft_.fixed_place({});
-    load.motion.sign = angle.to.moves() ? 1.0 : -1.0;
+    load.motion.factor = angle.to.moves() ? 1.0 : -1.0;
     for (const Term& term : (angle.to.moves() ? angle.to : angle.from).terms)
       load.motion.directions.push_back(term.triple);
     return load;
@@ -197,17 +232,15 @@ class TrimReader {
     TrimLoad load;
     load.motion.axis = fixed_axis(axis);
     if (!moment && take_strips(name, load)) {
-      const int n_points = static_cast<int>(draft_.points.size());
-      load.motion.places.resize(static_cast<std::size_t>(n_points));
-      std::iota(load.motion.places.begin(), load.motion.places.end(), 0);
-      for (const BodyDraft& body : draft_.bodies) load.motion.places.push_back(body.triple);
+      move_all(load.motion);
       return load;
     }
     for (const Constraint& constraint : draft_.data.constraints) {
       if (constraint.label == name && draft_.constraint_labels.contains(name))
         load.constraints.push_back(constraint);
     }
-    if (load.constraints.empty()) fail_unknown(table, name, moment);
+    if (load.constraints.empty())
+      fail_unknown(table, name, moment ? Quantities::moments : Quantities::forces);
     move_one_side(table, name, moment, load.motion);
     return load;
   }
@@ -221,7 +254,7 @@ class TrimReader {
       Carrier carrier;
       const Place at = draft_.read_place(joint, key, &carrier);
       if (carrier.is_frame()) {
-        motion.sign = -motion.sign;
+        motion.factor = -motion.factor;
         continue;
       }
       if (carrier.body < 0) {
@@ -250,9 +283,14 @@ class TrimReader {
     throw std::logic_error("a constraint without table: " + name);
   }
 
-  [[noreturn]] void fail_unknown(TableReader& table, const std::string& name, bool moment) {
-    std::vector<std::string> names(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
-    if (moment) {
+  /// What has a force, a moment, or a thrust on a rotor.
+  enum class Quantities { forces, moments, strips };
+
+  [[noreturn]] void fail_unknown(TableReader& table, const std::string& name, Quantities of) {
+    std::vector<std::string> names;
+    if (of != Quantities::strips)
+      names.assign(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
+    if (of == Quantities::moments) {
       for (const auto& spring : list_of<TorsionalSpring>(draft_.data.elements)) names.push_back(spring.label);
     } else {
       for (const std::string_view kind : {Strip::name, BladeElement::name}) {
@@ -263,8 +301,10 @@ class TrimReader {
                                       "' is left out; leave out the condition, too");
       }
     }
-    table.fail("condition", std::string("no ") + (moment ? "joint or torsional spring" : "joint or strips") +
-                                " is called '" + name + "'; " + suggestion(name, names));
+    const char* what = of == Quantities::moments  ? "no joint or torsional spring"
+                       : of == Quantities::forces ? "no joint or strips"
+                                                  : "no strips";
+    table.fail("condition", std::string(what) + " is called '" + name + "'; " + suggestion(name, names));
   }
 
   std::string name_of(const Table& of, std::string_view kind, std::size_t i) {
@@ -310,8 +350,6 @@ class TrimReader {
 void read_trims(Draft& draft, const std::vector<InflowDraft>& inflows) {
   const std::vector<const Table*> all = tables(draft.scene, "trim");
   if (all.empty()) return;
-  if (draft.rotor)
-    throw trim_error(draft.scene, "a scene with [rotor], whose blades are in multiblade coordinates");
   TrimReader reader(draft, inflows);
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[trim]] " + std::to_string(i + 1));

@@ -21,7 +21,7 @@ struct VirtualMotion {
   std::optional<Place> about;   ///< rotation about the axis through this place; absent: translation along it
   std::vector<int> places;      ///< triples that are positions
   std::vector<int> directions;  ///< triples that are directions; a translation leaves them alone
-  double sign = 1.0;            ///< of the quantity
+  double factor = 1.0;          ///< of the quantity: -1 for the reverse, N for N equal blades
 };
 
 /// Force or moment of these elements and constraints.

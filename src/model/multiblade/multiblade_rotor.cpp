@@ -43,11 +43,10 @@ class RotorAssembly {
   using Columns = typename BasicPath<Real>::Columns;
 
   RotorAssembly(const BladedRotorData& data, const SharesByHarmonic& shares, const BasicPath<Real>& path)
-      : data_(data), map_(data.map), shares_(shares), path_(path) {
-    std::vector<Series<Real, Q>> values(static_cast<std::size_t>(path.parameters.rows()));
-    for (Eigen::Index i = 0; i < path.parameters.rows(); ++i) {
-      for (int k = 0; k <= Q; ++k)
-        values[static_cast<std::size_t>(i)][k] = coefficient(path.parameters, i, k);
+      : data_(data), map_(data.map), shares_(shares), path_(path), parameters_(parameters_of(data, path)) {
+    std::vector<Series<Real, Q>> values(static_cast<std::size_t>(parameters_.rows()));
+    for (Eigen::Index i = 0; i < parameters_.rows(); ++i) {
+      for (int k = 0; k <= Q; ++k) values[static_cast<std::size_t>(i)][k] = parameters_(i, k);
     }
     data.blade.parameters.to_si(std::span<Series<Real, Q>>(values));
     speed_ = data.speed.evaluate(std::span<const Series<Real, Q>>(values));
@@ -76,7 +75,7 @@ class RotorAssembly {
   EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const {
     if (EvaluationFault fault = check_axis()) return fault;
     result.force = Columns::Zero(map_.n_coordinates, Q + 1);
-    result.constraint = Columns::Zero(map_.n_constraints, Q + 1);
+    result.constraint = Columns::Zero(path_.lambda.rows(), Q + 1);
     BasicSteadyResidual<Real> part;
     if (auto fault = Assembly<Real, Q>(data_.support, support_path()).residual(part, counts)) return fault;
     for (std::size_t i = 0; i < map_.support.size(); ++i) {
@@ -86,6 +85,7 @@ class RotorAssembly {
       if (map_.support_row[i] >= 0)
         result.constraint.row(map_.support_row[i]) = part.constraint.row(row_of(i));
     }
+    add_conditions(data_.trims_of_support, part.constraint, result.constraint);
     if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).residual(part, counts)) return fault;
     const Real n(map_.n_blades);
     for (std::size_t i = 0; i < map_.blade.size(); ++i) {
@@ -96,6 +96,7 @@ class RotorAssembly {
       if (map_.blade_row[i] >= 0)
         result.constraint.row(map_.blade_row[i]) = n * part.constraint.row(row_of(i));
     }
+    add_conditions(data_.trims_of_blade, part.constraint, result.constraint);
     return {};
   }
 
@@ -111,19 +112,77 @@ class RotorAssembly {
     return {};
   }
 
+  /// As Assembly::trim_rows.
+  EvaluationFault trim_rows(TrimDerivatives& result, EvaluationCounts& counts) const {
+    result.x = Matrix::Zero(n_trims(), map_.n_coordinates);
+    result.lambda = Matrix::Zero(n_trims(), map_.n_constraints);
+    TrimDerivatives part;
+    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).trim_rows(part, counts)) return fault;
+    for (std::size_t j = 0; j < data_.trims_of_support.size(); ++j) {
+      const Eigen::Index row = data_.trims_of_support[j];
+      for (std::size_t i = 0; i < map_.support.size(); ++i) {
+        if (map_.support[i] >= 0) result.x(row, map_.support[i]) = part.x(row_of(j), row_of(i));
+      }
+      for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+        if (map_.support_row[i] >= 0)
+          result.lambda(row, map_.support_row[i]) = part.lambda(row_of(j), row_of(i));
+      }
+    }
+    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).trim_rows(part, counts)) return fault;
+    for (std::size_t j = 0; j < data_.trims_of_blade.size(); ++j) {
+      const Eigen::Index row = data_.trims_of_blade[j];
+      for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+        for (const RotorShare& share : shares_[0][i])
+          result.x(row, share.coordinate) += share.weight * part.x(row_of(j), row_of(i));
+      }
+      for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+        if (map_.blade_row[i] >= 0) result.lambda(row, map_.blade_row[i]) = part.lambda(row_of(j), row_of(i));
+      }
+    }
+    return {};
+  }
+
  private:
   using Coefficients = typename BasicLinearization<Real>::Coefficients;
 
+  /// The parameters along the path, with the trimmed ones in their places.
+  static Columns parameters_of(const BladedRotorData& data, const BasicPath<Real>& path) {
+    Columns all = Columns::Zero(path.parameters.rows(), Q + 1);
+    for (int k = 0; k <= Q; ++k) {
+      for (Eigen::Index i = 0; i < all.rows(); ++i) all(i, k) = coefficient(path.parameters, i, k);
+      for (auto [part, rows] :
+           {std::pair(&data.blade, &data.trims_of_blade), std::pair(&data.support, &data.trims_of_support)}) {
+        for (std::size_t i = 0; i < rows->size(); ++i)
+          all(part->trims[i].parameter, k) = coefficient(path.lambda, data.map.n_constraints + (*rows)[i], k);
+      }
+    }
+    return all;
+  }
+
+  Eigen::Index n_trims() const { return path_.lambda.rows() - map_.n_constraints; }
+
+  /// Puts the conditions of a part, the last rows of its constraints, in their places among the rotor's.
+  void add_conditions(const std::vector<int>& trims, const Columns& part, Columns& constraint) const {
+    const Eigen::Index first = part.rows() - row_of(trims.size());
+    for (std::size_t i = 0; i < trims.size(); ++i)
+      constraint.row(map_.n_constraints + trims[i]) = part.row(first + row_of(i));
+  }
+
   static Eigen::Index row_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-  BasicPath<Real> empty_path() const {
-    const Eigen::Index n = static_cast<Eigen::Index>(map_.support.size());
-    const Eigen::Index m = static_cast<Eigen::Index>(map_.support_row.size());
-    return {path_.parameters, Columns::Zero(n, path_.x.cols()), Columns::Zero(m, path_.lambda.cols())};
+  /// The path of a part with these trims; coordinates and multipliers are zero.
+  BasicPath<Real> empty_path(const std::vector<int>& trims) const {
+    const Eigen::Index n = row_of(map_.support.size());
+    const Eigen::Index m = row_of(map_.support_row.size());
+    BasicPath<Real> part{parameters_, Columns::Zero(n, path_.x.cols()),
+                         Columns::Zero(m + row_of(trims.size()), path_.lambda.cols())};
+    for (std::size_t i = 0; i < trims.size(); ++i)
+      part.lambda.row(m + row_of(i)) = path_.lambda.row(map_.n_constraints + trims[i]);
+    return part;
   }
 
   BasicPath<Real> support_path() const {
-    BasicPath<Real> part = empty_path();
+    BasicPath<Real> part = empty_path(data_.trims_of_support);
     for (std::size_t i = 0; i < map_.support.size(); ++i) {
       if (map_.support[i] >= 0) part.x.row(row_of(i)) = path_.x.row(map_.support[i]);
     }
@@ -135,7 +194,7 @@ class RotorAssembly {
 
   /// One blade, and the hub as it sees it, in the steady state.
   BasicPath<Real> blade_path() const {
-    BasicPath<Real> part = empty_path();
+    BasicPath<Real> part = empty_path(data_.trims_of_blade);
     for (std::size_t i = 0; i < map_.blade.size(); ++i) {
       for (const RotorShare& share : shares_[0][i])
         part.x.row(row_of(i)) += Real(share.weight) * path_.x.row(share.coordinate);
@@ -216,6 +275,7 @@ class RotorAssembly {
   const MultibladeMap& map_;
   const SharesByHarmonic& shares_;
   const BasicPath<Real>& path_;
+  Columns parameters_;  ///< with trimmed parameters
   Series<Real, Q> speed_;
 };
 
@@ -240,21 +300,17 @@ Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
 }
 
 Structure MultibladeRotor::structure(int traced_parameter) const {
-  const Structure blade = structure_of(data_.blade, traced_parameter);
-  const Structure support = structure_of(data_.support, traced_parameter);
-  const bool same_speed = !data_.blade.parameters.depends_on(data_.speed, traced_parameter);
-  Structure result;
-  result.damped = blade.damped || support.damped;
+  const std::vector<int> moving = moving_parameters(description(), traced_parameter);
+  const Parameters& parameters = data_.blade.parameters;
+  const bool same_speed = std::none_of(moving.begin(), moving.end(), [&](int parameter) {
+    return parameters.depends_on(data_.speed, parameter);
+  });
+  Structure result = structure_of({&data_.blade, &data_.support}, moving);
   result.gyroscopic = true;
   // The damping of blades acts in the turning frame: Omega C (DG) is unsymmetric.
-  result.circulatory = blade.circulatory || blade.damped || support.circulatory;
-  result.constant_mass = blade.constant_mass && support.constant_mass;
-  result.constant_damping =
-      blade.constant_damping && support.constant_damping && blade.constant_mass && same_speed;
-  result.constant_stiffness = blade.constant_stiffness && support.constant_stiffness &&
-                              blade.constant_damping && blade.constant_mass && same_speed;
-  result.constant_constraints = blade.constant_constraints && support.constant_constraints;
-  result.fixed_equilibrium = blade.fixed_equilibrium && support.fixed_equilibrium;
+  result.circulatory = result.circulatory || structure_of({&data_.blade}, moving).damped;
+  result.constant_damping = result.constant_damping && result.constant_mass && same_speed;
+  result.constant_stiffness = result.constant_stiffness && result.constant_damping;
   return result;
 }
 
@@ -270,6 +326,12 @@ EvaluationFault MultibladeRotor::linearize(const Path& path, int order, Lineariz
   return with_order(order, [&]<int Q>() {
     return RotorAssembly<double, Q>(data_, shares_, path).linearize(result, counts);
   });
+}
+
+EvaluationFault MultibladeRotor::trim_derivatives(const Path& at, TrimDerivatives& result,
+                                                  EvaluationCounts& counts) const {
+  if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
+  return RotorAssembly<double, 0>(data_, shares_, at).trim_rows(result, counts);
 }
 
 std::vector<Expression> MultibladeRotor::expressions() const {

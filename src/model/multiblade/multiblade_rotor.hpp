@@ -10,8 +10,9 @@
 //   K_w = N sum_a w_a G_a^T (K G_a + Omega C (DG)_a + Omega^2 M (D^2 G)_a)
 //
 // and rows N w_a A G_a for every harmonic a, so that the multipliers are those of one blade. The support is
-// added. Nothing is averaged: the coefficients are constant for N >= 3 as long as the hub stays on the axis
-// of rotation, which is checked.
+// added. Conditions of a trim are evaluated on one blade or on the support, each over its own coordinates and
+// multipliers, which are the collective ones. Nothing is averaged: the coefficients are constant for N >= 3
+// as long as the hub stays on the axis of rotation, which is checked.
 #pragma once
 
 #include "model/assembly.hpp"
@@ -22,6 +23,8 @@ namespace eigentrail {
 struct BladedRotorData {
   /// Elements and constraints of one blade and of the support, both over the coordinates of the scene.
   MultibodyData blade, support;
+  /// For every condition of the blade and of the support: its index among those of the rotor.
+  std::vector<int> trims_of_blade, trims_of_support;
   MultibladeMap map;
   Expression speed;               ///< Omega, rad/s
   std::string hub;                ///< its name, for messages
@@ -41,6 +44,8 @@ class MultibladeRotor final : public Model {
                            EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
+  EvaluationFault trim_derivatives(const Path& at, TrimDerivatives& result,
+                                   EvaluationCounts& counts) const override;
   std::vector<Expression> expressions() const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;

@@ -101,6 +101,7 @@ class Parts {
       for (const Placed<Element>& placed : list) add(placed);
     });
     for (const Constraint& constraint : draft.data.constraints) add(constraint);
+    for (std::size_t i = 0; i < draft.data.trims.size(); ++i) add(draft.data.trims[i], static_cast<int>(i));
     if (!joined_)
       throw scene_error(draft.scene, draft.rotor->where,
                         "[rotor] hub: nothing joins the blade with '" +
@@ -109,7 +110,7 @@ class Parts {
 
   MultibodyData blade, support;
   std::vector<bool> state_of_blade, row_of_blade;
-  std::vector<int> states;  ///< of the blade, by effect
+  std::vector<int> trims_of_blade, trims_of_support;
 
  private:
   template <class Element>
@@ -141,6 +142,23 @@ class Parts {
     for (std::size_t i = 0; i < constraint.rows.size(); ++i)
       row_of_blade[static_cast<std::size_t>(constraint.first_row) + i] = touched.blade;
     (touched.blade ? blade : support).constraints.push_back(constraint);
+  }
+
+  void add(const TrimCondition& trim, int index) {
+    Touched touched(draft_);
+    if (const auto* place = std::get_if<TrimPlace>(&trim.quantity)) {
+      touched.place("", place->place);
+    } else if (const auto* angle = std::get_if<TrimAngle>(&trim.quantity)) {
+      touched.joint("", angle->angle, "");
+    } else {
+      const TrimLoad& load = std::get<TrimLoad>(trim.quantity);
+      load.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
+        for (const Placed<Element>& placed : list) Element::fields(placed.element, touched);
+      });
+      for (const Constraint& constraint : load.constraints) touched.constraint(constraint);
+    }
+    (touched.blade ? blade : support).trims.push_back(trim);
+    (touched.blade ? trims_of_blade : trims_of_support).push_back(index);
   }
 
   const Draft& draft_;
@@ -280,8 +298,14 @@ std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription descript
   description.masses = std::move(numbering.masses);
   description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
                                   names_of(description.masses, true)};
-  BladedRotorData data{
-      std::move(parts.blade), std::move(parts.support), std::move(numbering.map), speed, hub, draft.guess};
+  BladedRotorData data{std::move(parts.blade),
+                       std::move(parts.support),
+                       std::move(parts.trims_of_blade),
+                       std::move(parts.trims_of_support),
+                       std::move(numbering.map),
+                       speed,
+                       hub,
+                       draft.guess};
   for (const Effect& effect : description.effects) data.n_states += effect.states;
   for (SpinningAxis& spin : description.spins) {
     for (Eigen::Index* at : {&spin.origin, &spin.director})
