@@ -1,11 +1,15 @@
-"""Air resonance in hover: without air the same rotor in multiblade coordinates, and the trim in closed form."""
+"""Air resonance in hover: without air the same rotor in multiblade coordinates, the trim in closed form, and the same with a trim
+of multiblade coordinates on a fuselage."""
 
+import csv
+import io
 import re
 import unittest
 
 import h5py
 import numpy as np
 
+from program import SCENES, edited
 from rotor_test_case import RotorTest
 
 DENSITY, RADIUS, THRUST = 1.225, 5.0, 15000.0
@@ -57,6 +61,70 @@ class AirResonance(RotorTest):
         lag, body = 28.4, 13.0  # in the turning frame and in the frame that stands, about
         self.assertLess(abs(event[0] - event[1].imag - body), 1.0)
         self.assertLess(abs(event[1].imag - lag), 0.5)
+
+
+def turning(text):
+    """air_resonance.toml with the inflow and the trim of air_resonance_fuselage.toml, its loads those of one blade."""
+    parts = [part for part in tables(text) if not re.match(r"\[\[(inflow|trim)\]\]", part)]
+    text = "".join(parts).replace('inflow    = "disc"', 'wind = [0, 0, "-inflow"]\ndensity = 1.225')
+    text = edited(text, "[parameters]\n", '[parameters]\ninflow = { value = 8.0, unit = "m/s" }\n')
+    for unknown, target in (("pitch", "thrust / 4"), ("inflow", "2 * 1.225 [kg/m^3] * pi * radius^2 * inflow^2 / 4")):
+        text += f'\n[[trim]]\nunknown = "{unknown}"\ncondition = "force(air 1, z) = {target}"\n'
+    return text.replace("1.225 [kg/m^3]", "rho").replace("[parameters]\n", '[parameters]\nrho = { value = 1.225, unit = "kg/m^3" }\n')
+
+
+def without_torque(text):
+    """A moment about the axis, trimmed so that the pivot has none, whose two axes make it differ along and across them."""
+    text = text.replace("[parameters]\n", '[parameters]\ncounter = { value = 0.0, unit = "N m" }\n')
+    return text + ('\n[[moment]]\nbody = "fuselage"\nalong = [0, 0, 1]\nmagnitude = "counter"\n'
+                   '[[trim]]\nunknown = "counter"\ncondition = "moment(pivot, z) = 0"\n')
+
+
+class AirResonanceOnAFuselage(RotorTest):
+    scene = "air_resonance_fuselage"
+
+    def test_inflow_and_pitch_follow_the_weight(self):
+        file = self.trace_scene("--no-certify", tolerance=1e-4)
+        with h5py.File(file) as loci:
+            np.testing.assert_allclose(loci["inflow"][:], np.sqrt(THRUST / (2 * DENSITY * np.pi * RADIUS**2)), rtol=1e-10)
+            self.assertIn("thrust(air) = weight", loci["pitch"].attrs["long_name"])
+            self.assertTrue(np.all(np.diff(loci["pitch"][:]) < 0))
+
+    def test_with_a_body_alike_in_both_directions_it_is_the_rotor_seen_from_the_turning_frame(self):
+        alike = without_torque(self.changed(roll=1500.0, pitching=1500.0))
+        whole = without_torque(turning((SCENES / "air_resonance.toml").read_text(encoding="utf-8")))
+        for omega in (25.0, 41.0):
+            short = ("--from", repr(omega), "--to", repr(omega - 0.1), "--no-certify")
+            (standing,) = self.spectra(self.trace_text(alike, *short, tolerance=1e-8), [omega])
+            pitch = [self.trimmed("loci.h5", omega)]
+            (seen,) = self.spectra(self.trace_text(whole, *short, tolerance=1e-8), [omega])
+            pitch.append(self.trimmed("loci.h5", omega))
+            np.testing.assert_allclose(pitch[0], pitch[1], rtol=1e-9)
+            self.assertEqual(len(standing), len(seen))
+            every = np.concatenate([seen, seen.conj()])
+            for s in standing:
+                shifted = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
+                self.assertLess(shifted, 1e-7 * abs(s), s)
+
+    def trimmed(self, file, omega):
+        """Unknowns there."""
+        rows = csv.DictReader(io.StringIO(self.run_well("eval", file, "--csv", "--at", repr(omega))))
+        row = next(iter(rows))
+        return [float(row[name]) for name in ("pitch", "inflow", "counter")]
+
+    def test_limit_moves_with_the_weight_as_its_sensitivity_says(self):
+        limits = []
+        for weight in (14900.0, 15000.0, 15100.0):
+            file = self.trace_scene("--no-certify", "--from", "44", "--to", "46", "--set", f"weight={weight}", tolerance=1e-10)
+            ((limit, _),) = self.special_points(file, "flutter")
+            limits.append(limit)
+            if weight == 15000.0:
+                with h5py.File(file) as loci:
+                    row = [kind.decode().split(",")[0] for kind in loci["events"][:]].index("flutter")
+                    names = [name.decode() for name in loci["scene_parameter"][:]]
+                    moves = loci["event_shift"][row, names.index("weight")]
+        self.assertAlmostEqual(limits[1], 45.0908, delta=1e-3)
+        self.assertAlmostEqual((limits[2] - limits[0]) / 200.0, moves, delta=1e-3 * abs(moves))
 
 
 if __name__ == "__main__":
