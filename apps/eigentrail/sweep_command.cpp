@@ -47,6 +47,8 @@ Combinations read_combinations(const SweepArguments& arguments, const Scene& sce
                        suggestion(name, scene.parameters.names()));
     if (name == traced)
       throw InputError(label + ": '" + name + "' is the traced parameter; its values are those of the trace");
+    if (is_trimmed(scene, name))
+      throw InputError(label + ": '" + name + "' is the unknown of a [[trim]]; vary another parameter");
     const bool twice =
         std::any_of(varied.begin(), varied.end(), [&](const Varied& one) { return one.name == name; });
     if (twice) throw InputError(label + ": is there twice; give all values in one list");
