@@ -10,6 +10,7 @@
 #include <random>
 
 #include "accuracy/spectrum_distance.hpp"
+#include "core/positive_or_one.hpp"
 #include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
@@ -135,7 +136,13 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   const double p_chord = loci.p[step + 1] - p_begin;
   const double range = loci.highest() - loci.lowest();
   const double size = std::max(begin.squaredNorm(), 1e-300);
-  const PathPlane plane{chord / size, p_chord / (range * range)};
+  PathPlane plane{chord / size, p_chord / (range * range)};
+  const auto n_trims = static_cast<Eigen::Index>(loci.trimmed.size());
+  if (n_trims > 0) {
+    const Vector sizes = unknowns.rightCols(n_trims).cwiseAbs().colwise().maxCoeff().transpose();
+    const Vector change = (row(unknowns, node + 1) - row(unknowns, node)).tail(n_trims);
+    plane.u = change.cwiseQuotient(sizes.cwiseAbs2().unaryExpr(&positive_or_one));
+  }
   EvaluationCounts counts = problem.model.new_counts();
   EquilibriumGuess guess{begin, row(unknowns, node), false};
   double low = 0.0;

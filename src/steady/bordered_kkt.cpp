@@ -1,10 +1,16 @@
 #include "steady/bordered_kkt.hpp"
 
+#include <cmath>
+
 namespace eigentrail {
 namespace {
 
 /// Pivots below this share of the largest one belong to the kernel, in kernel_in_border.
 constexpr double rounding_pivot = 1e-12;
+
+/// Entries of conditions on multipliers below this share of the terms that they are sums of are rounding.
+/// Scaling of their rows would otherwise make them look like equations.
+constexpr double rounded_to_zero = 1e-14;
 
 Matrix with_column(const Matrix& matrix, const Vector& column) {
   Matrix result(column.size(), matrix.cols() + 1);
@@ -20,7 +26,7 @@ KktBorder KktBorder::of(const TrimDerivatives& trim) {
 }
 
 KktBorder KktBorder::and_one(const Vector& of_force, const Vector& of_constraint, const Vector& along,
-                             double of_unknown) const {
+                             const Vector& of_others, double of_unknown) const {
   const Eigen::Index k = unknown.rows();
   const Eigen::Index m = of_constraint.size() - k;
   KktBorder result;
@@ -31,6 +37,7 @@ KktBorder KktBorder::and_one(const Vector& of_force, const Vector& of_constraint
   result.unknown = Matrix::Zero(k + 1, k + 1);
   result.unknown.topLeftCorner(k, k) = unknown;
   result.unknown.topRightCorner(k, 1) = of_constraint.tail(k);
+  if (of_others.size() > 0) result.unknown.bottomLeftCorner(1, k) = of_others.transpose();
   result.unknown(k, k) = of_unknown;
   return result;
 }
@@ -45,6 +52,7 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
   // L dl, with dl eliminated, adds to the rows of dx and du.
   Matrix row = rows_of_x_;
   Matrix of_unknown = border_.unknown;
+  Vector reactions, terms;  // sizes of the rows of L (A^T)+, and of what is summed in rows of dx
   if (border_.lambda.size() > 0) {
     Matrix reaction(q, K_.rows());  // L (A^T)+
     for (Eigen::Index j = 0; j < K_.rows(); ++j)
@@ -52,6 +60,8 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
           border_.lambda * constraints_.transposed_pseudo_inverse_times(Vector::Unit(K_.rows(), j));
     row -= (reaction * K_).transpose();
     of_unknown -= reaction * border_.force;
+    reactions = reaction.rowwise().norm();
+    terms = rows_of_x_.colwise().norm().transpose() + reactions * K_.norm();
   }
   Matrix B(f + q, f + q);
   B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
@@ -59,6 +69,15 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
     B.block(0, f + i, f, 1) = Q2.transpose() * (border_.force.col(i) + K_ * follow_.col(i));
     B.block(f + i, 0, 1, f) = row.col(i).transpose() * Q2;
     for (Eigen::Index j = 0; j < q; ++j) B(f + i, f + j) = of_unknown(i, j) + row.col(i).dot(follow_.col(j));
+  }
+  for (Eigen::Index i = 0; i < terms.size(); ++i) {
+    const auto drop = [&](double& entry, double size) {
+      if (std::abs(entry) <= rounded_to_zero * size) entry = 0.0;
+    };
+    for (Eigen::Index j = 0; j < f; ++j) drop(B(f + i, j), terms[i]);
+    for (Eigen::Index j = 0; j < q; ++j)
+      drop(B(f + i, f + j), std::abs(border_.unknown(i, j)) + reactions[i] * border_.force.col(j).norm() +
+                                terms[i] * follow_.col(j).norm());
   }
   // Rows and columns of different units are scaled to unit norm.
   const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
@@ -92,6 +111,12 @@ void BorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vecto
   for (Eigen::Index i = 0; i < du.size(); ++i) change += du[i] * follow_.col(i);
   dx += change;
   dl = multipliers(r, dx, du);
+}
+
+int BorderedKkt::orientation() const {
+  int sign = static_cast<int>(lu_.permutationP().determinant() * lu_.permutationQ().determinant());
+  for (const double pivot : lu_.matrixLU().diagonal()) sign *= (pivot > 0.0) - (pivot < 0.0);
+  return sign;
 }
 
 Matrix BorderedKkt::kernel_in_border() const {

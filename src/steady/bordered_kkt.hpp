@@ -27,9 +27,10 @@ struct KktBorder {
   static KktBorder of(const TrimDerivatives& trim);
 
   /// The unknowns and equations of this border followed by one more unknown, with the columns (force,
-  /// constraint, trim), and one more equation along . dx + of_unknown du = h.
+  /// constraint, trim), and one more equation along . dx + of_others . du + of_unknown du' = h. An empty
+  /// `of_others` is zero.
   KktBorder and_one(const Vector& of_force, const Vector& of_constraint, const Vector& along,
-                    double of_unknown) const;
+                    const Vector& of_others, double of_unknown) const;
 };
 
 class BorderedKkt {
@@ -45,6 +46,9 @@ class BorderedKkt {
   /// Of the equations for y and du, with rows and columns of unit length. Near zero at a fold.
   /// The estimate of a singular matrix, whose zero pivots it leaves out, would say nothing.
   double reciprocal_condition() const { return lu_.isInvertible() ? lu_.rcond() : 0.0; }
+
+  /// Sign of the determinant, which no choice of Q2 changes; 0 if a pivot is zero.
+  int orientation() const;
 
   /// 2 x q, the components of du in the kernel of the scaled matrix, and those of the equations in that of
   /// its transpose, each the norm over the kernel. Zero if the matrix is regular.

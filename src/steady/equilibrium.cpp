@@ -328,6 +328,17 @@ std::string undetermined_trim(const Model& model, const KktFactorization& kkt) {
          "; state conditions that depend on the unknowns, and hold all other freedoms";
 }
 
+/// The same at a guess (x, lambda) from which no solution was found.
+std::string undetermined_trim(const Model& model, SteadyProblem& problem,
+                              const std::pair<Vector, Vector>& at) {
+  Equilibrium guess;
+  std::tie(guess.x, guess.lambda) = at;
+  SteadyResidual residual;
+  TrimDerivatives trim;
+  if (model.n_trims() == 0 || problem.evaluate(guess, residual) || problem.trim(trim)) return {};
+  return undetermined_trim(model, problem.factor(guess.linearization, trim));
+}
+
 Equilibrium not_finite(Equilibrium result, const EvaluationFault& fault) {
   result.status = SteadyStatus::not_finite;
   result.report.message = fault.message();
@@ -359,6 +370,7 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   if (const auto fault = problem.evaluate(result, residual)) return not_finite(std::move(result), fault);
   if (const auto fault = problem.trim(trim)) return not_finite(std::move(result), fault);
   const Scales scales = find_scales(result.x, result.lambda, result.linearization, residual, trim);
+  const auto first = std::pair(result.x, result.lambda);
   // Beside the solution of a large model; a small one takes no time, and its results do not change in the
   // last bit.
   const bool is_beside = !options.relax && result.linearization.K[0].is_sparse();
@@ -373,15 +385,17 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   // iterate.
   if (!polished) std::tie(result.x, result.lambda) = last;
   if (const auto fault = problem.evaluate(result.x, result.lambda, residual)) {
-    return not_finite(std::move(result), fault);
+    result.report.message = undetermined_trim(model, problem, first);
+    return result.report.message.empty() ? not_finite(std::move(result), fault) : result;
   }
   report_residual(model, residual, scales, result.report);
   // KINSOL may report stagnation although the iteration reached the rounding level. The residual and the last
   // correction decide.
   const bool converged = polished && result.report.residual < newton_rounding_floor;
-  const std::string loose = undetermined_trim(model, result.kkt);
+  std::string loose = undetermined_trim(model, result.kkt);
   result.status = converged && loose.empty() ? SteadyStatus::converged : SteadyStatus::not_converged;
   if (result.status == SteadyStatus::converged) return result;
+  if (loose.empty() && problem.reason()) loose = undetermined_trim(model, problem, first);
   result.report.message = !loose.empty()     ? loose
                           : problem.reason() ? problem.reason().message()
                                              : failure_message(kinsol, result.report);

@@ -52,6 +52,10 @@ Matrix KktFactorization::undetermined() const {
                                                  : bordered_->kernel_in_border();
 }
 
+int KktFactorization::orientation() const {
+  return bordered_ ? bordered_->orientation() : 0;
+}
+
 void KktFactorization::factor_tangent() {
   const Matrix& Q2 = constraints_.null_basis();
   if (Q2.cols() == 0) return;

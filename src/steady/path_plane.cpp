@@ -38,7 +38,7 @@ class PlaneSystem {
               const KktBorder& trim, const Vector& force, const Vector& constraint, const PathPlane& plane)
       : n_trims_(trim.unknown.rows()) {
     const SystemMatrix &K = linearization.K[0], &A = linearization.A[0];
-    const KktBorder border = trim.and_one(force, constraint, plane.x, plane.p);
+    const KktBorder border = trim.and_one(force, constraint, plane.x, plane.u, plane.p);
     if (K.is_sparse() && (constraints.is_sparse() || A.rows() == 0)) {
       system_.emplace<SparseBorderedKkt>(K.sparse(), A.sparse(), border);
     } else {
@@ -101,7 +101,6 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   result.x = x;
   result.lambda = lambda;
   result.report.message = "the correction across the path did not converge";
-  const double target = plane(x, p);
   const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   double last = INFINITY;
   SteadyResidual residual;
@@ -112,6 +111,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     result.status = SteadyStatus::not_finite;
     return result;
   }
+  const double target = plane(x, result.lambda, p);
   for (int i = 0; i < options.max_iterations; ++i) {
     parameters[traced] = p;
     const Path path{parameters, result.x, result.lambda};
@@ -125,8 +125,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     ++result.report.factorizations;
     const PlaneSystem system(result.linearization, result.kkt.constraints(), trim, force, constraint, plane);
     double dp = 0.0;
-    system.solve(-residual.force.col(0), -residual.constraint.col(0), target - plane(result.x, p), dx, dl,
-                 dp);
+    system.solve(-residual.force.col(0), -residual.constraint.col(0),
+                 target - plane(result.x, result.lambda, p), dx, dl, dp);
     result.x += dx;
     result.lambda += dl;
     p += dp;

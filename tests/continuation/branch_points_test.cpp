@@ -146,7 +146,8 @@ TEST(BridgeBranchPoint, FindsThePlaceOnTheTiltedPathThatTurnsBack) {
   OnPath at(hanging(length * std::sqrt(1.0 - cosine * cosine), -length * cosine, 20.0, 6.0), k);
   ASSERT_GT(at.node.path.x(0, 0), 0.1);
   at.take_plane();
-  const double h = at.frame.coordinate(Vector{{0.0, 0.0, -length}}, critical) - at.frame.coordinate(at.node);
+  const double h =
+      at.frame.coordinate(Vector{{0.0, 0.0, -length}}, Vector(), critical) - at.frame.coordinate(at.node);
   ASSERT_TRUE(at.bridge(1.7 * h));
   EXPECT_NEAR(at.frame.branch_point.p, critical, 1e-10);
   EXPECT_NEAR(at.frame.branch_point.coordinate - at.frame.coordinate(at.node), h, 1e-8);
@@ -211,7 +212,8 @@ TEST(BridgeStart, BeginsOnABranchPoint) {
   const auto start = bridge_start(at.points, at.frame, at.reduced);
   ASSERT_TRUE(start);
   EXPECT_EQ(start->status, PointStatus::computed);
-  EXPECT_TRUE(at.frame.on_branch_point(at.frame.coordinate(start->equilibrium.x, start->p)));
+  EXPECT_TRUE(at.frame.on_branch_point(
+      at.frame.coordinate(start->equilibrium.x, start->equilibrium.lambda, start->p)));
   EXPECT_LT(std::abs(start->pencil.K[0](0, 0)), 1e-9);
 }
 

@@ -113,7 +113,7 @@ TEST(BorderedKkt, RoutesAgreeWithSeveralUnknowns) {
   border.lambda.row(1) = wave(1, m, 0.5);
   Vector of_constraint(m + 2);
   of_constraint << system.constraint, 0.3, -0.7;
-  border = border.and_one(system.force, of_constraint, system.plane.x, system.plane.p);
+  border = border.and_one(system.force, of_constraint, system.plane.x, {}, system.plane.p);
   const Vector r = Vector::LinSpaced(n, -1.0, 2.0), g = Vector::LinSpaced(m, 1.0, -1.0);
   const Vector h = Vector::LinSpaced(3, 0.5, 1.0);
   Solution sparse, dense;

@@ -167,15 +167,15 @@ TEST(PathPlane, SeriesHaveTheirOrderOnASlantedPlane) {
   for (int order = 1; order <= 5; ++order) {
     on.p = p0;
     const Path path = on.differentiate(plane, start, order);
-    EXPECT_NEAR(plane(path.x.col(1), path.parameters(on.traced(), 1)), 1.0, tolerance)
+    EXPECT_NEAR(plane(path.x.col(1), path.lambda.col(1), path.parameters(on.traced(), 1)), 1.0, tolerance)
         << "the coordinate is distance";
     const auto miss = [&](double h) {
       const Vector x = evaluate_series(path.x, h);
       const Vector parameters = evaluate_series(path.parameters, h);
-      const double target = plane(start.x, p0) + h;
+      const double target = plane(start.x, start.lambda, p0) + h;
       // From a guess on the plane at that distance.
       Vector guess = x;
-      guess += plane.x * ((target - plane(x, parameters[on.traced()])) / plane.x.squaredNorm());
+      guess += plane.x * ((target - plane(x, Vector(), parameters[on.traced()])) / plane.x.squaredNorm());
       const Equilibrium ahead = on.solve(plane, guess, parameters[on.traced()]);
       if (ahead.status != SteadyStatus::converged) throw std::runtime_error(ahead.report.message);
       return (ahead.x - x).norm() + std::abs(on.p - parameters[on.traced()]);

@@ -376,6 +376,67 @@ TEST(Trim, PathTurnsBackWhereTheConditionHasAFold) {
   EXPECT_NEAR((both[1][0] * both[1][0]).real(), -square, 1e-8 * std::abs(square));
 }
 
+/// torque cos(lean) holds the pendulum at an angle while the torque falls: lean passes zero where the torque
+/// is least, and nothing else moves. In any unit of lean, and whatever its guess.
+TEST(Trim, PathTurnsBackWhereOnlyTheUnknownMoves) {
+  struct Case {
+    const char* lean;
+    const char* cosine;
+    double unit;
+  };
+  for (const Case& c : {Case{"{ value = 1.0, unit = \"rad\" }", "cos(lean)", 1.0},
+                        Case{"{ value = 60.0, unit = \"deg\" }", "cos(lean)", std::numbers::pi / 180.0},
+                        Case{"{ value = 1e-4, unit = \"rad\" }", "cos(1e4 * lean)", 1e4},
+                        Case{"{ value = 1e4, unit = \"rad\" }", "cos(1e-4 * lean)", 1e-4}}) {
+    const double least = holding_torque(0.3);
+    std::string scene =
+        pendulum(along("torque", 2.0 * least, 0.5 * least), trim("lean", "angle(hinge) = angle"));
+    const auto replace = [&scene](const std::string& what, const std::string& with) {
+      ASSERT_NE(scene.find(what), std::string::npos);
+      scene.replace(scene.find(what), what.size(), with);
+    };
+    replace("magnitude = \"torque\"", "magnitude = \"torque * " + std::string(c.cosine) + "\"");
+    replace("[gravity]", "lean = " + std::string(c.lean) + "\n[gravity]");
+    const Setting setting = make_setting(scene);
+    const RecordedTrace recorded = record_trace(setting);
+    EXPECT_EQ(recorded.result.status, TraceStatus::completed) << c.lean << ": " << recorded.result.message;
+    const auto& events = recorded.result.events;
+    const auto fold = std::find_if(events.begin(), events.end(),
+                                   [](const Event& event) { return event.kind == EventKind::fold; });
+    ASSERT_NE(fold, events.end()) << c.lean;
+    EXPECT_NEAR(fold->p, least, 1e-9 * least) << c.lean;
+    const PathNode& last = recorded.nodes.back();
+    EXPECT_EQ(last.p, recorded.nodes.front().p) << c.lean;
+    EXPECT_NEAR(last.path.lambda(setting.model->n_constraints(), 0) * c.unit, -std::numbers::pi / 3.0, 1e-8)
+        << c.lean;
+    EXPECT_EQ(first_resumed_difference(*setting.model, setting.options, 3), "") << c.lean;
+  }
+}
+
+/// lean (lean - offset) = 0: the path lean = 0 crosses lean = offset where offset is zero, in the unknown
+/// alone, at a regular stiffness.
+TEST(Trim, CrossingOfTrimmedPathsIsABranchPoint) {
+  std::string scene = pendulum(along("offset", -0.37, 0.6),
+                               trim("torque", "angle(hinge) = angle") +
+                                   trim("lean", "position(bob.tip, y) = reach * lean * (lean - offset)"));
+  scene.replace(scene.find("[gravity]"), 0, "lean = 0.0\noffset = -0.37\n");
+  const Setting setting = make_setting(scene);
+  const RecordedTrace recorded = record_trace(setting);
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  std::vector<double> places;
+  for (const Event& event : recorded.result.events) {
+    EXPECT_NE(event.kind, EventKind::fold);
+    if (event.kind == EventKind::branch_point) places.push_back(event.p);
+  }
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0], 0.0, 1e-9);
+  const auto& notes = recorded.result.notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("another trimmed path crosses at offset = ");
+  }));
+  EXPECT_NEAR(recorded.nodes.back().path.lambda(setting.model->n_constraints() + 1, 0), 0.0, 1e-9);
+}
+
 /// Where the stiffness with the torque held passes zero, the trimmed path goes straight on.
 TEST(Trim, DivergenceWithHeldControlsIsNoFold) {
   const Setting setting =

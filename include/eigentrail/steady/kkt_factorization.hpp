@@ -52,6 +52,9 @@ class KktFactorization {
   /// takes part in that, 2 x k; the columns of a regular system are zero. Empty without trim.
   Matrix undetermined() const;
 
+  /// With trimmed parameters: sign of the determinant of the system; 0 without any.
+  int orientation() const;
+
  private:
   void factor_tangent();
 

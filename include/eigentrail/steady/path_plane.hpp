@@ -2,11 +2,11 @@
 //
 // Near a fold, p cannot serve as the coordinate of the path. The point is then determined on a plane
 //
-//     c.x (x - x*) + c.p (p - p*) = distance
+//     c.x (x - x*) + c.u (u - u*) + c.p (p - p*) = distance
 //
-// that intersects the path. The distance is the coordinate sigma along the path: x, lambda and p are power
-// series in it. The steady equations gain one row and one column; the bordered system stays nonsingular at a
-// fold.
+// with the trimmed parameters u, if there are any, that intersects the path. The distance is the coordinate
+// sigma along the path: x, lambda and p are power series in it. The steady equations gain one row and one
+// column; the bordered system stays nonsingular at a fold.
 #pragma once
 
 #include "eigentrail/steady/equilibrium.hpp"
@@ -17,9 +17,12 @@ namespace eigentrail {
 struct PathPlane {
   Vector x;        ///< size n
   double p = 1.0;  ///< coefficient of the traced parameter
+  Vector u = {};   ///< of the trimmed parameters, size k; empty: zero
 
-  double operator()(const Vector& position, double parameter) const {
-    return x.dot(position) + p * parameter;
+  /// `lambda` as in Path::lambda, with the trimmed parameters in the last rows.
+  double operator()(const Vector& position, const Vector& lambda, double parameter) const {
+    const double along = x.dot(position) + p * parameter;
+    return u.size() > 0 ? along + u.dot(lambda.tail(u.size())) : along;
   }
 };
 

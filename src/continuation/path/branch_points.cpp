@@ -250,7 +250,8 @@ std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& 
   SidePoint side;
   if (equilibrium_series(solver.problem(), point, max_order, side.path, solver.counts())) return std::nullopt;
   if (!side.path.x.allFinite() || !side.path.lambda.allFinite()) return std::nullopt;
-  side.coordinate = point.plane ? (*point.plane)(point.equilibrium.x, point.p) : point.p;
+  side.coordinate =
+      point.plane ? (*point.plane)(point.equilibrium.x, point.equilibrium.lambda, point.p) : point.p;
   side.heading = coefficient(side.path.parameters, solver.problem().traced, 1);
   const Determinant stiffness = held_stiffness(point).determinant();
   side.sign = stiffness.sign;
@@ -278,7 +279,7 @@ std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& fram
   if (stiffness.K.size() == 0 || stiffness.determinant().sign != 0.0) return std::nullopt;
   const std::optional<PathNode> node = differentiate_point(problem, point, solver.counts());
   if (!node) return std::nullopt;
-  frame.largest_position = std::max(frame.largest_position, node->path.x.col(0).norm());
+  note_size(problem.model, *node, frame);
   const double from = frame.range.from;
   const double first = first_bridge * frame.direction * frame.range.length();
   if (!build_bridge(solver, frame, *node, 0.0, first) || !frame.on_branch_point(from)) {

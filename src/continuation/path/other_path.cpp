@@ -62,7 +62,7 @@ std::optional<Bridge> bridge_along(const PointSolver& solver, const PathPlane& p
   const int traced = solver.problem().traced;
   std::optional<Bridge> best;
   double least = fair_bridge;
-  const double here = plane(node.path.x.col(0), node.p);
+  const double here = plane(node.path.x.col(0), node.path.lambda.col(0), node.p);
   for (double reach = first_reach; reach > shortest_reach && least > good_bridge; reach *= shrinking) {
     const std::optional<SidePoint> left = side_point_on(solver, plane, node, -reach);
     const std::optional<SidePoint> right = side_point_on(solver, plane, node, reach);
@@ -94,7 +94,7 @@ struct Departures {
 Departures departures_on(const PointSolver& solver, const PathPlane& plane, const Bridge& bridge,
                          const PathNode& node) {
   const int traced = solver.problem().traced;
-  const double here = plane(node.path.x.col(0), node.p);
+  const double here = plane(node.path.x.col(0), node.path.lambda.col(0), node.p);
   const double reach = 0.5 * std::abs(bridge.end() - bridge.begin());
   const Path ahead = bridge.path(here + 0.5 * reach, 1);
   const Path back = bridge.path(here - 0.5 * reach, 1);

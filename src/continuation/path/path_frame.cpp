@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/positive_or_one.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -31,6 +33,18 @@ Path PathFrame::path_on_bridge(double at, int order) const {
   Path path = bridge->path(at_branch_point ? branch_point.coordinate : at, order);
   if (at_branch_point) path.parameters(range.traced, 0) = branch_point.p;
   return path;
+}
+
+void note_size(const Model& model, const PathNode& node, PathFrame& frame) {
+  frame.largest_position = std::max(frame.largest_position, node.path.x.col(0).norm());
+  if (model.n_trims() == 0) return;
+  if (frame.largest_unknowns.size() == 0)
+    frame.largest_unknowns = model.first_multipliers(model.description().parameters.declared_values())
+                                 .tail(model.n_trims())
+                                 .cwiseAbs()
+                                 .unaryExpr(&positive_or_one);
+  const Vector unknowns = node.path.lambda.col(0).tail(model.n_trims());
+  frame.largest_unknowns = frame.largest_unknowns.cwiseMax(unknowns.cwiseAbs());
 }
 
 double remaining(const PathFrame& frame, const PathNode& node) {

@@ -1,8 +1,8 @@
 // The coordinate along the equilibrium path.
 //
 // It is the traced parameter p itself or, where the path turns back, the distance from a point along the
-// normal of a plane in (x, p) (pseudo-arclength, Keller 1977), called sigma. Over a branch point, where the
-// steady equations are singular, the path comes from a bridge (bridge.hpp).
+// normal of a plane in (x, u, p), u the trimmed parameters (pseudo-arclength, Keller 1977), called sigma.
+// Over a branch point, where the steady equations are singular, the path comes from a bridge (bridge.hpp).
 #pragma once
 
 #include <cmath>
@@ -28,14 +28,19 @@ struct PathFrame {
   double direction = 1.0;               ///< sign of the steps in the coordinate
   double largest_position = 0.0;        ///< largest |x| on the path so far
   double scaled_at = 0.0;               ///< largest_position that scales the plane in use
+  Vector largest_unknowns = {};         ///< largest magnitudes of the trimmed parameters so far
   std::optional<Bridge> bridge = {};    ///< in the coordinate of `plane`
   struct BranchPoint {
     double coordinate = 0.0, p = 0.0;
   } branch_point = {};  ///< on the bridge
 
   /// Value of the coordinate at a point of the path.
-  double coordinate(const Vector& x, double p) const { return plane ? (*plane)(x, p) : p; }
-  double coordinate(const PathNode& node) const { return coordinate(node.path.x.col(0), node.p); }
+  double coordinate(const Vector& x, const Vector& lambda, double p) const {
+    return plane ? (*plane)(x, lambda, p) : p;
+  }
+  double coordinate(const PathNode& node) const {
+    return coordinate(node.path.x.col(0), node.path.lambda.col(0), node.p);
+  }
 
   /// Approximate length of the range in the coordinate. Planes are scaled so that it is about one.
   double coordinate_range() const { return plane ? 1.0 : range.length(); }
@@ -44,8 +49,10 @@ struct PathFrame {
   double speed(const PathNode& node) const { return coefficient(node.path.parameters, range.traced, 1); }
 
   /// Scales of x and p: the largest |x| so far, or one if that is zero, and the length of the range. The
-  /// present |x| would not do, since it may pass zero.
-  PathScales scales() const { return {largest_position > 0.0 ? largest_position : 1.0, range.length()}; }
+  /// present |x| would not do, since it may pass zero. Likewise of the trimmed parameters.
+  PathScales scales() const {
+    return {largest_position > 0.0 ? largest_position : 1.0, range.length(), largest_unknowns};
+  }
 
   /// Whether a coordinate, or that of a point, is that of the branch point on the bridge, up to rounding.
   bool on_branch_point(double coordinate) const;
@@ -58,6 +65,10 @@ struct PathFrame {
   /// exact values.
   Path path_on_bridge(double coordinate, int order) const;
 };
+
+/// Takes the size of a point of the path into the frame's scales. Trimmed parameters are at least as large as
+/// their guesses in the scene, or one.
+void note_size(const Model& model, const PathNode& node, PathFrame& frame);
 
 /// Coordinates closer than this, relative to the range, are equal up to rounding.
 constexpr double same_coordinate = 1e-12;

@@ -20,12 +20,35 @@ void compose(Path& path, const Matrix& table) {
   compose_columns(path.lambda, table);
 }
 
+/// A direction in (x, u, p), u the trimmed parameters that have a scale.
+struct Direction {
+  Vector x, u;
+  double p = 0.0;
+
+  /// In scaled coordinates.
+  double length(const PathScales& scales) const {
+    const double of_u = u.size() > 0 ? u.cwiseQuotient(scales.u).norm() : 0.0;
+    return std::hypot(std::hypot(x.norm() / scales.x, of_u), p / scales.p);
+  }
+};
+
+/// The coefficients of h^k of a path.
+Direction term(const Path& path, int traced, const PathScales& scales, Eigen::Index k) {
+  const Eigen::Index unknowns = scales.u.size();
+  const bool has = k < path.x.cols();
+  return {has ? Vector(path.x.col(k)) : Vector(Vector::Zero(path.x.rows())),
+          has ? Vector(path.lambda.col(k).tail(unknowns)) : Vector(Vector::Zero(unknowns)),
+          coefficient(path.parameters, traced, k)};
+}
+
 /// The plane's coordinate, zero at the point, as a series in the present coordinate.
 Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, Eigen::Index count) {
   Vector sigma = Vector::Zero(count);
   for (Eigen::Index k = 1; k < count; ++k) {
     sigma[k] = plane.p * coefficient(path.parameters, traced, k);
-    if (k < path.x.cols()) sigma[k] += plane.x.dot(path.x.col(k));
+    if (k >= path.x.cols()) continue;
+    sigma[k] += plane.x.dot(path.x.col(k));
+    if (plane.u.size() > 0) sigma[k] += plane.u.dot(path.lambda.col(k).tail(plane.u.size()));
   }
   return sigma;
 }
@@ -33,10 +56,10 @@ Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, E
 }  // namespace
 
 PathPlane plane_along(const Path& path, int traced, const PathScales& scales, double direction) {
-  const Vector dx = path.x.cols() > 1 ? Vector(path.x.col(1)) : Vector(Vector::Zero(path.x.rows()));
-  const double dp = coefficient(path.parameters, traced, 1);
-  const double norm = direction * std::hypot(dx.norm() / scales.x, dp / scales.p);
-  return {dx / (scales.x * scales.x * norm), dp / (scales.p * scales.p * norm)};
+  const Direction tangent = term(path, traced, scales, 1);
+  const double norm = direction * tangent.length(scales);
+  return {tangent.x / (scales.x * scales.x * norm), tangent.p / (scales.p * scales.p * norm),
+          tangent.u.cwiseQuotient(scales.u).cwiseQuotient(scales.u) / norm};
 }
 
 void reparametrize(Path& path, const PathPlane& plane, int traced) {
@@ -68,8 +91,9 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
   if (last < 2) return false;
   const double sigma = std::abs(h / coefficient(turned.parameters, traced, 1));
   const auto tail = [&](const Path& series, double step) {
-    const double x = series.x.col(last).norm() / scales.x;
-    const double p = std::abs(coefficient(series.parameters, traced, last)) / scales.p;
+    const Direction end = term(series, traced, scales, last);
+    const double x = std::hypot(end.x.norm() / scales.x, Direction{Vector(), end.u}.length(scales));
+    const double p = std::abs(end.p) / scales.p;
     return std::max(x, p) * std::pow(step, static_cast<double>(last));
   };
   const double before = tail(path, std::abs(h));
@@ -77,11 +101,11 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
 }
 
 double slant(const PathPlane& plane, const Path& path, int traced, const PathScales& scales) {
-  const double dp = coefficient(path.parameters, traced, 1);
-  const Vector dx = path.x.cols() > 1 ? Vector(path.x.col(1)) : Vector(Vector::Zero(path.x.rows()));
-  const double tangent = std::hypot(dx.norm() / scales.x, dp / scales.p);
-  const double normal = std::hypot(plane.x.norm() * scales.x, plane.p * scales.p);
-  return (plane.x.dot(dx) + plane.p * dp) / (tangent * normal);
+  const Direction tangent = term(path, traced, scales, 1);
+  const double of_u = plane.u.size() > 0 ? plane.u.cwiseProduct(scales.u).norm() : 0.0;
+  const double normal = std::hypot(std::hypot(plane.x.norm() * scales.x, of_u), plane.p * scales.p);
+  const double along = plane.x.dot(tangent.x) + plane.p * tangent.p;
+  return (plane.u.size() > 0 ? along + plane.u.dot(tangent.u) : along) / (tangent.length(scales) * normal);
 }
 
 }  // namespace eigentrail

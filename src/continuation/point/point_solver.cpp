@@ -43,7 +43,8 @@ Prediction PointSolver::predict(const TracksAt& base, double h) const {
   if (!frame_.plane && std::abs(prediction.p - range.to) <= rounding) prediction.p = range.to;
   prediction.equilibrium = {evaluate_series(path.x, h), evaluate_series(path.lambda, h), true};
   prediction.plane = frame_.plane;
-  const double coordinate = frame_.coordinate(prediction.equilibrium.x, prediction.p);
+  const double coordinate =
+      frame_.coordinate(prediction.equilibrium.x, prediction.equilibrium.lambda, prediction.p);
   if (frame_.bridge && frame_.bridge->covers(coordinate)) {
     // On a bridge the equilibrium is given by an interpolant and not solved for.
     prediction.known = frame_.path_on_bridge(coordinate, problem_.order + 1);

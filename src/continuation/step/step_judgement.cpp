@@ -5,6 +5,7 @@
 
 #include "continuation/step/step_certificate.hpp"
 #include "continuation/step/step_error.hpp"
+#include "core/positive_or_one.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/matching.hpp"
 
@@ -21,6 +22,22 @@ constexpr double jump_share = 0.1;
 /// hardly moves is not taken for a jump.
 constexpr double no_motion = 1e-6;
 
+/// Estimated error of the interpolant, and the distance between its ends, both over a magnitude.
+struct Motion {
+  double error = 0.0, way = 0.0;
+};
+
+/// Of the trimmed parameters, which alone may tell two paths apart.
+Motion motion_of_unknowns(const PathFrame& frame, const Step& step) {
+  const Vector& sizes = frame.largest_unknowns;
+  if (sizes.size() == 0) return {};
+  const Matrix from = step.left->path.lambda.bottomRows(sizes.size());
+  const Matrix to = step.right.path.lambda.bottomRows(sizes.size());
+  const HermiteInterpolant u(step.h, from.cast<Complex>(), to.cast<Complex>());
+  return {u.error_without_last().cwiseQuotient(sizes).norm(),
+          Vector(to.col(0) - from.col(0)).cwiseQuotient(sizes).norm()};
+}
+
 /// Whether the right point lies on the same path as the left one.
 Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Step& step) {
   if (problem.structure.fixed_equilibrium || problem.structure.known_equilibrium) return {};
@@ -31,7 +48,10 @@ Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Ste
   const double error = x.error_without_last().norm();
   const double way = (to.col(0) - from.col(0)).norm();
   const double largest = std::max(frame.largest_position, from.col(0).norm());
-  if (error <= jump_share * way + no_motion * largest) return {};
+  const Motion u = motion_of_unknowns(frame, step);
+  const bool same_unknowns =
+      u.error <= jump_share * std::hypot(u.way, way / positive_or_one(largest)) + no_motion;
+  if (error <= jump_share * way + no_motion * largest && same_unknowns) return {};
   return {Verdict::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
 }
 

@@ -63,8 +63,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<PathPlane> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [x, p] = self;
-  visit(x, p);
+  auto& [x, p, u] = self;
+  visit(x, p, u);
 }
 
 template <SameAs<EventOfCopy> Self, class Visit>
@@ -111,8 +111,8 @@ static void fields(Self& self, Visit& visit) {
 /// The range is not saved: the options give it.
 template <SameAs<PathFrame> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [range, plane, direction, largest_position, scaled_at, bridge, branch_point] = self;
-  visit(plane, direction, largest_position, scaled_at, bridge, branch_point);
+  auto& [range, plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point] = self;
+  visit(plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point);
 }
 
 template <SameAs<StepOrigin> Self, class Visit>

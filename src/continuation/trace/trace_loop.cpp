@@ -9,6 +9,7 @@
 #include "continuation/events/meeting_events.hpp"
 #include "continuation/events/part_crossings.hpp"
 #include "continuation/events/static_points.hpp"
+#include "continuation/events/trimmed_crossings.hpp"
 #include "continuation/events/veerings.hpp"
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
@@ -175,7 +176,7 @@ bool TraceLoop::start() {
   reach_ = parting_reach(options_, problem_.order);
   observer_.started({problem_.s_ref, result.n_available, result.n_modes, result.order});
   PathNode& node = state_.origin.node;
-  state_.frame.largest_position = std::max(state_.frame.largest_position, node.path.x.col(0).norm());
+  note_size(problem_.model, node, state_.frame);
   log_branch_point(node);
   const std::vector<MeetingOnEnd> meetings = meetings_at(problem_, state_.frame, node);
   mark_meetings(meetings, node);
@@ -451,6 +452,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log(find_part_crossings(search_, step));
   log_branch_point(step.right);
   log(find_fold(search_, step.right, step.h));
+  log(find_trimmed_crossing(search_, step));
   if (auto remark = unexplained_growth(search_, step); remark && state_.result.notes.size() < most_notes)
     state_.result.notes.push_back(std::move(*remark));
 }
@@ -497,7 +499,7 @@ void TraceLoop::move_on(Step step) {
   memory.towards_pole = grows ? memory.towards_pole + 1 : 0;
   origin.last_step = frame.plane ? 0.0 : step.h;
   origin.tried.reset();
-  frame.largest_position = std::max(frame.largest_position, origin.node.path.x.col(0).norm());
+  note_size(problem_.model, origin.node, frame);
   if (leaves_path_at(origin.node)) return;
   if (renew_plane(frame, origin.node)) ++state_.result.regroupings.planes;
   if (const auto turned =
