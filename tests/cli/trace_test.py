@@ -5,6 +5,8 @@ import io
 import json
 import math
 import re
+import subprocess
+import sys
 import unittest
 
 import h5py
@@ -34,6 +36,22 @@ class Trace(CommandTest):
                 active = re.findall(r"^ +(\w+) +\d+  ", effects[effects.index("effects"):], re.MULTILINE)
                 self.assertEqual(counted, active)
                 self.assertFalse(set(counted) & set(absent.strip().split(", ")))
+
+    def test_blade_in_air_evaluates_its_parts_equally_often_and_nothing_else(self):
+        """Twenty elements, two strips on each, and one inflow; lag of lift, gravity, springs ... are not in the scene."""
+        writer = SCENES.parents[1] / "tests" / "bench" / "blade_in_air.py"
+        for lag in ([], ["--lag"]):
+            with self.subTest(lag):
+                self.write("blade.toml", subprocess.run([sys.executable, writer, "--nodes", "2", *lag], check=True, capture_output=True, text=True).stdout)
+                summary = self.run_well("trace", "blade.toml", "--to", "10.1", "--modes", "2", "--tolerance", "1e-3", "--no-certify", "--verbose", "-o", "blade.h5", "--force")
+                entries = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1].split(", ")
+                counts = {name: int(count) for name, count in (entry.split() for entry in entries)}
+                passes = counts["inflow"]
+                self.assertGreater(passes, 0)
+                parts = {"body": 21, "frame": 21, "beam": 20, "strips": 40, "inflow": 1, "directors": 21, "weld": 1}
+                if lag:
+                    parts["lift_lag"] = 40
+                self.assertEqual(counts, {name: number * passes for name, number in parts.items()})
 
     def test_critical_speeds_near_an_operating_range_are_named(self):
         scene = edited((SCENES / "overhung_disc.toml").read_text(encoding="utf-8"), 'excitation = "omega"', "operating_range = [400, 520]\n§")
