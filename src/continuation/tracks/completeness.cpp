@@ -240,8 +240,7 @@ std::vector<StartingGroup> missing_groups(const PathProblem& problem, const Path
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> missing = missing_modes(node, spectrum, problem.s_ref);
-  std::erase_if(missing,
-                [&](const StartingMode& mode) { return !has_arrived(problem, node, mode.s); });
+  std::erase_if(missing, [&](const StartingMode& mode) { return !has_arrived(problem, node, mode.s); });
   return starting_groups(pencil, missing, static_cast<int>(missing.size()), problem.s_ref);
 }
 
