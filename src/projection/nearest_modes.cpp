@@ -175,6 +175,22 @@ Complex eigenvalue(Complex nu, const Shift& shift, const Inverse& inverse, const
   return std::abs(large - rough) < std::abs(other - rough) ? large : other;
 }
 
+/// Gives eigenvectors one by one: all of them together, with their conjugates, took as much memory as the
+/// Krylov space.
+class Arnoldi : public Spectra::GenEigsSolver<Inverse> {
+ public:
+  using Spectra::GenEigsSolver<Inverse>::GenEigsSolver;
+
+  /// That of eigenvalue i, of the length of the operator; all have converged.
+  eigentrail::ComplexVector eigenvector(Eigen::Index i) const {
+    const auto& V = m_fac.matrix_V();
+    eigentrail::ComplexVector vector(V.rows());
+    vector.real() = V * m_ritz_vec.col(i).real();
+    vector.imag() = V * m_ritz_vec.col(i).imag();
+    return vector;
+  }
+};
+
 std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const Shift& shift, int wanted,
                              double tolerance) {
   const auto size = static_cast<int>(inverse.rows());
@@ -182,20 +198,20 @@ std::optional<Found> arnoldi(Inverse& inverse, const SparsePencil& pencil, const
   // Orthogonalizing the vectors takes longer than the solutions: with 2 nev + 20 of them the run took a sixth
   // more time (a plate with 20 000 freedoms), with fewer as much.
   const int ncv = std::min(size, 3 * nev / 2 + 20);
-  Spectra::GenEigsSolver<Inverse> solver(inverse, nev, ncv);
+  Arnoldi solver(inverse, nev, ncv);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 50, tolerance, Spectra::SortRule::LargestMagn);
   if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
   const ComplexVector nus = solver.eigenvalues();
-  const ComplexMatrix vectors = solver.eigenvectors();
   const Inverse::Form form = Inverse::form_of(pencil);
   Found found;
   found.least = nus.cwiseAbs().minCoeff();
   for (Eigen::Index i = 0; i < nus.size(); ++i) {
     const Complex nu = nus[i];
-    const ComplexVector x = vectors.col(i).head(pencil.size());
+    const ComplexVector vector = solver.eigenvector(i);
+    const ComplexVector x = vector.head(pencil.size());
     if (form != Inverse::Form::undamped) {
-      keep(found, eigenvalue(nu, shift, inverse, vectors.col(i)), x);
+      keep(found, eigenvalue(nu, shift, inverse, vector), x);
       continue;
     }
     const double square = shift.real * shift.real - shift.frequency * shift.frequency;
