@@ -12,6 +12,11 @@ namespace {
 /// fold the series in p converges slowly and the ratio is small; elsewhere p is the simpler coordinate.
 constexpr double bending_back = 3e-3;
 
+/// Motion on a step, over the scale of x, up to which x rests: then the trimmed parameters tell whether the
+/// path turns back. Where x moves it tells, and u may have series of its own, such as a square root of the
+/// load.
+constexpr double no_motion = 1e-6;
+
 /// Substitutes the coordinate in all series of the path. `table`: powers of the old coordinate in the new
 /// one.
 void compose(Path& path, const Matrix& table) {
@@ -90,9 +95,10 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
   const Eigen::Index last = path.x.cols() - 1;
   if (last < 2) return false;
   const double sigma = std::abs(h / coefficient(turned.parameters, traced, 1));
+  const bool rests = scales.u.size() > 0 && path.x.col(1).norm() * std::abs(h) <= no_motion * scales.x;
   const auto tail = [&](const Path& series, double step) {
     const Direction end = term(series, traced, scales, last);
-    const double x = std::hypot(end.x.norm() / scales.x, Direction{Vector(), end.u}.length(scales));
+    const double x = rests ? Direction{Vector(), end.u}.length(scales) : end.x.norm() / scales.x;
     const double p = std::abs(end.p) / scales.p;
     return std::max(x, p) * std::pow(step, static_cast<double>(last));
   };

@@ -23,8 +23,8 @@ void reparametrize(PathNode& node, const PathPlane& plane, int traced);
 /// The same for the path only.
 void reparametrize(Path& path, const PathPlane& plane, int traced);
 
-/// Whether the last term of the series of x, u and p, scaled, is much smaller in the coordinate of `turned`
-/// than in that of `path`, on a step that has the length h in the latter.
+/// Whether the last term of the series of x (of u where x rests) and p, scaled, is much smaller in the
+/// coordinate of `turned` than in that of `path`, on a step that has the length h in the latter.
 bool falls_faster(const Path& turned, const Path& path, int traced, const PathScales& scales, double h);
 
 /// Cosine of the angle between the normal of the plane and the path, in scaled coordinates.

@@ -5,7 +5,6 @@
 
 #include "continuation/step/step_certificate.hpp"
 #include "continuation/step/step_error.hpp"
-#include "core/positive_or_one.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/matching.hpp"
 
@@ -22,20 +21,16 @@ constexpr double jump_share = 0.1;
 /// hardly moves is not taken for a jump.
 constexpr double no_motion = 1e-6;
 
-/// Estimated error of the interpolant, and the distance between its ends, both over a magnitude.
-struct Motion {
-  double error = 0.0, way = 0.0;
-};
-
-/// Of the trimmed parameters, which alone may tell two paths apart.
-Motion motion_of_unknowns(const PathFrame& frame, const Step& step) {
+/// The same for the trimmed parameters, each in units of its scale: they alone tell two paths apart where x
+/// hardly moves.
+bool unknowns_stay(const PathFrame& frame, const Step& step) {
   const Vector& sizes = frame.largest_unknowns;
-  if (sizes.size() == 0) return {};
+  if (sizes.size() == 0) return true;
   const Matrix from = step.left->path.lambda.bottomRows(sizes.size());
   const Matrix to = step.right.path.lambda.bottomRows(sizes.size());
   const HermiteInterpolant u(step.h, from.cast<Complex>(), to.cast<Complex>());
-  return {u.error_without_last().cwiseQuotient(sizes).norm(),
-          Vector(to.col(0) - from.col(0)).cwiseQuotient(sizes).norm()};
+  const double way = Vector(to.col(0) - from.col(0)).cwiseQuotient(sizes).norm();
+  return u.error_without_last().cwiseQuotient(sizes).norm() <= jump_share * way + no_motion;
 }
 
 /// Whether the right point lies on the same path as the left one.
@@ -48,10 +43,8 @@ Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Ste
   const double error = x.error_without_last().norm();
   const double way = (to.col(0) - from.col(0)).norm();
   const double largest = std::max(frame.largest_position, from.col(0).norm());
-  const Motion u = motion_of_unknowns(frame, step);
-  const bool same_unknowns =
-      u.error <= jump_share * std::hypot(u.way, way / positive_or_one(largest)) + no_motion;
-  if (error <= jump_share * way + no_motion * largest && same_unknowns) return {};
+  const bool moves = way > no_motion * largest;
+  if (error <= jump_share * way + no_motion * largest && (moves || unknowns_stay(frame, step))) return {};
   return {Verdict::Kind::no_equilibrium, -1, INFINITY, "the equilibrium found lies on another path"};
 }
 
