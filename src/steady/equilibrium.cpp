@@ -21,9 +21,8 @@ constexpr int max_corrections = 6;
 /// search works it takes fewer.
 constexpr int patience = 25;
 /// From this number of coordinates on the error-oriented method is the first one: the longer a chain of stiff
-/// elements, the shorter the steps of KINSOL's line search. Blades of 20 elements take 12 iterations from the
-/// straight guess, and KINSOL's are given up after `patience`.
-constexpr Eigen::Index many_coordinates = 250;
+/// elements, the shorter the steps of KINSOL's line search.
+constexpr Eigen::Index many_coordinates = 1000;
 /// Corrections with the factors at the guess go on while each is below this share of the one before. With a
 /// larger share they would take longer than new factors.
 constexpr double fast_contraction = 0.1;
