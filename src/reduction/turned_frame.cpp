@@ -1,5 +1,6 @@
 #include <Eigen/Eigenvalues>
 
+#include "core/diagonal_blocks.hpp"
 #include "core/products.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 
@@ -10,14 +11,23 @@ namespace {
 /// angle rounding would be magnified by more than six, and a motion of the frame could have no counterpart.
 constexpr double least_cosine_squared = 0.03;
 
+/// Entries of a projected orthonormal basis up to which they are rounding. Without them what the constraints
+/// keep apart stays apart, and blocks of it are orthonormalized each by itself.
+constexpr double negligible_entry = 1e-13;
+
 }  // namespace
 
 std::optional<Matrix> turned_frame(const ConstraintFactorization& constraints, const Matrix& frame) {
   if (constraints.rank() + frame.cols() != frame.rows()) return std::nullopt;
-  const Matrix P = constraints.allowed_part(frame);
-  const Eigen::SelfAdjointEigenSolver<Matrix> gram(transposed_product(P, P));
-  if (gram.info() != Eigen::Success || !(gram.eigenvalues()[0] > least_cosine_squared)) return std::nullopt;
-  return product(P, Matrix(gram.operatorInverseSqrt()));
+  Matrix T = constraints.allowed_part(frame);
+  T = (T.array().abs() > negligible_entry).select(T, 0.0).eval();
+  for (const DiagonalBlock& block : diagonal_blocks(MatrixSeries{T})) {
+    const Matrix P = T(block.rows, block.columns);
+    const Eigen::SelfAdjointEigenSolver<Matrix> gram(transposed_product(P, P));
+    if (gram.info() != Eigen::Success || !(gram.eigenvalues()[0] > least_cosine_squared)) return std::nullopt;
+    T(block.rows, block.columns) = product(P, Matrix(gram.operatorInverseSqrt()));
+  }
+  return T;
 }
 
 std::shared_ptr<const IndependentParts> turned(const std::shared_ptr<const IndependentParts>& parts,

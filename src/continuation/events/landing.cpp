@@ -170,10 +170,11 @@ std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& exp
 
 /// Whether a meeting at this distance is at the left end of the step, and known there. Steps towards a
 /// collision of two modes that were followed one by one are shorter than `at_point` themselves; nothing has
-/// met at their left end.
+/// met at their left end. On a branch point the eigenvalue zero is double, and known as that.
 bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distance) const {
-  const double nearest = settled * solver_.points().frame().coordinate_range();
-  return std::abs(distance) <= (expected.has_just_met ? at_point_ : nearest);
+  const PathFrame& frame = solver_.points().frame();
+  const bool is_known = expected.has_just_met || frame.on_branch_point(*step_.left);
+  return std::abs(distance) <= (is_known ? at_point_ : settled * frame.coordinate_range());
 }
 
 /// Ends the step at the predicted position, if the prediction is accurate enough. `nothing` if it is not, or

@@ -272,11 +272,15 @@ bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const Path
   return build_bridge(solver, frame, node, *expected, h);
 }
 
+bool is_on_branch_point(const PathProblem& problem, const PathPoint& point) {
+  if (!may_branch(problem) || point.pencil.size() == 0) return false;
+  const Stiffness stiffness = held_stiffness(point);
+  return stiffness.K.size() > 0 && stiffness.determinant().sign == 0.0;
+}
+
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point) {
   const PathProblem& problem = solver.problem();
-  if (!may_branch(problem) || point.pencil.size() == 0) return std::nullopt;
-  const Stiffness stiffness = held_stiffness(point);
-  if (stiffness.K.size() == 0 || stiffness.determinant().sign != 0.0) return std::nullopt;
+  if (!is_on_branch_point(problem, point)) return std::nullopt;
   const std::optional<PathNode> node = differentiate_point(problem, point, solver.counts());
   if (!node) return std::nullopt;
   note_size(problem.model, *node, frame);

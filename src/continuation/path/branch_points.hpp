@@ -38,6 +38,9 @@ bool equilibrium_moves(const PathProblem& problem);
 bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const PathNode& node, double h,
                          const PathNode* next, int& tries);
 
+/// Whether the stiffness is singular at a point, where paths may cross.
+bool is_on_branch_point(const PathProblem& problem, const PathPoint& point);
+
 /// For a trace that begins on a branch point: builds a bridge in the frame along the path that can be
 /// followed in p, and returns the reduced point on it. Empty if the point is not a branch point.
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point);

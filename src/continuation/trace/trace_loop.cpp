@@ -73,6 +73,31 @@ void number_modes(TraceState& state, const PathNode& node) {
   state.result.n_columns = state.numbers.count;
 }
 
+/// Ends the modes that run to infinity and have come close to it; the next step then leads to where they come
+/// back. Returns how far a step may go towards the places where others run to infinity, infinite without any;
+/// empty if no mode is left that is followed. `place`: of the point, for the notes.
+std::optional<double> way_to_infinity(const PathProblem& problem, const std::string& place,
+                                      TraceState& state) {
+  PathNode& node = state.origin.node;
+  const double direction = state.frame.direction;
+  const EndedAtInfinity ended =
+      end_at_infinity(problem, runs_to_infinity(node, direction), node, state.result.counts);
+  for (const std::string& who : ended.who) {
+    if (state.result.notes.size() < most_notes)
+      state.result.notes.push_back(who + equal_modes_text(state.copies, ended.modes) + " ends at " + place +
+                                   ": it runs to infinity");
+  }
+  if (ended.behind > 0.0) {
+    state.origin.tried.reset();
+    state.control.restart(ended.behind);
+    if (node.tracks.empty() && !state.settings.follows_all) return std::nullopt;
+  }
+  double way = INFINITY;
+  for (const RunToInfinity& run : runs_to_infinity(node, direction))
+    way = std::min(way, share_of_way_to_infinity * run.distance);
+  return way;
+}
+
 void count(const Verdict& verdict, Rejections& rejections) {
   switch (verdict.kind) {
     case Verdict::Kind::no_equilibrium:
@@ -244,8 +269,11 @@ void TraceLoop::follow() {
 /// special point (landing), and commits it. If the step is rejected, applies a remedy or shortens the next
 /// attempt. Returns whether the trace goes on.
 bool TraceLoop::advance() {
-  const auto to_infinity = way_to_infinity();
-  if (!to_infinity) return false;
+  const std::string here = place_text(options_, state_.origin.node.p);
+  const auto to_infinity = way_to_infinity(problem_, here, state_);
+  if (!to_infinity)
+    return stop(TraceStatus::step_too_small, "all modes that are followed run to infinity at " + here +
+                                                 "; begin another trace behind it, or follow all modes");
   const double ahead = std::min({remaining(state_.frame, state_.origin.node), *to_infinity,
                                  distance_to_next(narrow_places_, state_.frame, state_.origin.node)});
   const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
@@ -289,35 +317,6 @@ bool TraceLoop::advance() {
   }
   state_.control.accept(length, verdict.error);
   return commit(std::move(*landed), anew.certified);
-}
-
-/// Ends the modes that run to infinity and have come close to it; the next step then leads to where they come
-/// back. Returns how far a step may go towards the places where others run to infinity, infinite without any;
-/// empty if the trace ends because no mode is left that is followed.
-std::optional<double> TraceLoop::way_to_infinity() {
-  PathNode& node = state_.origin.node;
-  const double direction = state_.frame.direction;
-  const std::string place = place_text(options_, node.p);
-  const EndedAtInfinity ended =
-      end_at_infinity(problem_, runs_to_infinity(node, direction), node, state_.result.counts);
-  for (const std::string& who : ended.who) {
-    if (state_.result.notes.size() < most_notes)
-      state_.result.notes.push_back(who + equal_modes_text(state_.copies, ended.modes) + " ends at " + place +
-                                    ": it runs to infinity");
-  }
-  if (ended.behind > 0.0) {
-    state_.origin.tried.reset();
-    state_.control.restart(ended.behind);
-    if (node.tracks.empty() && !state_.settings.follows_all) {
-      stop(TraceStatus::step_too_small, "all modes that are followed run to infinity at " + place +
-                                            "; begin another trace behind it, or follow all modes");
-      return std::nullopt;
-    }
-  }
-  double way = INFINITY;
-  for (const RunToInfinity& run : runs_to_infinity(node, direction))
-    way = std::min(way, share_of_way_to_infinity * run.distance);
-  return way;
 }
 
 Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {

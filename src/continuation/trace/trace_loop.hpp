@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
 
 #include "continuation/events/landing.hpp"
 #include "continuation/step/step_judgement.hpp"
@@ -33,7 +32,6 @@ class TraceLoop final : private Checkpoint {
   void prepare_to_follow();
   void follow();
   bool advance();
-  std::optional<double> way_to_infinity();
 
   Verdict judge(const Step& step, Uncertified uncertified);
   /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if

@@ -114,7 +114,9 @@ void Start::find_parts() {
   const Equilibrium& equilibrium = point_.equilibrium;
   const SceneOnRange scene = scene_on_range(problem_, options_, equilibrium.x, equilibrium.lambda);
   problem_.rests = scene.rests;
-  auto here = scene.parts ? turned(scene.parts, equilibrium.kkt.constraints()) : nullptr;
+  // Parts of a scene that moves were looked for on one path, and another may begin here.
+  if (!scene.parts || (!scene.rests && is_on_branch_point(problem_, point_))) return;
+  auto here = turned(scene.parts, equilibrium.kkt.constraints());
   if (!here) return;
   problem_.parts = scene.parts;
   point_.basis = basis_of(std::move(here));

@@ -1,3 +1,4 @@
+#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/completeness.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -7,7 +8,6 @@
 #include <cmath>
 
 #include "continuation/tracks/starting_tracks.hpp"
-#include "continuation/tracks/towards_infinity.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"

@@ -1,3 +1,4 @@
+#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/newcomers.hpp"
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
-#include "continuation/tracks/towards_infinity.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"

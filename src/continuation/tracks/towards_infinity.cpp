@@ -1,22 +1,17 @@
 #include "continuation/tracks/towards_infinity.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "continuation/tracks/ended_modes.hpp"
 #include "continuation/tracks/regrouping.hpp"
-#include "core/reciprocal_condition.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// Reciprocal condition of M up to which an eigenvalue may be infinite: its |1/s| is about this share of that
-/// of a typical one, squared.
-constexpr double singular = 1e-9;
 /// The step that ends where an eigenvalue has come back is longer by this factor: its place of infinity is
 /// known from two terms of a series.
 constexpr double well_behind = 1.2;
@@ -101,12 +96,6 @@ EndedAtInfinity end_at_infinity(const PathProblem& problem, const std::vector<Ru
     ended.behind = std::max(ended.behind, behind);
   }
   return ended;
-}
-
-bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
-                 const InfinityThresholds& thresholds) {
-  if (std::abs(s) <= thresholds.arrived * problem.s_max) return true;
-  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(node.pencil.M[0])) > singular;
 }
 
 }  // namespace eigentrail
