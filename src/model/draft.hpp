@@ -98,9 +98,12 @@ struct Draft {
   /// The direction with components `along` in the axes of the carrier.
   Place direction_on(const Carrier& carrier, const ExpressionVector& along);
   std::array<Place, 3> directors(int body) const;
-  /// Whether what has this triple does not turn with the frame, because it is the hub or the support of a
-  /// rotor.
-  bool stands(int triple) const { return rotor && rotor->stands[static_cast<std::size_t>(triple)]; }
+  /// Whether what has this triple does not turn with the frame, because it is the hub, the support or the
+  /// inflow of a rotor.
+  bool stands(int triple) const {
+    const auto i = static_cast<std::size_t>(triple);
+    return rotor && (i >= rotor->stands.size() || rotor->stands[i]);
+  }
 
   /// Reads a name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
   Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);

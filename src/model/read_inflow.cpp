@@ -32,8 +32,24 @@ void check_axis(const Draft& draft, const TableReader& table, const std::string&
   }
 }
 
+/// Whether the axis of an inflow is that of the [rotor], 1, or opposite to it, -1. Its centre must be on that
+/// axis, or blades are not alike.
+int sense_of_rotor(const Draft& draft, const TableReader& table, const ExpressionVector& axis,
+                   const ExpressionVector& centre) {
+  const int sense = draft.vector_at(axis, 0)[2] > 0.0 ? 1 : -1;
+  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
+    if (draft.vector_at(axis, i)[2] * sense < 0.0)
+      table.fail("axis", "with [rotor] it must not change its sense; it does" + Draft::where_on_trace(i));
+    if (draft.vector_at(centre, i).head<2>().norm() > 1e-12)
+      table.fail("centre", "with [rotor] expected [0, 0, z], on the axis of rotation; it is not" +
+                               Draft::where_on_trace(i));
+  }
+  return sense;
+}
+
 /// New coordinates (v_0, v_x, v_y).
 Place add_velocity(Draft& draft, const InflowDraft& inflow) {
+  if (draft.rotor) draft.rotor->inflows.push_back(inflow.sense);
   const Place velocity = draft.point_place(static_cast<int>(draft.guess.size()) / 3);
   for (const Expression& e : {inflow.guess, Expression(0.0), Expression(0.0)}) draft.guess.push_back(e);
   return velocity;
@@ -79,9 +95,12 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   if (table.has("blades") && model == "pitt_peters")
     table.fail("blades",
                "needs model = \"uniform\" or \"annular\"; with pitt_peters the scene has all blades");
+  if (table.has("blades") && draft.rotor)
+    table.fail("blades", "with [rotor] their number is stated there; leave it out here");
   if (table.has("tip_loss")) inflow.tip_loss = table.flag("tip_loss");
   if (inflow.tip_loss && !inflow.annular) table.fail("tip_loss", "needs model = \"annular\"");
   const Expression blades = draft.read_number(table, "blades", "", Range::positive, 1.0);
+  inflow.blades = draft.rotor ? Expression(draft.rotor->blades) : blades;
   const Expression tip = Expression(of_tip_speed) * radius * dot(rotation, axis);
   const Expression drift = Expression(of_wind) * dot(wind, axis);
   Expression guess = sqrt(tip * tip + drift * drift);
@@ -91,10 +110,13 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
 
   inflow.guess = guess;
   inflow.radius = radius;
+  if (draft.rotor) inflow.sense = sense_of_rotor(draft, table, axis, centre);
   if (!inflow.annular) inflow.element.velocity = add_velocity(draft, inflow);
   inflow.element.axis = inflow.disc.axis = draft.vector(axis);
   inflow.element.wind = draft.vector(wind);
-  inflow.element.angular_velocity = draft.vector(rotation);
+  // With [rotor] the axes x, y of the disc stand; without gradients they do not matter.
+  const bool stands = draft.rotor && model == "pitt_peters";
+  inflow.element.angular_velocity = draft.vector(stands ? ExpressionVector{} : rotation);
   inflow.element.radius = draft.quantity(radius);
   inflow.element.density = draft.quantity(density);
   const auto [x, y] = across(draft, axis);
@@ -112,11 +134,6 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
   std::vector<InflowDraft> result;
   if (draft.is_left_out(Inflow::name)) return result;
   const std::vector<const Table*> all = tables(draft.scene, std::string(Inflow::name));
-  if (draft.rotor && !all.empty())
-    throw scene_error(
-        draft.scene, all[0]->where,
-        "[[inflow]]: not together with [rotor]; leave it out, or describe all blades in one turning "
-        "frame, without [rotor], on a support that is the same in all directions");
   for (std::size_t i = 0; i < all.size(); ++i) {
     TableReader table = draft.reader(*all[i], "[[inflow]] " + std::to_string(i + 1));
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
@@ -139,7 +156,7 @@ void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, St
   Inflow annulus = inflow.element;
   annulus.area = draft.quantity(Expression(2.0 * std::numbers::pi) * r * width);
   if (inflow.tip_loss) {
-    const Expression half = Expression(0.5) * inflow.disc.blades.expression;
+    const Expression half = Expression(0.5) * inflow.blades;
     annulus.to_the_tip = draft.quantity(half * (inflow.radius - r) / r);
     annulus.at_radius = draft.quantity(r);
   }
@@ -165,7 +182,9 @@ std::vector<FieldHelp> inflow_fields() {
        "velocity of the air along the axis: against it in climb, along it at a "
        "turbine",
        "[0, 0, 0]"},
-      {"blades", "", "with uniform and annular inflow: the number of blades for which every strip stands",
+      {"blades", "",
+       "with uniform and annular inflow, and without [rotor]: the number of blades for which every strip "
+       "stands",
        "1"},
       {"tip_loss", "true or false", "of annular inflow: Prandtl's loss at the tips", "false"},
       {"density", "kg/m^3", "density of the air", "1.225"},

@@ -16,6 +16,8 @@ struct InflowDraft {
   bool annular = false;   ///< every strip has an annulus of its own, and `element` has no coordinates
   bool tip_loss = false;  ///< of annuli
   Expression guess, radius;
+  Expression blades;      ///< of the rotor, for the loss at the tips
+  int sense = 1;          ///< with [rotor]: that of the axis along the axis of rotation
   int first_triple = -1;  ///< of the blade whose strips have the annuli
   std::vector<Inflow> annuli = {};
 

@@ -117,7 +117,8 @@ class TrimReader {
     if (parts.arguments.size() != (has_axis ? 2u : 1u))
       table.fail("condition", parts.quantity + (has_axis ? ": expected a name and an axis, x, y or z"
                                                          : ": expected one name in the brackets"));
-    if (parts.quantity == "thrust") return draft_.rotor ? thrust_of_blades(table, name) : thrust(table, name);
+    if (parts.quantity == "thrust")
+      return draft_.rotor && !is_inflow(name) ? thrust_of_blades(table, name) : thrust(table, name);
     if (parts.quantity == "angle") return angle(table, name);
     if (spring) return spring_moment(name);
     const Axis axis = read_axis(table, parts.arguments[1]);
@@ -138,6 +139,11 @@ class TrimReader {
     side.entries.emplace_back("condition", Value{name, draft_.begun_where});
     TableReader reader(draft_.scene, side, table.label(), draft_.used);
     return draft_.read_moving_place(reader, "condition");
+  }
+
+  bool is_inflow(const std::string& name) const {
+    return std::any_of(inflows_.begin(), inflows_.end(),
+                       [&](const InflowDraft& inflow) { return inflow.name == name; });
   }
 
   /// What the thrust does on the coordinate of the mean inflow; the air answers it.

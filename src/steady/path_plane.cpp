@@ -36,15 +36,9 @@ class PlaneSystem {
   /// `force` and `constraint`: the derivatives of the equations with respect to the traced parameter.
   PlaneSystem(const Linearization& linearization, const ConstraintFactorization& constraints,
               const KktBorder& trim, const Vector& force, const Vector& constraint, const PathPlane& plane)
-      : n_trims_(trim.unknown.rows()) {
-    const SystemMatrix &K = linearization.K[0], &A = linearization.A[0];
-    const KktBorder border = trim.and_one(force, constraint, plane.x, plane.u, plane.p);
-    if (K.is_sparse() && (constraints.is_sparse() || A.rows() == 0)) {
-      system_.emplace<SparseBorderedKkt>(K.sparse(), A.sparse(), border);
-    } else {
-      system_.emplace<BorderedKkt>(K, constraints, border);
-    }
-  }
+      : system_(
+            factored(linearization, constraints, trim.and_one(force, constraint, plane.x, plane.u, plane.p))),
+        n_trims_(trim.unknown.rows()) {}
 
   /// `g` and `dl` as in KktFactorization::solve.
   void solve(const Vector& r, const Vector& g, double distance, Vector& dx, Vector& dl, double& dp) const {
@@ -52,31 +46,38 @@ class PlaneSystem {
     Vector h(n_trims_ + 1);
     h << g.tail(n_trims_), distance;
     Vector reactions, unknowns;
-    std::visit(
-        [&](const auto& system) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(system)>, std::monostate>)
-            system.solve(r, g.head(m), h, dx, reactions, unknowns);
-        },
-        system_);
+    std::visit([&](const auto& system) { system.solve(r, g.head(m), h, dx, reactions, unknowns); }, system_);
     dl.resize(g.size());
     dl << reactions, unknowns.head(n_trims_);
     dp = unknowns[n_trims_];
   }
 
  private:
-  std::variant<std::monostate, BorderedKkt, SparseBorderedKkt> system_;
+  using System = std::variant<BorderedKkt, SparseBorderedKkt>;
+
+  static System factored(const Linearization& at, const ConstraintFactorization& constraints,
+                         const KktBorder& border) {
+    const SystemMatrix &K = at.K[0], &A = at.A[0];
+    if (K.is_sparse() && (constraints.is_sparse() || A.rows() == 0))
+      return System(std::in_place_type<SparseBorderedKkt>, K.sparse(), A.sparse(), border);
+    return System(std::in_place_type<BorderedKkt>, K, constraints, border);
+  }
+
+  System system_;
   Eigen::Index n_trims_;
 };
 
-/// The border of the trimmed parameters at a point; without any it has no rows.
-EvaluationFault trim_border(const Model& model, const Path& at, KktBorder& border, EvaluationCounts& counts) {
-  border = {Matrix(model.n_coordinates(), 0), Matrix(model.n_constraints(), 0),
-            Matrix(0, model.n_coordinates()), Matrix(), Matrix(0, 0)};
-  if (model.n_trims() == 0) return {};
-  TrimDerivatives trim;
-  if (auto fault = model.trim_derivatives(at, trim, counts)) return fault;
-  border = KktBorder::of(trim);
-  return {};
+/// The derivatives of the trimmed parameters at a point; without any they have no columns.
+EvaluationFault trim_at(const Model& model, const Path& at, TrimDerivatives& trim, EvaluationCounts& counts) {
+  trim = {Matrix(model.n_coordinates(), 0), Matrix(model.n_constraints(), 0),
+          Matrix(0, model.n_coordinates()), Matrix(0, model.n_constraints()), Matrix(0, 0)};
+  return model.n_trims() == 0 ? EvaluationFault() : model.trim_derivatives(at, trim, counts);
+}
+
+/// The KKT system at a point, for what is asked there with the parameter held.
+KktFactorization kkt_of(const Model& model, const Linearization& at, const TrimDerivatives& trim) {
+  if (model.n_trims() > 0) return {at.K[0], at.A[0], trim};
+  return {at.K[0], at.A[0]};
 }
 
 /// Least-squares multipliers (Eq. 15) at given x.
@@ -105,7 +106,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   double last = INFINITY;
   SteadyResidual residual;
   Vector force, constraint, dx, dl;
-  KktBorder trim;
+  TrimDerivatives trim;
   parameters[traced] = p;
   if (lambda.size() != model.n_multipliers() && estimate_multipliers(model, parameters, result, counts)) {
     result.status = SteadyStatus::not_finite;
@@ -117,13 +118,14 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const Path path{parameters, result.x, result.lambda};
     if (model.residual(path, 0, residual, counts) || model.linearize(path, 0, result.linearization, counts) ||
         parameter_slope(model, result.x, result.lambda, parameters, traced, force, constraint, counts) ||
-        trim_border(model, path, trim, counts)) {
+        trim_at(model, path, trim, counts)) {
       result.status = SteadyStatus::not_finite;
       return result;
     }
-    result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0]);
+    result.kkt = KktFactorization(result.linearization.A[0]);
     ++result.report.factorizations;
-    const PlaneSystem system(result.linearization, result.kkt.constraints(), trim, force, constraint, plane);
+    const PlaneSystem system(result.linearization, result.kkt.constraints(), KktBorder::of(trim), force,
+                             constraint, plane);
     double dp = 0.0;
     system.solve(-residual.force.col(0), -residual.constraint.col(0),
                  target - plane(result.x, result.lambda, p), dx, dl, dp);
@@ -140,6 +142,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     // Small corrections that grow show divergence; large ones may grow far from the solution.
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
+      result.kkt = kkt_of(model, result.linearization, trim);
+      ++result.report.factorizations;
       result.status = SteadyStatus::converged;
       result.report.message.clear();
       return result;
@@ -159,14 +163,14 @@ EvaluationFault differentiate_equilibrium_on(const PathPlane& plane, const Model
   path.x.col(0) = equilibrium.x;
   path.lambda.col(0) = equilibrium.lambda;
   Vector force, constraint, dx, dl;
-  KktBorder trim;
-  if (auto fault = trim_border(model, {parameters, equilibrium.x, equilibrium.lambda}, trim, counts))
+  TrimDerivatives trim;
+  if (auto fault = trim_at(model, {parameters, equilibrium.x, equilibrium.lambda}, trim, counts))
     return fault;
   if (auto fault = parameter_slope(model, equilibrium.x, equilibrium.lambda, parameters, traced, force,
                                    constraint, counts))
     return fault;
-  const PlaneSystem system(equilibrium.linearization, equilibrium.kkt.constraints(), trim, force, constraint,
-                           plane);
+  const PlaneSystem system(equilibrium.linearization, equilibrium.kkt.constraints(), KktBorder::of(trim),
+                           force, constraint, plane);
   SteadyResidual residual;
   for (int k = 1; k <= order; ++k) {
     if (auto fault = model.residual(path, k, residual, counts)) return fault;

@@ -73,6 +73,25 @@ def turning(text):
     return text.replace("1.225 [kg/m^3]", "rho").replace("[parameters]\n", '[parameters]\nrho = { value = 1.225, unit = "kg/m^3" }\n')
 
 
+def with_inflow(text, model="pitt_peters", axis=1):
+    """air_resonance_fuselage.toml with an inflow that changes in the motion."""
+    parts = tables(text)
+    text = "".join(part for part in parts if "2 * rho * pi" not in part)
+    text = edited(text, 'wind       = [0, 0, "-inflow"]\ndensity    = "rho"', 'inflow     = "disc"')
+    text = "\n".join(line for line in text.splitlines() if not line.startswith("inflow   ="))
+    text = edited(text, '"thrust(air) = weight"', f'"thrust(disc) = {axis} * weight"')
+    return text + f"""
+[[inflow]]
+name    = "disc"
+model   = "{model}"
+radius  = "radius"
+centre  = [0, 0, "height"]
+axis    = [0, 0, {axis}]
+guess   = {axis * 8}
+density = "rho"
+"""
+
+
 def without_torque(text):
     """A moment about the axis, trimmed so that the pivot has none, whose two axes make it differ along and across them."""
     text = text.replace("[parameters]\n", '[parameters]\ncounter = { value = 0.0, unit = "N m" }\n')
@@ -94,23 +113,48 @@ class AirResonanceOnAFuselage(RotorTest):
         alike = without_torque(self.changed(roll=1500.0, pitching=1500.0))
         whole = without_torque(turning((SCENES / "air_resonance.toml").read_text(encoding="utf-8")))
         for omega in (25.0, 41.0):
-            short = ("--from", repr(omega), "--to", repr(omega - 0.1), "--no-certify")
-            (standing,) = self.spectra(self.trace_text(alike, *short, tolerance=1e-8), [omega])
-            pitch = [self.trimmed("loci.h5", omega)]
-            (seen,) = self.spectra(self.trace_text(whole, *short, tolerance=1e-8), [omega])
-            pitch.append(self.trimmed("loci.h5", omega))
-            np.testing.assert_allclose(pitch[0], pitch[1], rtol=1e-9)
-            self.assertEqual(len(standing), len(seen))
-            every = np.concatenate([seen, seen.conj()])
-            for s in standing:
-                shifted = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
-                self.assertLess(shifted, 1e-7 * abs(s), s)
+            self.assert_same_as_turning(alike, whole, omega, "pitch", "inflow", "counter")
 
-    def trimmed(self, file, omega):
+    def test_inflow_is_that_seen_from_the_turning_frame(self):
+        """The gradients of the inflow of Pitt and Peters stand with [rotor] and turn without it; the mean is the same."""
+        for model, axis in (("pitt_peters", 1), ("pitt_peters", -1), ("uniform", 1)):
+            alike = without_torque(with_inflow(self.changed(roll=1500.0, pitching=1500.0), model, axis))
+            whole = edited((SCENES / "air_resonance.toml").read_text(encoding="utf-8"), "[[inflow]]\n", f'[[inflow]]\nmodel = "{model}"\n')
+            for omega in (25.0, 41.0):
+                self.assert_same_as_turning(alike, without_torque(whole), omega, "pitch", "counter")
+
+    def assert_same_as_turning(self, alike, whole, omega, *unknowns):
+        short = ("--from", repr(omega), "--to", repr(omega - 0.1), "--no-certify")
+        (standing,) = self.spectra(self.trace_text(alike, *short, tolerance=1e-8), [omega])
+        trim = [self.trimmed("loci.h5", omega, *unknowns)]
+        (seen,) = self.spectra(self.trace_text(whole, *short, tolerance=1e-8), [omega])
+        trim.append(self.trimmed("loci.h5", omega, *unknowns))
+        np.testing.assert_allclose(trim[0], trim[1], rtol=1e-9)
+        self.assertEqual(len(standing), len(seen))
+        every = np.concatenate([seen, seen.conj()])
+        for s in standing:
+            shifted = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
+            self.assertLess(shifted, 1e-7 * abs(s), s)
+        self.assertGreater(max(np.min(abs(every - s)) for s in standing), 1.0)
+
+    def test_annuli_carry_the_weight(self):
+        """Each by momentum theory; the blade of the scene stands for all."""
+        text = edited(with_inflow(self.scene_text(), "annular"), 'inflow     = "disc"', 'inflow     = "disc"\nstrips     = 6')
+        file = self.trace_text(text, "--no-certify", tolerance=1e-4)
+        offset = 0.25
+        at, weight = np.polynomial.legendre.leggauss(6)
+        r, width = offset + (RADIUS - offset) * (1.0 + at) / 2.0, weight * (RADIUS - offset) / 2.0
+        with h5py.File(file) as loci:
+            names = [name.decode() for name in loci["coordinate"][:]]
+            mean = np.array([loci["equilibrium"][:, names.index(f"disc, annulus {i + 1}.mean")] for i in range(6)])
+            np.testing.assert_allclose(2.0 * DENSITY * (2.0 * np.pi * r * width) @ mean**2, THRUST, rtol=1e-9)
+            self.assertGreater(np.min(np.ptp(mean, axis=0)), 1.0)
+
+    def trimmed(self, file, omega, *names):
         """Unknowns there."""
         rows = csv.DictReader(io.StringIO(self.run_well("eval", file, "--csv", "--at", repr(omega))))
         row = next(iter(rows))
-        return [float(row[name]) for name in ("pitch", "inflow", "counter")]
+        return [float(row[name]) for name in names]
 
     def test_limit_moves_with_the_weight_as_its_sensitivity_says(self):
         limits = []

@@ -236,9 +236,13 @@ inflow = [10, 0, 0]
 """)
         self.assertIn("along the axis of the [rotor]", message)
 
-    def test_inflow(self):
-        message = self.refusal(self.scene_text() + '\n[[inflow]]\nname = "disc"\nradius = 6\n')
-        self.assertIn("[[inflow]]: not together with [rotor]", message)
+    def test_inflow_of_another_rotor(self):
+        inflow = self.scene_text() + '\n[[inflow]]\nname = "disc"\nradius = 6\n'
+        self.assertIn("on the axis of rotation", self.refusal(inflow + "centre = [1, 0, 0]\n"))
+        self.assertIn("must be parallel to it", self.refusal(inflow + "axis = [1, 0, 1]\n"))
+        self.assertIn("must not change its sense", self.refusal(inflow + 'axis = [0, 0, "omega - 20"]\n'))
+        self.assertIn("with [rotor] their number is stated there",
+                      self.refusal(inflow + 'model = "uniform"\nblades = 4\n'))
 
     def test_another_axis(self):
         message = self.refusal(self.scene_text().replace('angular_velocity = [0, 0, "omega"]',

@@ -6,6 +6,7 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
+#include "eigentrail/steady/path_plane.hpp"
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
@@ -257,6 +258,51 @@ TEST(Trim, SeriesHaveTheirOrder) {
     EXPECT_NEAR(std::log2(x / x_half), order + 1.0, 0.35) << "order " << order;
     EXPECT_NEAR(std::log2(u / u_half), order + 1.0, 0.35) << "order " << order;
   }
+}
+
+/// Sensitivities at an event take the factorization of the point there, which may have been solved for on a
+/// plane across the path: it has the conditions of the trim as any other. `extra`: parts that change nothing
+/// but make the system a sparse one.
+void expect_same_slopes_on_a_plane(const std::string& extra) {
+  const Setting setting =
+      make_setting(extra + pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle")));
+  EvaluationCounts counts = setting.model->new_counts();
+  const Solved held = solve(setting, "angle", 0.7);
+  ASSERT_EQ(held.at.status, SteadyStatus::converged) << held.at.report.message;
+  Vector parameters = setting.scene.parameters.declared_values();
+  double angle = 0.7;
+  parameters[setting.parameter("angle")] = angle;
+  PathPlane plane;
+  plane.x = Vector::Zero(setting.model->n_coordinates());
+  plane.u = Vector::Ones(1);
+  const Equilibrium on_plane =
+      solve_equilibrium_on(plane, *setting.model, parameters, setting.parameter("angle"), held.at.x,
+                           held.at.lambda, {}, angle, counts);
+  ASSERT_EQ(on_plane.status, SteadyStatus::converged) << on_plane.report.message;
+  EXPECT_TRUE(on_plane.kkt.can_solve());
+  VectorSeries direction = VectorSeries::Zero(parameters.size(), 2);
+  direction.col(0) = parameters;
+  direction(setting.parameter("push"), 1) = 1.0;
+  Path expected, found;
+  ASSERT_FALSE(differentiate_equilibrium(*setting.model, held.at, direction, 2, expected, counts));
+  ASSERT_FALSE(differentiate_equilibrium(*setting.model, on_plane, direction, 2, found, counts));
+  // The push is carried by the torque: push arm cos(angle).
+  EXPECT_NEAR(std::abs(expected.lambda(expected.lambda.rows() - 1, 1)), arm * std::cos(angle), 1e-10);
+  EXPECT_LT((found.x - expected.x).norm(), 1e-9);
+  EXPECT_LT((found.lambda.bottomRows(1) - expected.lambda.bottomRows(1)).norm(), 1e-9);
+}
+
+TEST(Trim, SlopesOnAPlaneHaveTheConditions) {
+  expect_same_slopes_on_a_plane("");
+}
+
+TEST(Trim, SlopesOnAPlaneHaveTheConditionsInASparseSystem) {
+  std::string points;
+  for (int i = 0; i < 120; ++i)
+    points += "[[point]]\nname = \"p" + std::to_string(i) + "\"\nmass = 1\nposition = [" + std::to_string(i) +
+              ", 0, 0]\n[[spring]]\nfrom = [" + std::to_string(i) + ", 0, 1]\nto = \"p" + std::to_string(i) +
+              "\"\nstiffness = 100\nfree_length = 0.5\n";
+  expect_same_slopes_on_a_plane(points);
 }
 
 /// The rows that the solver uses, by central differences of the conditions themselves. The joint between two

@@ -11,6 +11,9 @@ struct BladedRotorDraft {
   int blades = 0;
   int hub = 0;               ///< index of Draft::bodies
   std::vector<bool> stands;  ///< by triple: of the support or the hub, in the frame that stands
+  /// Of the velocities of inflows, whose triples follow: 1 if the axis is that of rotation, -1 if it is
+  /// opposite.
+  std::vector<int> inflows;
   SourceLocation where;
 };
 

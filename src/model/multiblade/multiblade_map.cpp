@@ -65,6 +65,18 @@ std::vector<std::vector<RotorShare>> MultibladeMap::shares(std::size_t harmonic)
       result[seen].push_back({support[own], part.factor * entry.value});
     }
   }
+  for (const InflowCoordinates& inflow : inflows) {
+    const auto mean = static_cast<std::size_t>(inflow.first), x = mean + 1, y = mean + 2;
+    if (harmonic == 0) result[mean] = {{support[mean], 1.0}};
+    if (harmonic == 1) {
+      result[x] = {{support[x], 1.0}};
+      result[y] = {{support[y], 1.0}};
+    }
+    if (harmonic == 2) {
+      result[x] = {{support[y], static_cast<double>(inflow.sense)}};
+      result[y] = {{support[x], -static_cast<double>(inflow.sense)}};
+    }
+  }
   return result;
 }
 

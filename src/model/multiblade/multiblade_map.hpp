@@ -17,6 +17,9 @@
 // at right angles and of unit length, which are those that the constraints of the hub permit; G leaves it
 // out. What remains is a first harmonic at most, and so sums over N >= 3 blades of products of two of them
 // are constant.
+//
+// The inflow v_0 + v_x x / R + v_y y / R is one of the rotor as a whole, with axes x, y that stand. A blade
+// sees v_0, and (v_x, v_y) turned by -psi about the axis of rotation.
 #pragma once
 
 #include <vector>
@@ -29,6 +32,13 @@ namespace eigentrail {
 struct RotorShare {
   int coordinate = 0;
   double weight = 1.0;
+};
+
+/// Velocity of an inflow: its first coordinate among those of the scene, and the sense in which its axes x, y
+/// turn about the axis of rotation.
+struct InflowCoordinates {
+  int first = 0;
+  int sense = 1;
 };
 
 struct MultibladeMap {
@@ -44,6 +54,7 @@ struct MultibladeMap {
   std::vector<int> stride;
   std::vector<int> blade_row;  ///< likewise by row of the constraints, at distances of one
   int hub_coordinate = 0;      ///< of the scene: the first one of the hub's twelve
+  std::vector<InflowCoordinates> inflows = {};
 
   /// G_a: the entries in the row of each coordinate of the scene.
   std::vector<std::vector<RotorShare>> shares(std::size_t harmonic) const;

@@ -52,12 +52,15 @@ class Touched {
  private:
   void moving(const Place& place) {
     for (const Term& term : place.terms) {
+      if (is_inflow(term.triple)) continue;  // of the rotor as a whole: blades and support may share it
       const bool of_hub = term.triple >= hub_ && term.triple < hub_ + 4;
       hub = hub || of_hub;
       support = support || (!of_hub && stands_[static_cast<std::size_t>(term.triple)]);
       blade = blade || !stands_[static_cast<std::size_t>(term.triple)];
     }
   }
+
+  bool is_inflow(int triple) const { return static_cast<std::size_t>(triple) >= stands_.size(); }
 
   const std::vector<bool>& stands_;
   int hub_;
@@ -185,6 +188,8 @@ class RotorNumbering {
     for (const MassCarrier& mass : scene.masses) {
       if (!stands(mass)) add_blade(mass);
     }
+    for (std::size_t i = 0; i < draft.rotor->inflows.size(); ++i)
+      add_inflow(3 * (draft.rotor->stands.size() + i), draft.rotor->inflows[i]);
     for (std::size_t i = 0; i < parts.state_of_blade.size(); ++i)
       add_state(3 * static_cast<std::size_t>(draft.data.n_triples) + i, parts.state_of_blade[i]);
     for (std::size_t i = 0; i < parts.row_of_blade.size(); ++i) add_row(i, parts.row_of_blade[i]);
@@ -241,6 +246,14 @@ class RotorNumbering {
     const auto sine = static_cast<Eigen::Index>(is_cosine ? a + 1 : a);
     return {(is_cosine ? "progressive" : "regressive") + number, harmonic.number, is_cosine ? 1 : -1, first,
             first + sine * n_triples};
+  }
+
+  void add_inflow(std::size_t first_of_scene, int sense) {
+    map.inflows.push_back({static_cast<int>(first_of_scene), sense});
+    for (std::size_t i = first_of_scene; i < first_of_scene + 3; ++i) {
+      map.support[i] = next();
+      add_coordinate(i, "");
+    }
   }
 
   void add_state(std::size_t of_scene, bool of_blade) {
