@@ -13,9 +13,10 @@ import numpy as np
 
 from command_test_case import CommandTest
 from loci_comparison import differences
+from held_air import with_air_held
 from program import EXIT_BAD_INPUT, PROGRAM, SCENES, TIME_LIMIT, edited
 
-SCENE = (SCENES / "air_resonance_fuselage.toml").read_text(encoding="utf-8")
+SCENE = with_air_held((SCENES / "air_resonance_fuselage.toml").read_text(encoding="utf-8"))
 # Many points, to be met in the middle.
 LONG = edited(SCENE, "tolerance = 1e-6", "tolerance = 1e-9\norder = 1\nmax_step = 0.02")
 
