@@ -16,9 +16,12 @@ namespace {
 /// An event with |Re s| below this multiple of max(|s|, reference) lies on the imaginary axis.
 constexpr double axis_width = 1e-6;
 constexpr int samples_per_step = 8;
-/// Events closer together than this, relative to the parameter range, form one cut.
+/// Events closer together than this, relative to the steps that they are on, form one cut: nearer than the
+/// dense output tells them apart.
 constexpr double same_place = 1e-9;
-/// An event closer to a stored point than this, relative to the parameter range, is at that point.
+/// An event closer to a stored point than this, relative to the step, is at that point. Where eigenvalues
+/// meet and at folds the trace stores a point, so that these events are at the nearer end of their step if it
+/// is within this share of the parameter range (MeetingThresholds::at_point, with a margin).
 constexpr double on_node = 1e-8;
 /// How samples are judged: the accuracy of the dense output, and per mode whether it is left out, because its
 /// eigenvalue is zero throughout.
@@ -94,16 +97,19 @@ PathPosition normalized(const RecordedPath& path, PathPosition at) {
   return at.t >= 1.0 && at.step + 1 < path.steps.size() ? PathPosition{at.step + 1, 0.0} : at;
 }
 
+double length_of(const RecordedPath& path, std::size_t step) {
+  return std::abs(path.p[step + 1] - path.p[step]);
+}
+
 /// Position of an event on the step that ends at node `event.node`.
-PathPosition position_of(const RecordedPath& path, const Event& event) {
+PathPosition position_of(const RecordedPath& path, const Event& event, bool passes) {
   const std::size_t last = path.steps.size() - 1;
   const std::size_t step = std::min(static_cast<std::size_t>(std::max(event.node - 1, 0)), last);
   const double from_left = std::abs(event.p - path.p[step]);
   const double from_right = std::abs(event.p - path.p[step + 1]);
   const std::vector<double> found = step_positions(path.steps[step], event.p);
-  // Where eigenvalues meet and at folds the trace stores a point, so the event is at that point. The nearer
-  // end is also taken if rounding has moved the event off the step.
-  const double near = on_node * (path.highest() - path.lowest());
+  // The nearer end is also taken if rounding has moved the event off the step.
+  const double near = on_node * (passes ? length_of(path, step) : path.highest() - path.lowest());
   if (found.empty() || std::min(from_left, from_right) <= near)
     return normalized(path, {step, from_left < from_right ? 0.0 : 1.0});
   return normalized(path, {step, found.front()});
@@ -119,8 +125,8 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
     const bool on_axis = std::abs(event.s.real()) <= axis_width * scale_of(event.s, accuracy);
     if (!turns && (!on_axis || event.kind == EventKind::veering)) continue;
     const bool passes = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
-    cuts.push_back({position_of(path, event), event.p, event.s, event.modes, event_name(event.kind), true,
-                    passes, turns});
+    cuts.push_back({position_of(path, event, passes), event.p, event.s, event.modes, event_name(event.kind),
+                    true, passes, turns});
   }
   cuts.push_back({{0, 0.0}, path.p.front(), {}, {}, "start", false});
   cuts.push_back({{path.steps.size() - 1, 1.0}, path.p.back(), {}, {}, "end", false});
@@ -130,9 +136,10 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
 
 /// Merges cuts at the same place. An event takes precedence over an end of the trace.
 std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> cuts) {
-  const double near = same_place * (path.highest() - path.lowest());
   std::vector<AxisCut> result;
   for (AxisCut& cut : cuts) {
+    const std::size_t before = result.empty() ? cut.at.step : result.back().at.step;
+    const double near = same_place * (length_of(path, before) + length_of(path, cut.at.step));
     const bool same =
         !result.empty() && (cut.at == result.back().at || (cut.at.step - result.back().at.step <= 1 &&
                                                            std::abs(cut.p - result.back().p) <= near));

@@ -72,6 +72,21 @@ void expect_ranges(const std::vector<StableRange>& found, const std::vector<Expe
 constexpr Stability stable = Stability::stable;
 constexpr Stability marginal = Stability::marginal;
 
+/// Everything happens within the first 1e-10 of the longest range: places are told apart relative to the
+/// steps there. K has no inverse where 10 p^2 + 19 p = 1.99.
+TEST(StableRanges, OfAStructureMuchSmallerThanTheRange) {
+  const double divergence = (std::sqrt(361.0 + 4.0 * 10.0 * 1.99) - 19.0) / 20.0;
+  for (const char* to : {"1", "1e3", "1e6", "1e9"}) {
+    SCOPED_TRACE(to);
+    const TracedRanges traced = traced_family("from = 0\nto = " + std::string(to),
+                                              "M = [ [[1, 0], [0, 1]] ]\n"
+                                              "C = [ [[0.1, 0], [0, 0.2]] ]\n"
+                                              "K = [ [[1, 0.1], [0.1, 2]], [[-10, 0], [0, 1]] ]\n");
+    ASSERT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
+    expect_ranges(traced.ranges, {{stable, 0.0, divergence, "start", "divergence"}});
+  }
+}
+
 struct RangesCase {
   std::string hard_case;
   std::vector<ExpectedRange> ranges;

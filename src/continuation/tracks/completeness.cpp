@@ -1,5 +1,5 @@
-#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/arrival.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
-#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/newcomers.hpp"
+#include "continuation/tracks/arrival.hpp"
 
 #include <algorithm>
 
