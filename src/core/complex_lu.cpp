@@ -8,6 +8,10 @@
 extern "C" void ztrsv_(const char* triangle, const char* form, const char* diagonal, const int* n,
                        const eigentrail::Complex* A, const int* stride, eigentrail::Complex* b,
                        const int* increment);
+extern "C" void ztrsm_(const char* side, const char* triangle, const char* form, const char* diagonal,
+                       const int* m, const int* n, const eigentrail::Complex* alpha,
+                       const eigentrail::Complex* A, const int* stride_A, eigentrail::Complex* B,
+                       const int* stride_B);
 
 namespace eigentrail {
 
@@ -31,6 +35,29 @@ void ComplexLu::solve_adjoint_in_place(ComplexVector& b) const {
   substitute('L', 'C', b);
   for (std::size_t i = pivots_.size(); i-- > 0;)
     std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);
+}
+
+void ComplexLu::solve_in_place(ComplexMatrix& B) const {
+  for (std::size_t i = 0; i < pivots_.size(); ++i)
+    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots_[i] - 1));
+  substitute('L', 'N', B);
+  substitute('U', 'N', B);
+}
+
+void ComplexLu::solve_adjoint_in_place(ComplexMatrix& B) const {
+  substitute('U', 'C', B);
+  substitute('L', 'C', B);
+  for (std::size_t i = pivots_.size(); i-- > 0;)
+    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots_[i] - 1));
+}
+
+void ComplexLu::substitute(char triangle, char form, ComplexMatrix& B) const {
+  const auto n = static_cast<int>(factors_.rows());
+  const auto columns = static_cast<int>(B.cols());
+  const char side = 'L';
+  const char diagonal = triangle == 'L' ? 'U' : 'N';
+  const Complex one(1.0);
+  ztrsm_(&side, &triangle, &form, &diagonal, &n, &columns, &one, factors_.data(), &n, B.data(), &n);
 }
 
 void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {

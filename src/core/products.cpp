@@ -7,13 +7,14 @@ extern "C" {
 void dgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
             const double* alpha, const double* A, const int* stride_A, const double* B, const int* stride_B,
             const double* beta, double* C, const int* stride_C);
-void dgemv_(const char* form, const int* m, const int* n, const double* alpha, const double* A,
-            const int* stride_A, const double* x, const int* increment_x, const double* beta, double* y,
-            const int* increment_y);
 void zgemv_(const char* form, const int* m, const int* n, const eigentrail::Complex* alpha,
             const eigentrail::Complex* A, const int* stride_A, const eigentrail::Complex* x,
             const int* increment_x, const eigentrail::Complex* beta, eigentrail::Complex* y,
             const int* increment_y);
+void zgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
+            const eigentrail::Complex* alpha, const eigentrail::Complex* A, const int* stride_A,
+            const eigentrail::Complex* B, const int* stride_B, const eigentrail::Complex* beta,
+            eigentrail::Complex* C, const int* stride_C);
 }
 
 namespace eigentrail {
@@ -44,19 +45,35 @@ ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   return y;
 }
 
-/// A x (form 'N') or A^T x (form 'T') for a complex vector x, given as a matrix of one column.
-ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
-  const auto rows = static_cast<int>(A.rows());
-  const auto columns = static_cast<int>(A.cols());
+ComplexMatrix zgemm(char form, const ComplexMatrix& A, const ComplexMatrix& X) {
+  const auto rows = static_cast<int>(form == 'N' ? A.rows() : A.cols());
+  const auto columns = static_cast<int>(X.cols());
+  const auto inner = static_cast<int>(X.rows());
+  if (rows == 0 || columns == 0 || inner == 0) return ComplexMatrix::Zero(rows, columns);
+  const auto stride = static_cast<int>(A.rows());
+  const Complex one = 1.0, zero = 0.0;
+  ComplexMatrix Y(rows, columns);
+  zgemm_(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, X.data(), &inner, &zero, Y.data(),
+         &rows);
+  return Y;
+}
+
+/// A x (form 'N') or A^T x (form 'T') for a complex vector x, given as a matrix of one column. Real and
+/// imaginary parts alternate in memory, as the columns of a real matrix of two rows: its product with A^T or
+/// A reads A once, and takes half the time of two products with vectors.
+ComplexMatrix two_rows(char form, const Matrix& A, const ComplexMatrix& x) {
+  const auto stride = static_cast<int>(A.rows());
+  const auto size = static_cast<int>(form == 'N' ? A.rows() : A.cols());
+  const auto inner = static_cast<int>(x.rows());
   const double one = 1.0, zero = 0.0;
-  const int next = 2;  // real and imaginary parts alternate in memory
-  ComplexMatrix y(form == 'N' ? rows : columns, 1);
+  const int parts = 2;
+  ComplexMatrix y(size, 1);
   // The standard guarantees that std::complex<double> can be read as an array of two doubles
   // ([complex.numbers]).
   const auto* const from = reinterpret_cast<const double*>(x.data());
   auto* const to = reinterpret_cast<double*>(y.data());
-  for (const int part : {0, 1})
-    dgemv_(&form, &rows, &columns, &one, A.data(), &rows, from + part, &next, &zero, to + part, &next);
+  dgemm_("N", form == 'N' ? "T" : "N", &parts, &size, &inner, &one, from, &parts, A.data(), &stride, &zero,
+         to, &parts);
   return y;
 }
 
@@ -64,7 +81,7 @@ ComplexMatrix dgemv(char form, const Matrix& A, const ComplexMatrix& x) {
 ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   const Eigen::Index columns = X.cols();
   if (A.size() == 0) return ComplexMatrix::Zero(form == 'N' ? A.rows() : A.cols(), columns);
-  if (columns == 1) return dgemv(form, A, X);
+  if (columns == 1) return two_rows(form, A, X);
   Matrix parts(X.rows(), 2 * columns);
   parts << X.real(), X.imag();
   const Matrix AX = dgemm(form, A, parts);
@@ -157,6 +174,14 @@ ComplexVector product(const ComplexMatrix& A, const ComplexVector& x) {
 
 ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x) {
   return zgemv('C', A, x);
+}
+
+ComplexMatrix product(const ComplexMatrix& A, const ComplexMatrix& X) {
+  return zgemm('N', A, X);
+}
+
+ComplexMatrix adjoint_product(const ComplexMatrix& A, const ComplexMatrix& X) {
+  return zgemm('C', A, X);
 }
 
 Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C) {

@@ -41,4 +41,8 @@ ComplexMatrix transposed_product(const Matrix& A, const ComplexMatrix& X);
 ComplexVector product(const ComplexMatrix& A, const ComplexVector& x);
 ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x);
 
+/// A X and A^H X.
+ComplexMatrix product(const ComplexMatrix& A, const ComplexMatrix& X);
+ComplexMatrix adjoint_product(const ComplexMatrix& A, const ComplexMatrix& X);
+
 }  // namespace eigentrail

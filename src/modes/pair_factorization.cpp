@@ -13,6 +13,16 @@ namespace {
 /// this factor per correction.
 constexpr double unreal = 1e-6;
 
+/// Overwrites every column of B with what `map` makes of it.
+template <class Map>
+void for_each_column(ComplexMatrix& B, Map map) {
+  for (Eigen::Index j = 0; j < B.cols(); ++j) {
+    ComplexVector column = B.col(j);
+    map(column);
+    B.col(j) = column;
+  }
+}
+
 /// Phase of a vector that is real up to a phase; empty if it is not.
 std::optional<Complex> phase_of(const ComplexVector& z) {
   const Complex square = (z.transpose() * z)(0, 0);
@@ -123,6 +133,20 @@ void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
     columns_.front().solve_adjoint_in_place(b);
   }
   b[n] *= border_scale_;
+}
+
+void PairFactorization::solve_in_place(ComplexMatrix& B) const {
+  if (coupling_ || real_) return for_each_column(B, [this](ComplexVector& b) { solve_in_place(b); });
+  B.bottomRows(1) *= border_scale_;
+  columns_.front().solve_in_place(B);
+  B.bottomRows(1) *= slope_scale_;
+}
+
+void PairFactorization::solve_adjoint_in_place(ComplexMatrix& B) const {
+  if (coupling_ || real_) return for_each_column(B, [this](ComplexVector& b) { solve_adjoint_in_place(b); });
+  B.bottomRows(1) *= slope_scale_;
+  columns_.front().solve_adjoint_in_place(B);
+  B.bottomRows(1) *= border_scale_;
 }
 
 void PairFactorization::solve_block(ComplexVector& b) const {

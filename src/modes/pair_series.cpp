@@ -151,7 +151,7 @@ class ModeEquations {
 
   /// Adds the terms in Z_j and mu_j to the residual and sets those of the normalization.
   void unknown_terms(Eigen::Index j, ComplexMatrix& residual, ComplexMatrix& defect) const {
-    residual += product(P_, Z.col(j));
+    residual += product(P_, ComplexVector(Z.col(j)));
     residual += mu[j] * slope_;
     defect(0, 0) = W0_.dot(Z.col(j));
   }

@@ -62,7 +62,9 @@ class ChangeOfJacobian : public testing::TestWithParam<Place> {
 };
 
 TEST_P(ChangeOfJacobian, IsTheDifferenceOfBoth) {
-  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_there, to.Z, to.Lambda}, W1, scale);
+  const PairAtPlace here_{pencil_here, from.Z, from.Lambda};
+  const PairProducts products(here_);
+  const JacobianChange change(here_, products, {pencil_there, to.Z, to.Lambda}, W1, scale);
   const ComplexVector expected = linearized(pencil_there, to, W1, v) - linearized(pencil_here, from, W1, v);
   EXPECT_LT((change.times(v) - expected).norm(), 1e-13 * expected.norm());
 }
@@ -73,19 +75,35 @@ TEST_P(ChangeOfJacobian, IsThatOfTheMatrices) {
   ComplexMatrix W(2 * n, k);
   W << random_complex(n, k, engine), W1;
   const ComplexMatrix expected = jacobian_matrix(there_, W, scale) - jacobian_matrix(here_, W, scale);
-  const ComplexVector change = JacobianChange(here_, there_, W1, scale).times(v);
+  const ComplexVector change = JacobianChange(here_, PairProducts(here_), there_, W1, scale).times(v);
   EXPECT_LT((change - expected * v).norm(), 1e-13 * change.norm());
 }
 
 TEST_P(ChangeOfJacobian, HasAnAdjoint) {
-  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_there, to.Z, to.Lambda}, W1, scale);
+  const PairAtPlace here_{pencil_here, from.Z, from.Lambda};
+  const PairProducts products(here_);
+  const JacobianChange change(here_, products, {pencil_there, to.Z, to.Lambda}, W1, scale);
   const Complex expected = u.dot(change.times(v));
   EXPECT_LT(std::abs(change.adjoint_times(u).dot(v) - expected), 1e-12 * std::abs(expected));
 }
 
+TEST_P(ChangeOfJacobian, IsTheSameOfColumns) {
+  const PairAtPlace here_{pencil_here, from.Z, from.Lambda};
+  const PairProducts products(here_);
+  const JacobianChange change(here_, products, {pencil_there, to.Z, to.Lambda}, W1, scale);
+  ComplexMatrix columns(v.size(), 2);
+  columns << v, u;
+  ComplexMatrix expected(v.size(), 2), adjoint(v.size(), 2);
+  expected << change.times(v), change.times(u);
+  adjoint << change.adjoint_times(v), change.adjoint_times(u);
+  EXPECT_LT((change.times(columns) - expected).norm(), 1e-13 * expected.norm());
+  EXPECT_LT((change.adjoint_times(columns) - adjoint).norm(), 1e-13 * adjoint.norm());
+}
+
 TEST_P(ChangeOfJacobian, IsNothingFromAPlaceToItself) {
-  const JacobianChange change({pencil_here, from.Z, from.Lambda}, {pencil_here, from.Z, from.Lambda}, W1,
-                              scale);
+  const PairAtPlace here_{pencil_here, from.Z, from.Lambda};
+  const PairProducts products(here_);
+  const JacobianChange change(here_, products, here_, W1, scale);
   EXPECT_LT(change.times(v).norm(), 1e-13 * linearized(pencil_here, from, W1, v).norm());
 }
 

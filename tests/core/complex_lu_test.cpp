@@ -23,6 +23,13 @@ TEST(ComplexLu, SolvesItsEquationsAndTheirAdjoint) {
     ComplexVector adjoint = A.adjoint() * x;
     lu.solve_adjoint_in_place(adjoint);
     EXPECT_LT((adjoint - x).norm(), 1e-10 * x.norm()) << n;
+    const ComplexMatrix X = ComplexMatrix::Random(n, 3);
+    ComplexMatrix solutions = A * X;
+    lu.solve_in_place(solutions);
+    EXPECT_LT((solutions - X).norm(), 1e-10 * X.norm()) << n;
+    ComplexMatrix adjoints = A.adjoint() * X;
+    lu.solve_adjoint_in_place(adjoints);
+    EXPECT_LT((adjoints - X).norm(), 1e-10 * X.norm()) << n;
   }
 }
 

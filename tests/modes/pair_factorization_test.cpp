@@ -59,7 +59,7 @@ TEST_P(SingleModeFactors, SolveTheirEquations) {
   EXPECT_LT(std::abs(z.dot(dZ.col(0)) - N(0, 0)), 1e-13 * dZ.norm());
 }
 
-/// Whether <B u, v> = <u, B^H v>.
+/// Whether <B u, v> = <u, B^H v>, and columns of a matrix give the same as vectors.
 void expect_adjoint(const PairFactorization& factors, Eigen::Index size, std::mt19937_64& engine) {
   const ComplexVector u = random_vector(size, engine);
   const ComplexVector v = random_vector(size, engine);
@@ -69,6 +69,13 @@ void expect_adjoint(const PairFactorization& factors, Eigen::Index size, std::mt
   factors.solve_adjoint_in_place(adjoint);
   EXPECT_LT(std::abs(Bu.dot(v) - u.dot(adjoint)), 1e-13 * Bu.norm() * v.norm() * static_cast<double>(size));
   EXPECT_GT(std::abs(Bu.dot(v)), 1e-3 * Bu.norm() * v.norm()) << "nothing compared";
+  ComplexMatrix columns(size, 2);
+  columns << u, u;
+  factors.solve_in_place(columns);
+  EXPECT_LT((columns.colwise() - Bu).norm(), 1e-11 * Bu.norm());
+  columns << v, v;
+  factors.solve_adjoint_in_place(columns);
+  EXPECT_LT((columns.colwise() - adjoint).norm(), 1e-11 * adjoint.norm());
 }
 
 TEST_P(SingleModeFactors, HaveAnAdjoint) {

@@ -23,10 +23,15 @@ class ComplexLu {
   /// Overwrites b with A^-H b.
   void solve_adjoint_in_place(ComplexVector& b) const;
 
+  /// The same for several right sides, the columns of B. Takes much less time than one by one.
+  void solve_in_place(ComplexMatrix& B) const;
+  void solve_adjoint_in_place(ComplexMatrix& B) const;
+
  private:
   /// Overwrites b with L^-1 b or U^-1 b (form 'N'), or with L^-H b or U^-H b (form 'C'); triangle is 'L' or
   /// 'U'.
   void substitute(char triangle, char form, ComplexVector& b) const;
+  void substitute(char triangle, char form, ComplexMatrix& B) const;
 
   ComplexMatrix factors_;
   std::vector<int> pivots_;

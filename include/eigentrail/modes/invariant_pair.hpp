@@ -62,6 +62,10 @@ class PairFactorization {
   /// Overwrites b with B^H b, where B is the linear map of solve_in_place.
   void solve_adjoint_in_place(ComplexVector& b) const;
 
+  /// The same on each column of B; for a single mode all at once, which takes less time.
+  void solve_in_place(ComplexMatrix& B) const;
+  void solve_adjoint_in_place(ComplexMatrix& B) const;
+
   /// Bound of |dLambda| / |R|: how much a residual changes the block as a whole.
   double sensitivity() const;
 

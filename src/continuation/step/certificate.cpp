@@ -58,15 +58,28 @@ class WholeInverse {
   WholeInverse(const PairAtPlace& at, const ComplexMatrix& W, double scale)
       : W_(W), scale_(scale), J_(jacobian_matrix(at, W, scale)), lu_(J_) {}
 
-  void apply(ComplexVector& v) const { lu_.solve_in_place(v); }
-  void apply_adjoint(ComplexVector& v) const { lu_.solve_adjoint_in_place(v); }
+  /// B v and B^H v, of a vector or of the columns of a matrix.
+  template <class Vectors>
+  void apply(Vectors& v) const {
+    lu_.solve_in_place(v);
+  }
+  template <class Vectors>
+  void apply_adjoint(Vectors& v) const {
+    lu_.solve_adjoint_in_place(v);
+  }
   double scale() const { return scale_; }
 
   struct Change {
     ComplexMatrix matrix;
 
-    ComplexVector times(const ComplexVector& v) const { return product(matrix, v); }
-    ComplexVector adjoint_times(const ComplexVector& v) const { return adjoint_product(matrix, v); }
+    template <class Vectors>
+    Vectors times(const Vectors& v) const {
+      return product(matrix, v);
+    }
+    template <class Vectors>
+    Vectors adjoint_times(const Vectors& v) const {
+      return adjoint_product(matrix, v);
+    }
   };
   Change change_to(const PairAtPlace& other) const { return {jacobian_matrix(other, W_, scale_) - J_}; }
 
@@ -81,22 +94,25 @@ class WholeInverse {
 class TriangularInverse {
  public:
   TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
-      : at_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
+      : at_(at), products_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
 
-  void apply(ComplexVector& v) const {
+  template <class Vectors>
+  void apply(Vectors& v) const {
     factors_.solve_in_place(v);
-    v.tail(at_.Lambda.size()) *= 1.0 / scale_;  // the division of complex numbers might underflow
+    v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;  // the division of complex numbers might underflow
   }
-  void apply_adjoint(ComplexVector& v) const {
-    v.tail(at_.Lambda.size()) *= 1.0 / scale_;
+  template <class Vectors>
+  void apply_adjoint(Vectors& v) const {
+    v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;
     factors_.solve_adjoint_in_place(v);
   }
   double scale() const { return scale_; }
 
-  JacobianChange change_to(const PairAtPlace& other) const { return {at_, other, W1_, scale_}; }
+  JacobianChange change_to(const PairAtPlace& other) const { return {at_, products_, other, W1_, scale_}; }
 
  private:
   PairAtPlace at_;
+  PairProducts products_;
   const ComplexMatrix& W1_;
   double scale_;
   PairFactorization factors_;
@@ -245,18 +261,14 @@ class Tube {
   /// The norm in which B A is small, if that is possible by scaling few directions.
   template <class Inverse, class Operator>
   static AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const ComplexVector& direction) {
-    const auto each = [](ComplexMatrix X, const auto& map) {
-      for (Eigen::Index i = 0; i < X.cols(); ++i) X.col(i) = map(ComplexVector(X.col(i)));
-      return X;
+    const auto times = [&](const ComplexMatrix& X) {
+      ComplexMatrix Y = A.times(X);
+      B.apply(Y);
+      return Y;
     };
-    const auto times = [&](ComplexVector v) {
-      v = A.times(v);
-      B.apply(v);
-      return v;
-    };
-    const auto adjoint_times = [&](ComplexVector v) {
-      B.apply_adjoint(v);
-      return A.adjoint_times(v);
+    const auto adjoint_times = [&](ComplexMatrix X) {
+      B.apply_adjoint(X);
+      return ComplexMatrix(A.adjoint_times(X));
     };
     const Eigen::Index size = direction.size();
     const Eigen::Index wanted = std::clamp(size / unknowns_per_direction, least_directions, most_directions);
@@ -265,15 +277,15 @@ class Tube {
       Q.col(j) = j == 0 ? direction : start_vector(Q.rows(), static_cast<double>(j));
     ComplexMatrix adjoint;
     for (int i = 0; i < subspace_iterations; ++i) {
-      Q = orthonormal(each(i == 0 ? Q : orthonormal(adjoint), times));
-      adjoint = each(Q, adjoint_times);
+      Q = orthonormal(times(i == 0 ? Q : orthonormal(adjoint)));
+      adjoint = adjoint_times(Q);
     }
     if (!adjoint.allFinite()) return {};
     // The left singular vectors.
     const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(adjoint.adjoint() * adjoint);
     Q = Q * squares.eigenvectors();
     adjoint = adjoint * squares.eigenvectors();
-    const ComplexMatrix TQ = each(Q, times);
+    const ComplexMatrix TQ = times(Q);
     return TQ.allFinite() ? AdaptedNorm::balancing(std::move(Q), TQ, adjoint) : AdaptedNorm();
   }
 

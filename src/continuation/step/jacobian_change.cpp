@@ -15,14 +15,9 @@ double unknown_scale(double gap, double size) {
   return std::max({0.5 * gap, least * size, tiny});
 }
 
-namespace {
-
-/// M Z Lambda + C Z.
-ComplexMatrix slope_of(const PairAtPlace& place, const ComplexMatrix& MZ) {
-  return MZ.lazyProduct(place.Lambda) + multiply(place.pencil.C, place.Z);
-}
-
-}  // namespace
+PairProducts::PairProducts(const PairAtPlace& place)
+    : MZ(multiply(place.pencil.M, place.Z)),
+      slope(MZ.lazyProduct(place.Lambda) + multiply(place.pencil.C, place.Z)) {}
 
 /// The n x n block (i, j) maps column j of Z to column i of the residual. It is (Lambda^2)(j, i) M +
 /// Lambda(j, i) C, plus K for i = j. The blocks of Lambda and of the normalization are arranged in the same
@@ -32,8 +27,7 @@ ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, dou
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const ComplexMatrix L2 = Lambda * Lambda;
-  const ComplexMatrix MZ = multiply(pencil.M, Z);
-  const ComplexMatrix slope = slope_of(at, MZ);
+  const auto [MZ, slope] = PairProducts(at);
   const ComplexMatrix W0 = W.topRows(n).adjoint();
   const ComplexMatrix W1 = W.bottomRows(n).adjoint();
   const ComplexMatrix W1Z = W1 * Z;
@@ -53,17 +47,17 @@ ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, dou
   return J;
 }
 
-JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1,
-                               double scale)
+JacobianChange::JacobianChange(const PairAtPlace& from, const PairProducts& at_from, const PairAtPlace& to,
+                               const ComplexMatrix& W1, double scale)
     : from_(from),
       to_(to),
       W1_(W1),
       scale_(scale),
-      MZ_from_(multiply(from.pencil.M, from.Z)),
-      MZ_to_(multiply(to.pencil.M, to.Z)),
+      at_from_(at_from),
+      at_to_(to),
       Z_(to.Z - from.Z),
       Lambda_(to.Lambda - from.Lambda),
-      slope_(slope_of(to, MZ_to_) - slope_of(from, MZ_from_)) {
+      slope_(at_to_.slope - at_from_.slope) {
   if (Z_.cols() == 1) {
     set_pencil();
   } else {
@@ -110,8 +104,8 @@ ComplexVector JacobianChange::times(const ComplexVector& v) const {
   const Eigen::Index k = Z_.cols();
   const ComplexMatrix X = v.head(n * k).reshaped(n, k);
   const ComplexMatrix Y = scale_ * v.tail(k * k).reshaped(k, k);
-  ComplexMatrix R =
-      MZ_to_.lazyProduct(Y * to_.Lambda) - MZ_from_.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
+  ComplexMatrix R = at_to_.MZ.lazyProduct(Y * to_.Lambda) - at_from_.MZ.lazyProduct(Y * from_.Lambda) +
+                    slope_.lazyProduct(Y);
   ComplexMatrix N = ComplexMatrix::Zero(k, k);
   if (k == 1) {  // a block of one has W1 = 0, so N = 0
     R += product(P_, ComplexVector(X));
@@ -126,12 +120,43 @@ ComplexVector JacobianChange::times(const ComplexVector& v) const {
   return result;
 }
 
+ComplexVector JacobianChange::of_eigenvalue() const {
+  return scale_ * (to_.Lambda(0, 0) * at_to_.MZ - from_.Lambda(0, 0) * at_from_.MZ + slope_);
+}
+
+// A single mode has W1 = 0: the last row is zero.
+
+ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
+  ComplexMatrix result = ComplexMatrix::Zero(V.rows(), V.cols());
+  const Eigen::Index n = Z_.rows();
+  if (Z_.cols() == 1) {
+    result.topRows(n) = product(P_, ComplexMatrix(V.topRows(n)));
+    result.topRows(n) += of_eigenvalue() * V.row(n);
+  } else {
+    for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = times(ComplexVector(V.col(j)));
+  }
+  return result;
+}
+
+ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
+  ComplexMatrix result(V.rows(), V.cols());
+  const Eigen::Index n = Z_.rows();
+  if (Z_.cols() == 1) {
+    const ComplexMatrix R = V.topRows(n);
+    result.topRows(n) = adjoint_product(P_, R);
+    result.row(n) = of_eigenvalue().adjoint() * R;
+  } else {
+    for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = adjoint_times(ComplexVector(V.col(j)));
+  }
+  return result;
+}
+
 ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
   const ComplexMatrix R = v.head(n * k).reshaped(n, k);
-  ComplexMatrix Y = (MZ_to_.adjoint() * R) * to_.Lambda.adjoint() -
-                    (MZ_from_.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R;
+  ComplexMatrix Y = (at_to_.MZ.adjoint() * R) * to_.Lambda.adjoint() -
+                    (at_from_.MZ.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R;
   ComplexMatrix X;
   if (k == 1) {
     X = adjoint_product(P_, ComplexVector(R));

@@ -24,25 +24,41 @@ struct PairAtPlace {
 /// (vec Z, vec Lambda / scale). W = [W0; W1] is 2n x k.
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale);
 
+/// What the Jacobian of a pair needs besides its pencil: M Z and M Z Lambda + C Z.
+struct PairProducts {
+  explicit PairProducts(const PairAtPlace& place);
+
+  ComplexMatrix MZ, slope;
+};
+
 /// J(to) - J(from) as a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Keeps references to its
 /// arguments. For a single mode the change is stored as a matrix, for a block as a sum of products, because
 /// the matrix would have k^2 times the entries of the pencil.
 class JacobianChange {
  public:
-  /// W1 (n x k) is the lower half of the normalization W.
-  JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1, double scale);
+  /// W1 (n x k) is the lower half of the normalization W. `at_from`: the products at `from`, which changes to
+  /// several places share.
+  JacobianChange(const PairAtPlace& from, const PairProducts& at_from, const PairAtPlace& to,
+                 const ComplexMatrix& W1, double scale);
 
   ComplexVector times(const ComplexVector& v) const;
   ComplexVector adjoint_times(const ComplexVector& v) const;
 
+  /// The same for each column of V; for a single mode all at once, which takes less time.
+  ComplexMatrix times(const ComplexMatrix& V) const;
+  ComplexMatrix adjoint_times(const ComplexMatrix& V) const;
+
  private:
   void set_pencil();
   void set_terms();
+  /// What a change of the eigenvalue of a single mode, over `scale`, adds to the equations.
+  ComplexVector of_eigenvalue() const;
 
   PairAtPlace from_, to_;
   const ComplexMatrix& W1_;
   double scale_;
-  ComplexMatrix MZ_from_, MZ_to_;
+  const PairProducts& at_from_;
+  PairProducts at_to_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
   ComplexMatrix P_;                   ///< for a single mode: the change of s^2 M + s C + K
   /// For a block, the change is X -> sum of B_i X L_i. The B_i are stacked in one matrix, because one product
