@@ -8,6 +8,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/import/importer.hpp"
+#include "output.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // defined only if LAPACK is OpenBLAS
 
@@ -101,10 +102,6 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) try {
   eigentrail::app::use_one_thread_within_blas();
   return eigentrail::app::run(argc, argv);
-} catch (const eigentrail::InputError& error) {
-  std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());
-  return eigentrail::app::bad_input;
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "eigentrail: %s\n", eigentrail::printable(error.what()).c_str());
-  return eigentrail::app::numbers_failed;
+  return eigentrail::app::report_error(error);
 }

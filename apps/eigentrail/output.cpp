@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <numbers>
 
+#include "commands.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
@@ -16,6 +18,11 @@ namespace {
 constexpr double known_digits = 1e-12;
 
 }  // namespace
+
+int report_error(const std::exception& error) {
+  std::fprintf(stderr, "eigentrail: %s\n", printable(error.what()).c_str());
+  return dynamic_cast<const InputError*>(&error) != nullptr ? bad_input : numbers_failed;
+}
 
 std::string rounded(double value, int digits) {
   std::array<char, 48> buffer{};

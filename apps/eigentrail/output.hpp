@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "eigentrail/continuation/event.hpp"
 
 namespace eigentrail::app {
+
+/// Prints an error. Returns the exit code that belongs to it.
+int report_error(const std::exception& error);
 
 /// A number as text with `digits` significant digits.
 std::string rounded(double value, int digits = 6);

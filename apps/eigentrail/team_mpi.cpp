@@ -27,6 +27,7 @@
 #include "eigentrail/core/text.hpp"
 #include "launcher.hpp"
 #include "mpi_session.hpp"
+#include "output.hpp"
 #include "team.hpp"
 
 namespace eigentrail::app {
@@ -115,6 +116,12 @@ std::vector<std::int64_t> all_numbers(std::int64_t own, int size) {
   MPI_Iallgather(&own, 1, MPI_INT64_T, numbers.data(), 1, MPI_INT64_T, MPI_COMM_WORLD, &request);
   wait_for(request);
   return numbers;
+}
+
+void wait_for_all() {
+  MPI_Request request{};
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 /// Threads of this process that compute pieces which the communicating thread hands to them.
@@ -367,20 +374,24 @@ class MpiTeam final : public Team {
   }
   bool leads() const override { return processes_.leads(); }
 
-  /// The command in this process.
+  /// The command in this process. An error is printed before any process ends: launchers stop all others at
+  /// the first one that ends with an error.
   int run(const std::function<int(Team&)>& command) {
     if (!leads() && (std::freopen("/dev/null", "w", stdout) == nullptr ||
                      std::freopen("/dev/null", "w", stderr) == nullptr))
       throw std::runtime_error("/dev/null: cannot be opened");
+    int code = done;
     try {
-      int code = done;
       const Outcome own = outcome_of([&] { return code = command(*this), std::string(); });
       processes_.agree(own);
       if (own.code != done) throw_error(own);
-      return code;
     } catch (const OtherProcessFailed& failed) {
-      return failed.code;
+      code = failed.code;
+    } catch (const std::exception& error) {
+      code = report_error(error);
     }
+    wait_for_all();
+    return code;
   }
 
  private:

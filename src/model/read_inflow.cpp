@@ -92,11 +92,11 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   const ExpressionVector wind = draft.read_vector(table, "wind", "m/s", Range::any, ExpressionVector{});
   check_axis(draft, table, "wind", axis, wind);
   check_axis(draft, table, "axis", axis, rotation);
+  if (table.has("blades") && draft.rotor)
+    table.fail("blades", "with [rotor] their number is stated there; leave it out here");
   if (table.has("blades") && model == "pitt_peters")
     table.fail("blades",
                "needs model = \"uniform\" or \"annular\"; with pitt_peters the scene has all blades");
-  if (table.has("blades") && draft.rotor)
-    table.fail("blades", "with [rotor] their number is stated there; leave it out here");
   if (table.has("tip_loss")) inflow.tip_loss = table.flag("tip_loss");
   if (inflow.tip_loss && !inflow.annular) table.fail("tip_loss", "needs model = \"annular\"");
   const Expression blades = draft.read_number(table, "blades", "", Range::positive, 1.0);

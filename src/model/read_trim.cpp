@@ -141,26 +141,36 @@ class TrimReader {
     return draft_.read_moving_place(reader, "condition");
   }
 
-  bool is_inflow(const std::string& name) const {
-    return std::any_of(inflows_.begin(), inflows_.end(),
-                       [&](const InflowDraft& inflow) { return inflow.name == name; });
+  /// Names of the inflows of the scene, also of those that are left out.
+  std::vector<std::string> inflow_names() {
+    const std::vector<const Table*> all = tables(draft_.scene, std::string(Inflow::name));
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < all.size(); ++i) names.push_back(name_of(*all[i], Inflow::name, i));
+    return names;
+  }
+
+  bool is_inflow(const std::string& name) {
+    const std::vector<std::string> names = inflow_names();
+    return std::find(names.begin(), names.end(), name) != names.end();
   }
 
   /// What the thrust does on the coordinate of the mean inflow; the air answers it.
   TrimLoad thrust(TableReader& table, const std::string& name) {
+    if (draft_.is_left_out(Inflow::name) && is_inflow(name))
+      table.fail("condition", "the inflow '" + name + "' is left out; leave out the condition, too");
     TrimLoad load;
-    std::vector<std::string> names;
     for (const InflowDraft& inflow : inflows_) {
-      names.push_back(inflow.name);
       if (inflow.name != name) continue;
       if (!inflow.annular) load.motion.places = {inflow.element.velocity.terms.front().triple};
       for (const Inflow& annulus : inflow.annuli)
         load.motion.places.push_back(annulus.velocity.terms.front().triple);
     }
-    if (load.motion.places.empty())
+    if (load.motion.places.empty()) {
+      const std::vector<std::string> names = inflow_names();
       table.fail("condition",
                  "no [[inflow]] is called '" + name + "'" +
                      (names.empty() ? "; force(strips, axis) needs none" : "; " + suggestion(name, names)));
+    }
     take<Inflow>(name, load);
     load.motion.axis = fixed_axis({0});
     load.motion.factor = -1.0;
@@ -307,9 +317,12 @@ class TrimReader {
                                       "' is left out; leave out the condition, too");
       }
     }
+    if (of == Quantities::strips) {
+      for (std::string& inflow : inflow_names()) names.push_back(std::move(inflow));
+    }
     const char* what = of == Quantities::moments  ? "no joint or torsional spring"
                        : of == Quantities::forces ? "no joint or strips"
-                                                  : "no strips";
+                                                  : "no strips or inflow";
     table.fail("condition", std::string(what) + " is called '" + name + "'; " + suggestion(name, names));
   }
 

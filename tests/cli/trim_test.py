@@ -94,7 +94,7 @@ class Trim(CommandTest):
         self.assertEqual(differences(self.folder / "out.h5", self.folder / "whole.h5"), [])
 
     def test_thrust_is_that_of_strips_on_the_blade(self):
-        for condition, message in (("thrust(fuselage) = weight", "no strips is called 'fuselage'; known: air"),
+        for condition, message in (("thrust(fuselage) = weight", "no strips or inflow is called 'fuselage'; known: air"),
                                    ("thrust(air) = pitch", "N is expected"),
                                    ("thrust(air, z) = weight", "expected one name in the brackets")):
             with self.subTest(condition):

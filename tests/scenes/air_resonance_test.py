@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from held_air import tables, with_air_held
-from program import SCENES, edited
+from program import EXIT_BAD_INPUT, SCENES, edited
 from rotor_test_case import RotorTest
 
 DENSITY, RADIUS, THRUST = 1.225, 5.0, 15000.0
@@ -134,6 +134,18 @@ class AirResonanceOnAFuselage(RotorTest):
             mean = np.array([loci["equilibrium"][:, names.index(f"disc, annulus {i + 1}.mean")] for i in range(6)])
             np.testing.assert_allclose(2.0 * DENSITY * (2.0 * np.pi * r * width) @ mean**2, THRUST, rtol=1e-9)
             self.assertGreater(np.min(np.ptp(mean, axis=0)), 1.0)
+
+    def test_mistakes_are_named(self):
+        for old, new, options, message in (
+                ('inflow     = "disc"', 'inflow = "disk"', (), "did you mean 'disc'?"),
+                ("thrust(disc)", "thrust(disk)", (), "no strips or inflow is called 'disk'; did you mean 'disc'?"),
+                ('model   = "pitt_peters"', "blades = 4", (), "with [rotor] their number is stated there"),
+                ("", "", ("--without", "inflow"), "the inflow 'disc' is left out; leave out the condition, too")):
+            with self.subTest(message):
+                self.write("scene.toml", edited(self.scene_text(), old, new) if old else self.scene_text())
+                run = self.run_program("explain", "scene.toml", *options)
+                self.assertEqual(run.returncode, EXIT_BAD_INPUT, run.stderr)
+                self.assertIn(message, run.stderr)
 
     def trimmed(self, file, omega, *names):
         """Unknowns there."""

@@ -354,7 +354,7 @@ TEST(RotorTrim, MistakesAreNamed) {
   const std::string of_mount =
       "[[strips]]\nname = \"mount air\"\non = \"mount\"\nroot = [0, 0, 0]\ntip = [1, 0, 0]\nleading = [0, 1, "
       "0]\nchord = 0.1\n";
-  for (const Case& c : {Case{"", "thrust(hub) = weight", "no strips is called 'hub'; known: air"},
+  for (const Case& c : {Case{"", "thrust(hub) = weight", "no strips or inflow is called 'hub'; known: air"},
                         Case{of_mount, "thrust(mount air) = weight",
                              "are not on the blade of [rotor]; expected force(mount air, z)"},
                         Case{"", "thrust(air, z) = weight", "expected one name in the brackets"},
