@@ -17,6 +17,22 @@ namespace eigentrail {
 
 static_assert(std::is_same_v<lapack_int, int>);
 
+namespace {
+
+/// Exchanges rows as the factorization did, and back.
+template <class Columns>
+void exchange_rows(const std::vector<int>& pivots, Columns& B) {
+  for (std::size_t i = 0; i < pivots.size(); ++i)
+    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots[i] - 1));
+}
+template <class Columns>
+void restore_rows(const std::vector<int>& pivots, Columns& B) {
+  for (std::size_t i = pivots.size(); i-- > 0;)
+    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots[i] - 1));
+}
+
+}  // namespace
+
 ComplexLu::ComplexLu(ComplexMatrix A)
     : factors_(std::move(A)), pivots_(static_cast<std::size_t>(factors_.rows())) {
   const auto n = static_cast<lapack_int>(factors_.rows());
@@ -24,8 +40,7 @@ ComplexLu::ComplexLu(ComplexMatrix A)
 }
 
 void ComplexLu::solve_in_place(ComplexVector& b) const {
-  for (std::size_t i = 0; i < pivots_.size(); ++i)
-    std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);
+  exchange_rows(pivots_, b);
   substitute('L', 'N', b);
   substitute('U', 'N', b);
 }
@@ -33,13 +48,11 @@ void ComplexLu::solve_in_place(ComplexVector& b) const {
 void ComplexLu::solve_adjoint_in_place(ComplexVector& b) const {
   substitute('U', 'C', b);
   substitute('L', 'C', b);
-  for (std::size_t i = pivots_.size(); i-- > 0;)
-    std::swap(b[static_cast<Eigen::Index>(i)], b[pivots_[i] - 1]);
+  restore_rows(pivots_, b);
 }
 
 void ComplexLu::solve_in_place(ComplexMatrix& B) const {
-  for (std::size_t i = 0; i < pivots_.size(); ++i)
-    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots_[i] - 1));
+  exchange_rows(pivots_, B);
   substitute('L', 'N', B);
   substitute('U', 'N', B);
 }
@@ -47,8 +60,7 @@ void ComplexLu::solve_in_place(ComplexMatrix& B) const {
 void ComplexLu::solve_adjoint_in_place(ComplexMatrix& B) const {
   substitute('U', 'C', B);
   substitute('L', 'C', B);
-  for (std::size_t i = pivots_.size(); i-- > 0;)
-    B.row(static_cast<Eigen::Index>(i)).swap(B.row(pivots_[i] - 1));
+  restore_rows(pivots_, B);
 }
 
 void ComplexLu::substitute(char triangle, char form, ComplexMatrix& B) const {

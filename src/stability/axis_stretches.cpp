@@ -101,15 +101,20 @@ double length_of(const RecordedPath& path, std::size_t step) {
   return std::abs(path.p[step + 1] - path.p[step]);
 }
 
+/// Whether modes pass from one side of the axis to the other at an event.
+bool passes(const Event& event) {
+  return event.kind == EventKind::flutter || event.kind == EventKind::divergence;
+}
+
 /// Position of an event on the step that ends at node `event.node`.
-PathPosition position_of(const RecordedPath& path, const Event& event, bool passes) {
+PathPosition position_of(const RecordedPath& path, const Event& event) {
   const std::size_t last = path.steps.size() - 1;
   const std::size_t step = std::min(static_cast<std::size_t>(std::max(event.node - 1, 0)), last);
   const double from_left = std::abs(event.p - path.p[step]);
   const double from_right = std::abs(event.p - path.p[step + 1]);
   const std::vector<double> found = step_positions(path.steps[step], event.p);
   // The nearer end is also taken if rounding has moved the event off the step.
-  const double near = on_node * (passes ? length_of(path, step) : path.highest() - path.lowest());
+  const double near = on_node * (passes(event) ? length_of(path, step) : path.highest() - path.lowest());
   if (found.empty() || std::min(from_left, from_right) <= near)
     return normalized(path, {step, from_left < from_right ? 0.0 : 1.0});
   return normalized(path, {step, found.front()});
@@ -124,9 +129,8 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
     const bool turns = event.kind == EventKind::fold || event.kind == EventKind::branch_point;
     const bool on_axis = std::abs(event.s.real()) <= axis_width * scale_of(event.s, accuracy);
     if (!turns && (!on_axis || event.kind == EventKind::veering)) continue;
-    const bool passes = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
-    cuts.push_back({position_of(path, event, passes), event.p, event.s, event.modes, event_name(event.kind),
-                    true, passes, turns});
+    cuts.push_back({position_of(path, event), event.p, event.s, event.modes, event_name(event.kind), true,
+                    passes(event), turns});
   }
   cuts.push_back({{0, 0.0}, path.p.front(), {}, {}, "start", false});
   cuts.push_back({{path.steps.size() - 1, 1.0}, path.p.back(), {}, {}, "end", false});

@@ -122,8 +122,7 @@ class SteadyProblem {
 
   KktFactorization factor(const Linearization& linearization, const TrimDerivatives& trim) {
     ++report_.factorizations;
-    if (model_.n_trims() > 0) return {linearization.K[0], linearization.A[0], trim};
-    return {linearization.K[0], linearization.A[0]};
+    return {linearization.K[0], linearization.A[0], trim};
   }
 
  private:

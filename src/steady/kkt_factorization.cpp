@@ -41,7 +41,9 @@ KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A)
 }
 
 KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A, const TrimDerivatives& trim)
-    : constraints_(A), bordered_(std::make_shared<BorderedKkt>(K, constraints_, KktBorder::of(trim))) {
+    : KktFactorization(trim.trim.rows() > 0 ? KktFactorization(A) : KktFactorization(K, A)) {
+  if (trim.trim.rows() == 0) return;
+  bordered_ = std::make_shared<BorderedKkt>(K, constraints_, KktBorder::of(trim));
   reciprocal_condition_ = bordered_->reciprocal_condition();
 }
 

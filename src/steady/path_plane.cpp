@@ -74,12 +74,6 @@ EvaluationFault trim_at(const Model& model, const Path& at, TrimDerivatives& tri
   return model.n_trims() == 0 ? EvaluationFault() : model.trim_derivatives(at, trim, counts);
 }
 
-/// The KKT system at a point, for what is asked there with the parameter held.
-KktFactorization kkt_of(const Model& model, const Linearization& at, const TrimDerivatives& trim) {
-  if (model.n_trims() > 0) return {at.K[0], at.A[0], trim};
-  return {at.K[0], at.A[0]};
-}
-
 /// Least-squares multipliers (Eq. 15) at given x.
 EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
                                      EvaluationCounts& counts) {
@@ -142,7 +136,7 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     // Small corrections that grow show divergence; large ones may grow far from the solution.
     if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
-      result.kkt = kkt_of(model, result.linearization, trim);
+      result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
       ++result.report.factorizations;
       result.status = SteadyStatus::converged;
       result.report.message.clear();

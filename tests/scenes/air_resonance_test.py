@@ -16,6 +16,17 @@ from rotor_test_case import RotorTest
 DENSITY, RADIUS, THRUST = 1.225, 5.0, 15000.0
 
 
+def assert_same_in_both_frames(test, standing, turning, omega, tolerance):
+    """In the turning frame waves have their frequencies less or plus the speed of the rotor."""
+    test.assertEqual(len(standing), len(turning))
+    every = np.concatenate([turning, turning.conj()])
+    for s in standing:
+        seen = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
+        test.assertLess(seen, tolerance * abs(s), s)
+    # A wave is not seen at its own frequency: the comparison tells the frames apart.
+    test.assertGreater(max(np.min(abs(every - s)) for s in standing), 1.0)
+
+
 class AirResonance(RotorTest):
     scene = "air_resonance"
 
@@ -27,20 +38,13 @@ class AirResonance(RotorTest):
         return self.spectra("loci.h5", [omega])[0]
 
     def test_without_air_it_is_the_rotor_in_multiblade_coordinates(self):
-        """In the turning frame waves have their frequencies less or plus the speed of the rotor."""
         omega = 30.0
         parts = [part for part in tables(self.scene_text())
                  if not re.match(r"\[\[(inflow|trim|strips)\]\]", part)]
         turning = self.spectrum_at("".join(parts), omega)
         one = [part for part in parts if not re.search(r'"(blade|root) [234]"', part)]
         standing = self.spectrum_at("".join(one) + '\n[rotor]\nblades = 4\nhub = "fuselage"\n', omega)
-        self.assertEqual(len(standing), len(turning))
-        every = np.concatenate([turning, turning.conj()])
-        for s in standing:
-            seen = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
-            self.assertLess(seen, 1e-6 * abs(s), s)
-        # A wave is not seen at its own frequency: the comparison tells the frames apart.
-        self.assertGreater(max(np.min(abs(every - s)) for s in standing), 1.0)
+        assert_same_in_both_frames(self, standing, turning, omega, 1e-6)
 
     def test_inflow_and_pitch_follow_the_thrust(self):
         file = self.trace_scene("--no-certify", tolerance=1e-4)
@@ -115,12 +119,7 @@ class AirResonanceOnAFuselage(RotorTest):
         (seen,) = self.spectra(self.trace_text(whole, *short, tolerance=1e-8), [omega])
         trim.append(self.trimmed("loci.h5", omega, *unknowns))
         np.testing.assert_allclose(trim[0], trim[1], rtol=1e-9)
-        self.assertEqual(len(standing), len(seen))
-        every = np.concatenate([seen, seen.conj()])
-        for s in standing:
-            shifted = min(np.min(abs(every - (s + shift * 1j * omega))) for shift in (-1, 0, 1))
-            self.assertLess(shifted, 1e-7 * abs(s), s)
-        self.assertGreater(max(np.min(abs(every - s)) for s in standing), 1.0)
+        assert_same_in_both_frames(self, standing, seen, omega, 1e-7)
 
     def test_annuli_carry_the_weight(self):
         """Each by momentum theory; the blade of the scene stands for all."""

@@ -31,7 +31,7 @@ class KktFactorization {
   /// singular (a rigid-body freedom), solutions are those of minimum norm.
   KktFactorization(const SystemMatrix& K, const SystemMatrix& A);
 
-  /// The same with trimmed parameters. Always with dense matrices.
+  /// The same with trimmed parameters, always with dense matrices; without any (no columns) as above.
   KktFactorization(const SystemMatrix& K, const SystemMatrix& A, const TrimDerivatives& trim);
 
   /// Factors only the constraints, for points whose equilibrium is known; `solve` must not be called then.

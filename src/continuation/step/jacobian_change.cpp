@@ -75,6 +75,7 @@ void JacobianChange::set_pencil() {
   P_.resize(Z_.rows(), Z_.rows());
   P_.real() = square_b.real() * b.M - square_a.real() * a.M + s_b.real() * b.C - s_a.real() * a.C + b.K - a.K;
   P_.imag() = square_b.imag() * b.M - square_a.imag() * a.M + s_b.imag() * b.C - s_a.imag() * a.C;
+  of_eigenvalue_ = scale_ * (s_b * at_to_.MZ - s_a * at_from_.MZ + slope_);
 }
 
 void JacobianChange::set_terms() {
@@ -99,77 +100,72 @@ void JacobianChange::set_terms() {
     B_.middleRows(static_cast<Eigen::Index>(i) * n, n) = *terms[i];
 }
 
+// A single mode has W1 = 0: the last row is zero.
+
+template <class Columns>
+Columns JacobianChange::times_of_mode(const Columns& V) const {
+  const Eigen::Index n = P_.rows();
+  Columns result = Columns::Zero(V.rows(), V.cols());
+  result.topRows(n) = product(P_, Columns(V.topRows(n))) + of_eigenvalue_ * V.row(n);
+  return result;
+}
+
+template <class Columns>
+Columns JacobianChange::adjoint_times_of_mode(const Columns& V) const {
+  const Eigen::Index n = P_.rows();
+  const Columns R = V.topRows(n);
+  Columns result(V.rows(), V.cols());
+  result.topRows(n) = adjoint_product(P_, R);
+  result.row(n) = of_eigenvalue_.adjoint() * R;
+  return result;
+}
+
 ComplexVector JacobianChange::times(const ComplexVector& v) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
+  if (k == 1) return times_of_mode(v);
   const ComplexMatrix X = v.head(n * k).reshaped(n, k);
   const ComplexMatrix Y = scale_ * v.tail(k * k).reshaped(k, k);
   ComplexMatrix R = at_to_.MZ.lazyProduct(Y * to_.Lambda) - at_from_.MZ.lazyProduct(Y * from_.Lambda) +
                     slope_.lazyProduct(Y);
-  ComplexMatrix N = ComplexMatrix::Zero(k, k);
-  if (k == 1) {  // a block of one has W1 = 0, so N = 0
-    R += product(P_, ComplexVector(X));
-  } else {
-    const ComplexMatrix BX = multiply(B_, X);
-    for (std::size_t i = 0; i < L_.size(); ++i)
-      R += BX.middleRows(static_cast<Eigen::Index>(i) * n, n).lazyProduct(L_[i]);
-    N = W1_.adjoint() * (X.lazyProduct(Lambda_) + Z_.lazyProduct(Y));
-  }
+  const ComplexMatrix BX = multiply(B_, X);
+  for (std::size_t i = 0; i < L_.size(); ++i)
+    R += BX.middleRows(static_cast<Eigen::Index>(i) * n, n).lazyProduct(L_[i]);
+  const ComplexMatrix N = W1_.adjoint() * (X.lazyProduct(Lambda_) + Z_.lazyProduct(Y));
   ComplexVector result(v.size());
   result << R.reshaped(), N.reshaped();
-  return result;
-}
-
-ComplexVector JacobianChange::of_eigenvalue() const {
-  return scale_ * (to_.Lambda(0, 0) * at_to_.MZ - from_.Lambda(0, 0) * at_from_.MZ + slope_);
-}
-
-// A single mode has W1 = 0: the last row is zero.
-
-ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
-  ComplexMatrix result = ComplexMatrix::Zero(V.rows(), V.cols());
-  const Eigen::Index n = Z_.rows();
-  if (Z_.cols() == 1) {
-    result.topRows(n) = product(P_, ComplexMatrix(V.topRows(n)));
-    result.topRows(n) += of_eigenvalue() * V.row(n);
-  } else {
-    for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = times(ComplexVector(V.col(j)));
-  }
-  return result;
-}
-
-ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
-  ComplexMatrix result(V.rows(), V.cols());
-  const Eigen::Index n = Z_.rows();
-  if (Z_.cols() == 1) {
-    const ComplexMatrix R = V.topRows(n);
-    result.topRows(n) = adjoint_product(P_, R);
-    result.row(n) = of_eigenvalue().adjoint() * R;
-  } else {
-    for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = adjoint_times(ComplexVector(V.col(j)));
-  }
   return result;
 }
 
 ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
+  if (k == 1) return adjoint_times_of_mode(v);
   const ComplexMatrix R = v.head(n * k).reshaped(n, k);
-  ComplexMatrix Y = (at_to_.MZ.adjoint() * R) * to_.Lambda.adjoint() -
-                    (at_from_.MZ.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R;
-  ComplexMatrix X;
-  if (k == 1) {
-    X = adjoint_product(P_, ComplexVector(R));
-  } else {
-    const ComplexMatrix W1N = W1_.lazyProduct(v.tail(k * k).reshaped(k, k));
-    ComplexMatrix RL(B_.rows(), k);
-    for (std::size_t i = 0; i < L_.size(); ++i)
-      RL.middleRows(static_cast<Eigen::Index>(i) * n, n) = R.lazyProduct(L_[i].adjoint());
-    X = transposed_multiply(B_, RL) + W1N.lazyProduct(Lambda_.adjoint());
-    Y += Z_.adjoint() * W1N;
-  }
+  const ComplexMatrix W1N = W1_.lazyProduct(v.tail(k * k).reshaped(k, k));
+  ComplexMatrix RL(B_.rows(), k);
+  for (std::size_t i = 0; i < L_.size(); ++i)
+    RL.middleRows(static_cast<Eigen::Index>(i) * n, n) = R.lazyProduct(L_[i].adjoint());
+  const ComplexMatrix X = transposed_multiply(B_, RL) + W1N.lazyProduct(Lambda_.adjoint());
+  const ComplexMatrix Y = (at_to_.MZ.adjoint() * R) * to_.Lambda.adjoint() -
+                          (at_from_.MZ.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R +
+                          Z_.adjoint() * W1N;
   ComplexVector result(v.size());
   result << X.reshaped(), scale_ * Y.reshaped();
+  return result;
+}
+
+ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
+  if (Z_.cols() == 1) return times_of_mode(V);
+  ComplexMatrix result(V.rows(), V.cols());
+  for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = times(ComplexVector(V.col(j)));
+  return result;
+}
+
+ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
+  if (Z_.cols() == 1) return adjoint_times_of_mode(V);
+  ComplexMatrix result(V.rows(), V.cols());
+  for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = adjoint_times(ComplexVector(V.col(j)));
   return result;
 }
 

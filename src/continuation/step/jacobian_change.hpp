@@ -51,8 +51,11 @@ class JacobianChange {
  private:
   void set_pencil();
   void set_terms();
-  /// What a change of the eigenvalue of a single mode, over `scale`, adds to the equations.
-  ComplexVector of_eigenvalue() const;
+  /// The maps of a single mode, for a vector or the columns of a matrix.
+  template <class Columns>
+  Columns times_of_mode(const Columns& V) const;
+  template <class Columns>
+  Columns adjoint_times_of_mode(const Columns& V) const;
 
   PairAtPlace from_, to_;
   const ComplexMatrix& W1_;
@@ -61,6 +64,7 @@ class JacobianChange {
   PairProducts at_to_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
   ComplexMatrix P_;                   ///< for a single mode: the change of s^2 M + s C + K
+  ComplexVector of_eigenvalue_;       ///< and the change of its derivative by s, times the scale
   /// For a block, the change is X -> sum of B_i X L_i. The B_i are stacked in one matrix, because one product
   /// takes less time than several small ones.
   Matrix B_;
