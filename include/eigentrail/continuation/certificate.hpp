@@ -8,7 +8,8 @@
 //
 // are evaluated at sample points of the piece. If some r > 0 satisfies Y + Z1 r + Z2 r^2/2 <= r, exactly one
 // pair lies within r of U(t), on the whole piece. Any norm serves; one that belongs to the piece makes the
-// bounds far smaller where eigenvalues are sensitive (adapted_norm.hpp, modal_bounds.hpp). This neighbourhood
+// bounds far smaller where eigenvalues are sensitive or stiffnesses far apart (energy_norm.hpp,
+// adapted_norm.hpp, modal_bounds.hpp). This neighbourhood
 // of U(t) is called the tube, and the tube closes if there is such an r. Pieces on which it does not close
 // are halved. If it closes on all pieces, no other pair can have been exchanged with this one.
 //
@@ -19,10 +20,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
+
+class EnergyNorm;
 
 /// The pencil between two neighbouring points, in the reduced coordinates of the left point: Hermite
 /// interpolation of the series at both points, without evaluations of the model. Samples are cached. Several
@@ -46,6 +50,10 @@ class StepPencil {
   /// The sample at t in [0, 1].
   std::shared_ptr<const Sample> at(double t) const;
 
+  /// The energy norm at the middle of the step, by a shift that is the geometric mean of the followed
+  /// eigenvalues' magnitudes. Null if there is none. Computed when it is first asked for.
+  std::shared_ptr<const EnergyNorm> energy_norm() const;
+
   const PathNode& left() const { return left_; }
   /// Whether M is constant, and C, too, unless every coordinate has mass.
   bool has_constant_leading_matrix() const;
@@ -62,10 +70,12 @@ class StepPencil {
   const ReducedPencil& left_pencil_;
   double length_;
   Eigen::Index count_;   ///< number of coefficients at each end
+  int part_;
   ReducedPencil right_;  ///< the right pencil in the reduced coordinates of the left point
   mutable std::mutex mutex_;
   /// Samples by t. The certificates of all tracks of a step use the same values of t.
   mutable std::map<double, std::shared_ptr<const Sample>> samples_;
+  mutable std::optional<std::shared_ptr<const EnergyNorm>> energy_norm_;
 };
 
 /// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.

@@ -1,15 +1,13 @@
 #include "eigentrail/continuation/certificate.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "continuation/step/adapted_norm.hpp"
-#include "continuation/step/jacobian_change.hpp"
+#include "continuation/step/jacobian_inverse.hpp"
+#include "continuation/step/operator_norm.hpp"
+#include "continuation/step/pair_curvature.hpp"
 #include "continuation/step/shared_basis.hpp"
-#include "core/products.hpp"
 
 namespace eigentrail {
 namespace {
@@ -32,8 +30,6 @@ constexpr Eigen::Index most_directions = 12;
 /// One direction for so many unknowns: in a small system the solutions for them would take longer than a few
 /// more factorizations.
 constexpr Eigen::Index unknowns_per_direction = 16;
-/// Passes of the subspace iteration for them.
-constexpr int subspace_iterations = 1;
 /// Factor on a norm estimate. With a larger value fewer steps are certified, with a smaller one the bounds
 /// may be too small and the evidence weaker.
 constexpr double norm_safety = 1.2;
@@ -51,72 +47,6 @@ constexpr double solutions = 30.0;
 /// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
 /// size n + k. Affects only the time.
 constexpr Eigen::Index largest_matrix = 80;
-
-/// B = J^-1 of a pair, in the unknowns (vec Z, vec Lambda / scale), by an LU of J as one matrix.
-class WholeInverse {
- public:
-  WholeInverse(const PairAtPlace& at, const ComplexMatrix& W, double scale)
-      : W_(W), scale_(scale), J_(jacobian_matrix(at, W, scale)), lu_(J_) {}
-
-  /// B v and B^H v, of a vector or of the columns of a matrix.
-  template <class Vectors>
-  void apply(Vectors& v) const {
-    lu_.solve_in_place(v);
-  }
-  template <class Vectors>
-  void apply_adjoint(Vectors& v) const {
-    lu_.solve_adjoint_in_place(v);
-  }
-  double scale() const { return scale_; }
-
-  struct Change {
-    ComplexMatrix matrix;
-
-    template <class Vectors>
-    Vectors times(const Vectors& v) const {
-      return product(matrix, v);
-    }
-    template <class Vectors>
-    Vectors adjoint_times(const Vectors& v) const {
-      return adjoint_product(matrix, v);
-    }
-  };
-  Change change_to(const PairAtPlace& other) const { return {jacobian_matrix(other, W_, scale_) - J_}; }
-
- private:
-  const ComplexMatrix& W_;
-  double scale_;
-  ComplexMatrix J_;
-  ComplexLu lu_;
-};
-
-/// The same by one LU of size n + k per column of the pair's Schur form.
-class TriangularInverse {
- public:
-  TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
-      : at_(at), products_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
-
-  template <class Vectors>
-  void apply(Vectors& v) const {
-    factors_.solve_in_place(v);
-    v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;  // the division of complex numbers might underflow
-  }
-  template <class Vectors>
-  void apply_adjoint(Vectors& v) const {
-    v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;
-    factors_.solve_adjoint_in_place(v);
-  }
-  double scale() const { return scale_; }
-
-  JacobianChange change_to(const PairAtPlace& other) const { return {at_, products_, other, W1_, scale_}; }
-
- private:
-  PairAtPlace at_;
-  PairProducts products_;
-  const ComplexMatrix& W1_;
-  double scale_;
-  PairFactorization factors_;
-};
 
 /// The certificate of one track on one step.
 class Tube {
@@ -212,10 +142,10 @@ class Tube {
     const auto samples = samples_of(begin, middle, end);
     if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       count(1, centre.Z.size() + centre.Lambda.size());
-      return closes_about(centre, WholeInverse(centre.place(), W_, scale), samples, Z1);
+      return closes_about(centre, WholeInverse(centre.place(), W_, scale), scale, samples, Z1);
     }
     count(W_.cols(), centre.Z.rows() + W_.cols());
-    return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), samples, Z1);
+    return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), scale, samples, Z1);
   }
 
   /// Counts LUs of a size, with the solutions for the bounds.
@@ -228,69 +158,48 @@ class Tube {
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
   /// Y + Z1 r + Z2 r^2/2 <= r. Z1 is set to that of the begin.
   template <class Inverse>
-  bool closes_about(const State& centre, const Inverse& B, const std::array<PlaceOnPiece, 4>& samples,
-                    double& Z1) const {
-    AdaptedNorm norm;
+  bool closes_about(const State& centre, const Inverse& B, double scale,
+                    const std::array<PlaceOnPiece, 4>& samples, double& Z1) const {
+    TubeNorm norm(centre.Z.rows(), centre.Z.cols());
+    ComplexVector direction;
     double largest = 0.0;
-    double Y = size_of_solved(B, residual(centre), norm);
-    if (!std::isfinite(Y)) return false;
-    ComplexVector direction = start_vector(centre.Z.size() + centre.Lambda.size());
+    double Y = 0.0;
     for (const auto& [t, iterations] : samples) {
       const State s = state(t);
       const auto change = B.change_to(s.place());
-      double size = norm_of_solved(B, change, iterations, norm, direction);
+      double size = 0.0;
       if (t == samples.front().t) {
-        Z1 = size;
-        if (size >= 1.0) {
-          norm = adapted_norm(B, change, direction);
-          direction = start_vector(direction.size());
-          size = norm_of_solved(B, change, power_iterations, norm, direction);
-          Z1 = size;
-        }
+        size = Z1 = choose_norm(centre, B, change, norm, direction);
+        Y = size_of_solved(B, residual(centre), norm);
+      } else {
+        size = norm_safety * norm_of_solved(B, change, iterations, norm, direction);
       }
       largest = std::max(largest, size);
       if (!(largest < 1.0)) return false;
       Y = std::max(Y, size_of_solved(B, residual(s), norm));
     }
-    const double stretched = norm.largest_factor();
-    if (!norm.is_plain()) Y = std::max(Y, size_of_solved(B, residual(centre), norm));
     const double room = 1.0 - largest;
-    return curvature_is_below(room * room / (2.0 * Y) / (stretched * stretched), centre, B, norm);
+    return curvature_is_below(room * room / (2.0 * Y), centre, scale, B, norm);
   }
 
-  /// The norm in which B A is small, if that is possible by scaling few directions.
-  template <class Inverse, class Operator>
-  static AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const ComplexVector& direction) {
-    const auto times = [&](const ComplexMatrix& X) {
-      ComplexMatrix Y = A.times(X);
-      B.apply(Y);
-      return Y;
+  /// The first of the plain, the energy and the adapted norm in which Z1 of a change is below one, or the last.
+  /// Returns Z1 and sets the direction of the largest change.
+  template <class Inverse, class Change>
+  double choose_norm(const State& centre, const Inverse& B, const Change& change, TubeNorm& norm,
+                     ComplexVector& direction) const {
+    const auto size_of_change = [&](double enough) {
+      direction = start_vector(centre.Z.size() + centre.Lambda.size());
+      return norm_safety * norm_of_solved(B, change, power_iterations, norm, direction, enough);
     };
-    const auto adjoint_times = [&](ComplexMatrix X) {
-      B.apply_adjoint(X);
-      return ComplexMatrix(A.adjoint_times(X));
-    };
-    const Eigen::Index size = direction.size();
-    const Eigen::Index wanted = std::clamp(size / unknowns_per_direction, least_directions, most_directions);
-    ComplexMatrix Q(size, std::min(wanted, size));
-    for (Eigen::Index j = 0; j < Q.cols(); ++j)
-      Q.col(j) = j == 0 ? direction : start_vector(Q.rows(), static_cast<double>(j));
-    ComplexMatrix adjoint;
-    for (int i = 0; i < subspace_iterations; ++i) {
-      Q = orthonormal(times(i == 0 ? Q : orthonormal(adjoint)));
-      adjoint = adjoint_times(Q);
-    }
-    if (!adjoint.allFinite()) return {};
-    // The left singular vectors.
-    const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(adjoint.adjoint() * adjoint);
-    Q = Q * squares.eigenvectors();
-    adjoint = adjoint * squares.eigenvectors();
-    const ComplexMatrix TQ = times(Q);
-    return TQ.allFinite() ? AdaptedNorm::balancing(std::move(Q), TQ, adjoint) : AdaptedNorm();
-  }
-
-  static ComplexMatrix orthonormal(const ComplexMatrix& X) {
-    return X.householderQr().householderQ() * ComplexMatrix::Identity(X.rows(), X.cols());
+    double Z1 = size_of_change(1.0 / norm_safety);
+    if (Z1 < 1.0) return Z1;
+    norm.set_energy(pencil_.energy_norm(), centre.Z);
+    Z1 = size_of_change(INFINITY);
+    if (Z1 < 1.0) return Z1;
+    const Eigen::Index directions =
+        std::clamp(direction.size() / unknowns_per_direction, least_directions, most_directions);
+    norm.set_adapted(adapted_norm(B, change, norm, direction, directions));
+    return size_of_change(INFINITY);
   }
 
   /// The ends come first, because they differ most from the middle. The direction that the operator magnifies
@@ -302,79 +211,36 @@ class Tube {
              {0.5 * (middle + end), further_iterations}}};
   }
 
-  /// |B F|; infinite if it is not a number.
+  /// Whether Z2 >= |B F''| is below a limit.
   template <class Inverse>
-  static double size_of_solved(const Inverse& B, ComplexVector F, const AdaptedNorm& norm) {
-    B.apply(F);
-    norm.apply_inverse(F);
-    const double size = F.norm();
-    return std::isfinite(size) ? size : INFINITY;
-  }
-
-  /// Whether Z2 >= |B F''|, of changes in the plain norm, is below a limit. F'' is bilinear in the changes of
-  /// Z and Lambda; `equations` and `normalization` bound its coefficients in both parts of F.
-  template <class Inverse>
-  bool curvature_is_below(double limit, const State& s, const Inverse& B, const AdaptedNorm& norm) const {
-    const double mu = s.Lambda.norm();
-    const double M = s.pencil.norm_M;
-    const double scale = B.scale();
-    const double equations =
-        2.0 * ((2.0 * M * mu + s.pencil.norm_C) * scale + M * s.Z.norm() * scale * scale);
-    const double normalization = 2.0 * W1_.norm() * scale;
-    Diagonal weights{Vector(s.Z.size() + s.Lambda.size())};
-    weights.entries << Vector::Constant(s.Z.size(), equations),
-        Vector::Constant(s.Lambda.size(), normalization);
-    ComplexVector direction = start_vector(weights.entries.size());
+  bool curvature_is_below(double limit, const State& s, double scale, const Inverse& B,
+                          const TubeNorm& norm) const {
+    const Eigen::Index k = s.Z.cols();
+    const double both = 2.0 * norm.largest_eigenvalue_part();
     // Far below the limit, as nearly always, one solution tells: |A v| is about |A| / sqrt(n) or more.
-    const auto n = static_cast<double>(direction.size());
-    ComplexVector once = weights.times(direction.normalized());
-    B.apply(once);
-    norm.apply_inverse(once);
-    if (rough_safety * std::sqrt(n) * once.norm() < limit) return true;
-    return curvature_safety * norm_of_solved(B, weights, power_iterations, norm, direction, true) < limit;
-  }
-
-  /// A real diagonal matrix.
-  struct Diagonal {
-    Vector entries;
-
-    ComplexVector times(const ComplexVector& v) const { return entries.cwiseProduct(v); }
-    ComplexVector adjoint_times(const ComplexVector& v) const { return times(v); }
-  };
-
-  /// Start of a power iteration: a vector without symmetry, so that it is not orthogonal to the wanted one.
-  static ComplexVector start_vector(Eigen::Index size, double number = 0.0) {
-    ComplexVector v(size);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const auto place = static_cast<double>(i);
-      v[i] = {std::cos(1.7 * number * place), std::sin(1.0 + (2.3 + number) * place)};
+    const auto size = static_cast<double>(s.Z.size() + s.Lambda.size());
+    for (const bool is_rough : {true, false}) {
+      double squares = 0.0;
+      for (Eigen::Index i = 0; i < k * k; ++i) {
+        const PairCurvature A(s.place(), W1_, scale, i % k, i / k);
+        ComplexVector direction = start_vector(s.Z.size() + s.Lambda.size());
+        const double estimate =
+            is_rough ? rough_safety * std::sqrt(size) * size_of_image(B, A, norm, direction)
+                     : curvature_safety * norm_safety *
+                           norm_of_solved(B, A, power_iterations, norm, direction);
+        squares += estimate * estimate;
+      }
+      if (both * std::sqrt(squares) < limit) return true;
     }
-    return v;
+    return false;
   }
 
-  /// Estimate of |B A|, times norm_safety, by power iteration from the direction v, which is overwritten with
-  /// the last one. `from_plain`: A maps from the plain norm.
+  /// |B A v| / |v|.
   template <class Inverse, class Operator>
-  static double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const AdaptedNorm& norm,
-                               ComplexVector& v, bool from_plain = false) {
-    double size = 0.0;
-    for (int i = 0; i < iterations; ++i) {
-      v.normalize();
-      if (!from_plain) norm.apply(v);
-      ComplexVector w = A.times(v);
-      B.apply(w);
-      norm.apply_inverse(w);
-      size = std::max(size, w.norm());
-      norm.apply_inverse(w);  // S is Hermitian
-      B.apply_adjoint(w);
-      ComplexVector next = A.adjoint_times(w);
-      if (!from_plain) norm.apply(next);
-      const double length = next.norm();
-      if (!(length > 0.0)) return norm_safety * size;
-      size = std::max(size, std::sqrt(length));
-      v = std::move(next);
-    }
-    return norm_safety * size;
+  static double size_of_image(const Inverse& B, const Operator& A, const TubeNorm& norm, ComplexVector v) {
+    v.normalize();
+    norm.apply(v);
+    return size_of_solved(B, A.times(v), norm);
   }
 
   const StepPencil& pencil_;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "continuation/step/energy_norm.hpp"
 #include "core/diagonal_blocks.hpp"
 #include "core/matrix_series.hpp"
 #include "core/products.hpp"
@@ -34,6 +36,24 @@ MatrixSeries inverse_by_blocks(const MatrixSeries& A) {
   return inverse;
 }
 
+/// The geometric mean of the magnitudes of the finite eigenvalues of a part's tracks but zeros.
+double typical_magnitude(const PathNode& node, int part, const PencilAtPoint& pencil) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.part != part) continue;
+    for (const Complex root : track.roots) {
+      const double magnitude = std::abs(root);
+      if (!(magnitude > 0.0)) continue;
+      sum += (track.pair.chart == Chart::finite ? 1.0 : -1.0) * std::log(magnitude);
+      ++count;
+    }
+  }
+  if (count > 0) return std::exp(sum / count);
+  const double inertia = pencil.norm_M > 0.0 ? pencil.norm_M : 1.0;
+  return pencil.norm_K > 0.0 ? std::sqrt(pencil.norm_K / inertia) : 1.0;
+}
+
 }  // namespace
 
 StepPencil::StepPencil(const PathNode& left, const PathNode& right, double length, int part)
@@ -41,6 +61,7 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
       left_pencil_(left.pencil.of(part)),
       length_(length),
       count_(0),
+      part_(part),
       right_(right.pencil.of(part)) {
   for (const ReducedPencil* pencil : {&left_pencil_, &std::as_const(right_)}) {
     count_ =
@@ -148,6 +169,14 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
   if (known != samples_.end()) return known->second;
   if (samples_.size() >= most_samples) samples_.clear();
   return samples_.emplace(t, sample(t)).first->second;
+}
+
+std::shared_ptr<const EnergyNorm> StepPencil::energy_norm() const {
+  const std::shared_ptr<const Sample> middle = at(0.5);
+  const std::lock_guard lock(mutex_);
+  if (!energy_norm_)
+    energy_norm_ = EnergyNorm::of(middle->at, typical_magnitude(left_, part_, middle->at));
+  return *energy_norm_;
 }
 
 }  // namespace eigentrail

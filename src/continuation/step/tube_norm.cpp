@@ -1,0 +1,61 @@
+#include "continuation/step/tube_norm.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <utility>
+
+#include "core/products.hpp"
+
+namespace eigentrail {
+
+void TubeNorm::set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z) {
+  energy_ = std::move(energy);
+  if (energy_) factor_ = Z.norm() / product(energy_->root(), Z).norm();
+}
+
+template <class Columns>
+void TubeNorm::scale(Columns& X, const Matrix& root, double factor) const {
+  for (Eigen::Index i = 0; i < k_; ++i) {
+    const ComplexMatrix block = X.middleRows(i * n_, n_);
+    X.middleRows(i * n_, n_) = factor * product(root, block);
+  }
+}
+
+template void TubeNorm::scale(ComplexVector&, const Matrix&, double) const;
+template void TubeNorm::scale(ComplexMatrix&, const Matrix&, double) const;
+
+void TubeNorm::apply(ComplexVector& x) const {
+  adapted_.apply(x);
+  from_energy(x);
+}
+
+void TubeNorm::apply_adjoint(ComplexVector& x) const {
+  from_energy(x);
+  adapted_.apply(x);
+}
+
+void TubeNorm::apply_inverse(ComplexVector& x) const {
+  to_energy(x);
+  adapted_.apply_inverse(x);
+}
+
+void TubeNorm::apply_inverse_adjoint(ComplexVector& x) const {
+  adapted_.apply_inverse(x);
+  to_energy(x);
+}
+
+double TubeNorm::largest_eigenvalue_part() const {
+  if (adapted_.is_plain()) return 1.0;
+  // The rows of D that belong to Lambda; D is Hermitian, so that they are columns as well.
+  const Eigen::Index size = n_ * k_ + k_ * k_;
+  ComplexMatrix rows(size, k_ * k_);
+  for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+    ComplexVector unit = ComplexVector::Unit(size, n_ * k_ + i);
+    adapted_.apply(unit);
+    rows.col(i) = unit;
+  }
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(rows.adjoint() * rows, Eigen::EigenvaluesOnly);
+  return std::sqrt(squares.eigenvalues().maxCoeff());
+}
+
+}  // namespace eigentrail

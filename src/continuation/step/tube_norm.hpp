@@ -1,0 +1,54 @@
+// The norm in which the tube of a pair is measured.
+#pragma once
+
+#include <memory>
+
+#include "continuation/step/adapted_norm.hpp"
+#include "continuation/step/energy_norm.hpp"
+
+namespace eigentrail {
+
+/// The norm |S^-1 x| of the unknowns x = (vec Z, vec Lambda / scale) of a pair: S = (I x R^-1 + I) D, where R
+/// is that of an energy norm, for every column of Z, and D that of an adapted norm. Plain until they are set.
+class TubeNorm {
+ public:
+  /// Z is n x k.
+  TubeNorm(Eigen::Index n, Eigen::Index k) : n_(n), k_(k) {}
+
+  /// From here on by energy, scaled so that it leaves the norm of Z as it is.
+  void set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z);
+  /// From here on adapted; `norm` is one of the unknowns in the energy norm.
+  void set_adapted(AdaptedNorm norm) { adapted_ = std::move(norm); }
+
+  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back.
+  /// Both maps are Hermitian.
+  template <class Columns>
+  void to_energy(Columns& X) const {
+    if (energy_) scale(X, energy_->root(), factor_);
+  }
+  template <class Columns>
+  void from_energy(Columns& X) const {
+    if (energy_) scale(X, energy_->inverse_root(), 1.0 / factor_);
+  }
+
+  /// Overwrites x with S x, S^H x, S^-1 x, S^-H x.
+  void apply(ComplexVector& x) const;
+  void apply_adjoint(ComplexVector& x) const;
+  void apply_inverse(ComplexVector& x) const;
+  void apply_inverse_adjoint(ComplexVector& x) const;
+
+  bool is_plain() const { return !energy_ && adapted_.is_plain(); }
+  /// Bound of |Lambda / scale| for unknowns of norm one.
+  double largest_eigenvalue_part() const;
+
+ private:
+  template <class Columns>
+  void scale(Columns& X, const Matrix& root, double factor) const;
+
+  Eigen::Index n_, k_;
+  std::shared_ptr<const EnergyNorm> energy_;
+  double factor_ = 1.0;
+  AdaptedNorm adapted_;
+};
+
+}  // namespace eigentrail
