@@ -92,6 +92,30 @@ std::vector<std::vector<Eigen::Index>> close_groups(const ComplexVector& values,
   });
 }
 
+/// The unknowns of X on coupled eigenspaces: m^2 for one of m dimensions. Those of one dimension that are
+/// coupled with each other have one number in common.
+struct UnknownsOfX {
+  std::vector<Eigen::Index> first;  ///< of every space
+  Eigen::Index count = 0;
+};
+
+template <class Coupling>
+UnknownsOfX unknowns_of(const std::vector<Eigen::Index>& members, const std::vector<Eigen::Index>& sizes,
+                        const Coupling& are_coupled) {
+  const auto count = static_cast<Eigen::Index>(members.size());
+  const auto size = [&](Eigen::Index i) { return sizes[static_cast<std::size_t>(i)]; };
+  const auto common = connected_groups(count, [&](Eigen::Index i, Eigen::Index j) {
+    return size(i) == 1 && size(j) == 1 &&
+           are_coupled(members[static_cast<std::size_t>(i)], members[static_cast<std::size_t>(j)]);
+  });
+  UnknownsOfX unknowns{std::vector<Eigen::Index>(members.size()), 0};
+  for (const auto& group : common) {
+    for (const Eigen::Index i : group) unknowns.first[static_cast<std::size_t>(i)] = unknowns.count;
+    unknowns.count += size(group.front()) * size(group.front());
+  }
+  return unknowns;
+}
+
 /// A random X with X H = H X, block diagonal in the given groups of coordinates (eigenspaces of another
 /// matrix with which X commutes). Empty if that costs too much.
 template <class Values>
@@ -103,38 +127,30 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
     return Values(H(spaces[static_cast<std::size_t>(i)], spaces[static_cast<std::size_t>(j)]));
   };
   const double size = H.norm();
-  // Coupled eigenspaces have their X in common; other groups are independent.
-  const auto coupled = connected_groups(count, [&](Eigen::Index i, Eigen::Index j) {
+  const auto are_coupled = [&](Eigen::Index i, Eigen::Index j) {
     return block(i, j).norm() + block(j, i).norm() > search.zero() * size;
-  });
+  };
   Values X = Values::Zero(H.rows(), H.cols());
-  for (const auto& members : coupled) {
-    std::vector<Eigen::Index> first(1, 0);  // of the unknowns of every space
-    Eigen::Index rows = 0;
+  // Coupled eigenspaces have their X in common; other groups are independent.
+  for (const auto& members : connected_groups(count, are_coupled)) {
+    std::vector<Eigen::Index> sizes;
+    Eigen::Index in_all = 0, in_larger = 0;
     for (const Eigen::Index i : members) {
-      const auto m = static_cast<Eigen::Index>(spaces[static_cast<std::size_t>(i)].size());
-      first.push_back(first.back() + m * m);
-      rows += m;
+      sizes.push_back(static_cast<Eigen::Index>(spaces[static_cast<std::size_t>(i)].size()));
+      in_all += sizes.back();
+      if (sizes.back() > 1) in_larger += sizes.back();
     }
-    const Eigen::Index unknowns = first.back();
-    if (unknowns == static_cast<Eigen::Index>(members.size())) {
-      // All eigenspaces have one dimension: X is a multiple of the unit matrix on them.
-      const double value = random_number(search.random);
-      for (const Eigen::Index i : members) {
-        const Eigen::Index at = spaces[static_cast<std::size_t>(i)].front();
-        X(at, at) = value;
-      }
-      continue;
-    }
+    const auto [first, unknowns] = unknowns_of(members, sizes, are_coupled);
     if (unknowns > most_unknowns) return std::nullopt;
-    // X_i H_ij - H_ij X_j = 0, column by column of every block.
-    Values equations = Values::Zero(rows * rows, unknowns);
+    // X_i H_ij - H_ij X_j = 0, column by column of every block. Between two of one dimension it holds.
+    Values equations = Values::Zero(in_larger * (2 * in_all - in_larger), unknowns);
     Eigen::Index at = 0;
     for (std::size_t a = 0; a < members.size(); ++a) {
       for (std::size_t b = 0; b < members.size(); ++b) {
+        const Eigen::Index ma = sizes[a];
+        const Eigen::Index mb = sizes[b];
+        if (ma == 1 && mb == 1) continue;
         const Values Hab = block(members[a], members[b]);
-        const Eigen::Index ma = Hab.rows();
-        const Eigen::Index mb = Hab.cols();
         for (Eigen::Index c = 0; c < mb; ++c) {
           for (Eigen::Index r = 0; r < ma; ++r, ++at) {
             for (Eigen::Index k = 0; k < ma; ++k) equations(at, first[a] + r + k * ma) += Hab(k, c);
@@ -152,8 +168,7 @@ std::optional<Values> random_commuting(const Values& H, const std::vector<std::v
     }
     for (std::size_t a = 0; a < members.size(); ++a) {
       const auto& space = spaces[static_cast<std::size_t>(members[a])];
-      const auto m = static_cast<Eigen::Index>(space.size());
-      X(space, space) = x.segment(first[a], m * m).reshaped(m, m);
+      X(space, space) = x.segment(first[a], sizes[a] * sizes[a]).reshaped(sizes[a], sizes[a]);
     }
   }
   return X;
