@@ -7,6 +7,9 @@ extern "C" {
 void dgemm_(const char* form_A, const char* form_B, const int* m, const int* n, const int* k,
             const double* alpha, const double* A, const int* stride_A, const double* B, const int* stride_B,
             const double* beta, double* C, const int* stride_C);
+void dgemv_(const char* form, const int* m, const int* n, const double* alpha, const double* A,
+            const int* stride_A, const double* x, const int* increment_x, const double* beta, double* y,
+            const int* increment_y);
 void zgemv_(const char* form, const int* m, const int* n, const eigentrail::Complex* alpha,
             const eigentrail::Complex* A, const int* stride_A, const eigentrail::Complex* x,
             const int* increment_x, const eigentrail::Complex* beta, eigentrail::Complex* y,
@@ -58,30 +61,32 @@ ComplexMatrix zgemm(char form, const ComplexMatrix& A, const ComplexMatrix& X) {
   return Y;
 }
 
-/// A x (form 'N') or A^T x (form 'T') for a complex vector x, given as a matrix of one column. Real and
-/// imaginary parts alternate in memory, as the columns of a real matrix of two rows: its product with A^T or
-/// A reads A once, and takes half the time of two products with vectors.
-ComplexMatrix two_rows(char form, const Matrix& A, const ComplexMatrix& x) {
-  const auto stride = static_cast<int>(A.rows());
-  const auto size = static_cast<int>(form == 'N' ? A.rows() : A.cols());
-  const auto inner = static_cast<int>(x.rows());
+/// A X (form 'N') or A^T X (form 'T') for few complex columns X. Real and imaginary parts alternate in memory:
+/// each is a vector with increment two. dgemm would copy A first, which takes longer than the products.
+ComplexMatrix by_vectors(char form, const Matrix& A, const ComplexMatrix& X) {
+  const auto rows = static_cast<int>(A.rows());
+  const auto columns = static_cast<int>(A.cols());
   const double one = 1.0, zero = 0.0;
-  const int parts = 2;
-  ComplexMatrix y(size, 1);
+  const int next = 2;
+  ComplexMatrix Y(form == 'N' ? rows : columns, X.cols());
   // The standard guarantees that std::complex<double> can be read as an array of two doubles
   // ([complex.numbers]).
-  const auto* const from = reinterpret_cast<const double*>(x.data());
-  auto* const to = reinterpret_cast<double*>(y.data());
-  dgemm_("N", form == 'N' ? "T" : "N", &parts, &size, &inner, &one, from, &parts, A.data(), &stride, &zero,
-         to, &parts);
-  return y;
+  const auto* const from = reinterpret_cast<const double*>(X.data());
+  auto* const to = reinterpret_cast<double*>(Y.data());
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    for (int part = 0; part < 2; ++part)
+      dgemv_(&form, &rows, &columns, &one, A.data(), &rows, from + 2 * j * X.rows() + part, &next, &zero,
+             to + 2 * j * Y.rows() + part, &next);
+  }
+  return Y;
 }
 
 /// The same for any number of columns.
 ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   const Eigen::Index columns = X.cols();
   if (A.size() == 0) return ComplexMatrix::Zero(form == 'N' ? A.rows() : A.cols(), columns);
-  if (columns == 1) return two_rows(form, A, X);
+  constexpr Eigen::Index few = 2;  // affects only the time
+  if (columns <= few) return by_vectors(form, A, X);
   Matrix parts(X.rows(), 2 * columns);
   parts << X.real(), X.imag();
   const Matrix AX = dgemm(form, A, parts);

@@ -9,9 +9,10 @@
 namespace eigentrail {
 namespace {
 
-/// `gesvd`: LAPACK's function for the type of the matrix.
-template <class Values, class Gesvd>
-SingularVectors<Values> decompose(Values A, bool with_left, Gesvd&& gesvd) {
+/// `svd(m, n, A, result)` computes the values, U and V^H of a matrix with an empty column behind its own, and
+/// returns LAPACK's outcome.
+template <class Values, class Svd>
+SingularVectors<Values> decompose(Values A, bool with_left, const Svd& svd) {
   const auto m = static_cast<lapack_int>(A.rows());
   const auto n = static_cast<lapack_int>(A.cols());
   const lapack_int count = std::min(m, n);
@@ -22,10 +23,7 @@ SingularVectors<Values> decompose(Values A, bool with_left, Gesvd&& gesvd) {
   // where no memory follows.
   A.conservativeResize(Eigen::NoChange, n + 1);
   A.col(n).setZero();
-  Vector unconverged(count);
-  const lapack_int info =
-      gesvd(LAPACK_COL_MAJOR, with_left ? 'A' : 'N', 'A', m, n, A.data(), m, result.values.data(),
-            result.U.data(), with_left ? m : 1, result.V.data(), n, unconverged.data());
+  const lapack_int info = svd(m, n, A, result);
   result.V.adjointInPlace();
   if (info == 0) return result;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -35,22 +33,39 @@ SingularVectors<Values> decompose(Values A, bool with_left, Gesvd&& gesvd) {
   return result;
 }
 
+/// By QR iteration. `gesvd`: LAPACK's function for the type of the matrix.
+template <class Values, class Gesvd>
+SingularVectors<Values> by_iteration(Values A, bool with_left, Gesvd&& gesvd) {
+  return decompose(std::move(A), with_left,
+                   [&](lapack_int m, lapack_int n, Values& matrix, SingularVectors<Values>& result) {
+                     Vector unconverged(result.values.size());
+                     return gesvd(LAPACK_COL_MAJOR, with_left ? 'A' : 'N', 'A', m, n, matrix.data(), m,
+                                  result.values.data(), result.U.data(), with_left ? m : 1, result.V.data(),
+                                  n, unconverged.data());
+                   });
+}
+
 }  // namespace
 
+/// Divide and conquer, in half the time.
 SingularVectors<Matrix> singular_vectors(Matrix A) {
-  return decompose(std::move(A), true, LAPACKE_dgesvd);
+  return decompose(std::move(A), true,
+                   [](lapack_int m, lapack_int n, Matrix& matrix, SingularVectors<Matrix>& result) {
+                     return LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'A', m, n, matrix.data(), m,
+                                           result.values.data(), result.U.data(), m, result.V.data(), n);
+                   });
 }
 
 SingularVectors<ComplexMatrix> singular_vectors(ComplexMatrix A) {
-  return decompose(std::move(A), true, LAPACKE_zgesvd);
+  return by_iteration(std::move(A), true, LAPACKE_zgesvd);
 }
 
 SingularVectors<Matrix> right_singular_vectors(Matrix A) {
-  return decompose(std::move(A), false, LAPACKE_dgesvd);
+  return by_iteration(std::move(A), false, LAPACKE_dgesvd);
 }
 
 SingularVectors<ComplexMatrix> right_singular_vectors(ComplexMatrix A) {
-  return decompose(std::move(A), false, LAPACKE_zgesvd);
+  return by_iteration(std::move(A), false, LAPACKE_zgesvd);
 }
 
 }  // namespace eigentrail

@@ -23,6 +23,7 @@ constexpr double falling = 0.75;
 /// makes up for the rest.
 constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
+constexpr int iterations_within = 1;   ///< the same within the piece, where Z1 is about half of that at its ends
 /// Directions that the adapted norm scales: those of the largest singular values of I - B J. A larger number
 /// costs more solutions, and closes more pieces of sensitive eigenvalues.
 constexpr Eigen::Index least_directions = 3;
@@ -161,23 +162,22 @@ class Tube {
   bool closes_about(const State& centre, const Inverse& B, double scale,
                     const std::array<PlaceOnPiece, 4>& samples, double& Z1) const {
     TubeNorm norm(centre.Z.rows(), centre.Z.cols());
+    ComplexMatrix residuals(centre.Z.size() + centre.Lambda.size(), 1 + static_cast<Eigen::Index>(samples.size()));
+    residuals.col(0) = residual(centre);
     ComplexVector direction;
     double largest = 0.0;
-    double Y = 0.0;
-    for (const auto& [t, iterations] : samples) {
-      const State s = state(t);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const State s = state(samples[i].t);
       const auto change = B.change_to(s.place());
-      double size = 0.0;
-      if (t == samples.front().t) {
-        size = Z1 = choose_norm(centre, B, change, norm, direction);
-        Y = size_of_solved(B, residual(centre), norm);
-      } else {
-        size = norm_safety * norm_of_solved(B, change, iterations, norm, direction);
-      }
+      const double size =
+          i == 0 ? choose_norm(centre, B, change, norm, direction)
+                 : norm_safety * norm_of_solved(B, change, samples[i].iterations, norm, direction);
+      if (i == 0) Z1 = size;
       largest = std::max(largest, size);
       if (!(largest < 1.0)) return false;
-      Y = std::max(Y, size_of_solved(B, residual(s), norm));
+      residuals.col(static_cast<Eigen::Index>(i) + 1) = residual(s);
     }
+    const double Y = largest_of_solved(B, std::move(residuals), norm);
     const double room = 1.0 - largest;
     return curvature_is_below(room * room / (2.0 * Y), centre, scale, B, norm);
   }
@@ -191,10 +191,11 @@ class Tube {
       direction = start_vector(centre.Z.size() + centre.Lambda.size());
       return norm_safety * norm_of_solved(B, change, power_iterations, norm, direction, enough);
     };
-    double Z1 = size_of_change(1.0 / norm_safety);
+    const double too_large = 1.0 / norm_safety;
+    double Z1 = size_of_change(too_large);
     if (Z1 < 1.0) return Z1;
     norm.set_energy(pencil_.energy_norm(), centre.Z);
-    Z1 = size_of_change(INFINITY);
+    Z1 = size_of_change(too_large);
     if (Z1 < 1.0) return Z1;
     const Eigen::Index directions =
         std::clamp(direction.size() / unknowns_per_direction, least_directions, most_directions);
@@ -207,8 +208,8 @@ class Tube {
   static std::array<PlaceOnPiece, 4> samples_of(double begin, double middle, double end) {
     return {{{begin, power_iterations},
              {end, further_iterations},
-             {0.5 * (begin + middle), further_iterations},
-             {0.5 * (middle + end), further_iterations}}};
+             {0.5 * (begin + middle), iterations_within},
+             {0.5 * (middle + end), iterations_within}}};
   }
 
   /// Whether Z2 >= |B F''| is below a limit.
@@ -240,7 +241,7 @@ class Tube {
   static double size_of_image(const Inverse& B, const Operator& A, const TubeNorm& norm, ComplexVector v) {
     v.normalize();
     norm.apply(v);
-    return size_of_solved(B, A.times(v), norm);
+    return largest_of_solved(B, ComplexMatrix(A.times(v)), norm);
   }
 
   const StepPencil& pencil_;

@@ -13,7 +13,7 @@ EnergyNorm::EnergyNorm(Matrix root, Matrix inverse_root)
 
 std::shared_ptr<const EnergyNorm> EnergyNorm::of(const PencilAtPoint& pencil, double shift) {
   const SingularVectors<Matrix> of_P =
-      right_singular_vectors(Matrix(shift * shift * pencil.M + shift * pencil.C + pencil.K));
+      singular_vectors(Matrix(shift * shift * pencil.M + shift * pencil.C + pencil.K));
   const Vector& values = of_P.values;
   const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(values.size());
   // Not a number is not above it either.

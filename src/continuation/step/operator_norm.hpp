@@ -21,13 +21,19 @@ inline ComplexVector start_vector(Eigen::Index size, double number = 0.0) {
   return v;
 }
 
-/// |B v|; infinite if it is not a number.
+/// The largest norm of a column of B V; infinite if one is not a number.
 template <class Inverse>
-double size_of_solved(const Inverse& B, ComplexVector v, const TubeNorm& norm) {
-  B.apply(v);
-  norm.apply_inverse(v);
-  const double size = v.norm();
-  return std::isfinite(size) ? size : INFINITY;
+double largest_of_solved(const Inverse& B, ComplexMatrix V, const TubeNorm& norm) {
+  B.apply(V);
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < V.cols(); ++j) {
+    ComplexVector v = V.col(j);
+    norm.apply_inverse(v);
+    const double size = v.norm();
+    if (!std::isfinite(size)) return INFINITY;
+    largest = std::max(largest, size);
+  }
+  return largest;
 }
 
 /// |B A| from below, by power iteration from the direction v, which is overwritten with the last one. Stops
