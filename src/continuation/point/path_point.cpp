@@ -143,8 +143,7 @@ bool is_finite(const Track& track) {
 }  // namespace
 
 ComplexMatrix PathPoint::shapes(std::size_t pair) const {
-  if (basis.parts) return basis.shapes(pairs[pair].Z, pairs[pair].part);
-  return basis.is_identity ? pairs[pair].Z : ComplexMatrix(basis.T[0].cast<Complex>() * pairs[pair].Z);
+  return basis.shapes(pairs[pair].Z, pairs[pair].part);
 }
 
 PathProblem problem_along(const Model& model, const std::string& parameter) {

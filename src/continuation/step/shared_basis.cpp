@@ -8,11 +8,14 @@ namespace eigentrail {
 std::vector<ComplexMatrix> in_basis_of(const PathNode& node, const std::vector<ComplexMatrix>& physical,
                                        int part) {
   if (node.basis.is_identity) return physical;
+  const Eigen::Index k = physical[0].cols();
+  const auto count = static_cast<Eigen::Index>(physical.size());
+  ComplexMatrix all(physical[0].rows(), k * count);
+  for (Eigen::Index i = 0; i < count; ++i) all.middleCols(i * k, k) = physical[static_cast<std::size_t>(i)];
+  const ComplexMatrix coordinates = node.basis.coordinates(all, part);
   std::vector<ComplexMatrix> result;
   result.reserve(physical.size());
-  for (const ComplexMatrix& V : physical)
-    result.emplace_back(node.basis.parts ? node.basis.coordinates(V, part)
-                                         : ComplexMatrix(node.basis.T[0].transpose().cast<Complex>() * V));
+  for (Eigen::Index i = 0; i < count; ++i) result.emplace_back(coordinates.middleCols(i * k, k));
   return result;
 }
 
