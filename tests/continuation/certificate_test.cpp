@@ -404,7 +404,7 @@ TEST(ContinuedMode, IsFarMoreAccurateThanTheSeriesOfOnePoint) {
   for (std::size_t i = 0; i < 3; ++i) first.left.tracks[i].lineage = first.right.tracks[i].lineage = i + 1;
   Step there(smooth_family(), 0.3, 0.4);
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto mode = continue_mode(first.left, first.right, i, first.length, 0.1);
+    const auto mode = continue_mode(first.left.tracks, first.right, i, first.length, 0.1);
     ASSERT_TRUE(mode);
     const Complex exact = there.right.s(i, 0);
     Complex taylor = 0.0;
@@ -420,7 +420,7 @@ TEST(ContinuedMode, IsFarMoreAccurateThanTheSeriesOfOnePoint) {
 
 TEST(ContinuedMode, IsRefusedForBlocksPassesAndTracksThatWereNotThere) {
   Step step(smooth_family(), 0.2, 0.3);
-  const auto continued = [&] { return continue_mode(step.left, step.right, 0, step.length, 0.1); };
+  const auto continued = [&] { return continue_mode(step.left.tracks, step.right, 0, step.length, 0.1); };
   EXPECT_FALSE(continued()) << "not numbered";
   step.left.tracks[0].lineage = step.right.tracks[0].lineage = 7;
   EXPECT_TRUE(continued());

@@ -25,14 +25,14 @@ ComplexMatrix stacked(const ComplexVector& w, const PairSeries& series) {
 
 }  // namespace
 
-std::optional<ContinuedMode> continue_mode(const PathNode& previous, const PathNode& node, std::size_t index,
-                                           double last, double h) {
+std::optional<ContinuedMode> continue_mode(const std::vector<Track>& previous, const PathNode& node,
+                                           std::size_t index, double last, double h) {
   const Track& track = node.tracks[index];
   // A mode that was itself accepted as extrapolated has no new information to extrapolate from.
   if (track.size() > 1 || track.lineage == 0 || track.passed) return std::nullopt;
-  const auto before = std::find_if(previous.tracks.begin(), previous.tracks.end(),
+  const auto before = std::find_if(previous.begin(), previous.end(),
                                    [&](const Track& other) { return other.lineage == track.lineage; });
-  if (before == previous.tracks.end() || before->passed) return std::nullopt;
+  if (before == previous.end() || before->passed) return std::nullopt;
   const ComplexVector w = before->series.Z[0].col(0);
   const HermiteInterpolant step(last, stacked(w, before->series), stacked(w, track.series));
   const auto count = static_cast<Eigen::Index>(track.series.Z.size());

@@ -55,7 +55,7 @@ Prediction StepSolver::predict(double h) {
   Prediction prediction = solver_.predict(all_tracks(node), h);
   prediction.ready.assign(node.tracks.size(), nullptr);
   for (std::size_t i = 0; origin_.tried && origin_.tried_step == h && i < node.tracks.size(); ++i) {
-    for (const Track& other : origin_.tried->tracks) {
+    for (const Track& other : *origin_.tried) {
       if (other.lineage == node.tracks[i].lineage) prediction.ready[i] = &other;
     }
   }

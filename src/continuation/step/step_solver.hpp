@@ -9,12 +9,13 @@ namespace eigentrail {
 
 /// The begin of the next step, with data of earlier ones. All members are saved with the state of a trace.
 struct StepOrigin {
-  PathNode node;                       ///< the last accepted point
-  PathNode previous = {};              ///< the point before it
-  double last_step = 0.0;              ///< signed length between the two; 0: none in the present coordinate
-  std::optional<PathNode> tried = {};  ///< the point that an attempt with other blocks computed ...
-  double tried_step = 0.0;             ///< ... at this signed distance from `node`
-  std::uint64_t lineages = 0;          ///< largest number given to a track so far
+  PathNode node;                     ///< the last accepted point
+  std::vector<Track> previous = {};  ///< at the point before it
+  double last_step = 0.0;            ///< signed length between the two; 0: none in the present coordinate
+  /// Tracks that an attempt with other blocks computed, at this signed distance from `node`.
+  std::optional<std::vector<Track>> tried = {};
+  double tried_step = 0.0;
+  std::uint64_t lineages = 0;  ///< largest number given to a track so far
 };
 
 /// A computed step, or the reason why there is none.

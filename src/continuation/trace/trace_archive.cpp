@@ -246,15 +246,19 @@ bool has_parts(const ReducedPencil& pencil, const IndependentParts* parts) {
   return true;
 }
 
+/// Tracks of equations that fall apart as those of a pencil do.
+bool fits(const std::vector<Track>& tracks, const ReducedPencil& pencil, const PointSizes& sizes) {
+  const auto count = static_cast<int>(std::max<std::size_t>(pencil.parts.size(), 1));
+  return std::all_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+    const int part = track.pair.part;
+    return part >= 0 && part < count && !pencil.of(part).M.empty() &&
+           fits(track, sizes, pencil.of(part).size());
+  });
+}
+
 bool fits(const PathNode& node, const PointSizes& sizes, const IndependentParts* parts) {
   const Eigen::Index n = sizes.coordinates;
-  if (!has_parts(node.pencil, parts)) return false;
-  const auto count = static_cast<int>(std::max<std::size_t>(node.pencil.parts.size(), 1));
-  for (const Track& track : node.tracks) {
-    const int part = track.pair.part;
-    if (part < 0 || part >= count || node.pencil.of(part).M.empty()) return false;
-    if (!fits(track, sizes, node.pencil.of(part).size())) return false;
-  }
+  if (!has_parts(node.pencil, parts) || !fits(node.tracks, node.pencil, sizes)) return false;
   const Linearization& full = node.linearization;
   return is_series(node.path.parameters, sizes.parameters) && is_series(node.path.x, n) &&
          is_series(node.path.lambda, sizes.multipliers) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
@@ -322,9 +326,9 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   if (sizes.freedoms < 1 || sizes.freedoms > sizes.coordinates || sizes.columns < 1) return "other freedoms";
   if (state.numbers.count != sizes.columns) return "another number of modes";
   if (!fits(origin.node, sizes, problem.parts.get())) return "another size of the last point";
-  if (origin.last_step != 0.0 && !fits(origin.previous, sizes, problem.parts.get()))
+  if (origin.last_step != 0.0 && !fits(origin.previous, origin.node.pencil, sizes))
     return "another size of the point before it";
-  if (origin.tried && !fits(*origin.tried, sizes, problem.parts.get()))
+  if (origin.tried && !fits(*origin.tried, origin.node.pencil, sizes))
     return "another size of a point that was tried";
   for (const EndedTrack& one : state.ended) {
     const auto parts = static_cast<int>(std::max<std::size_t>(origin.node.pencil.parts.size(), 1));
@@ -376,8 +380,7 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     problem.rests = scene.rests;
     problem.parts = scene.parts;
   }
-  for (PathNode* node : {&state.origin.node, &state.origin.previous}) restore_parts(problem, *node);
-  if (state.origin.tried) restore_parts(problem, *state.origin.tried);
+  restore_parts(problem, state.origin.node);
   state.frame.range = {problem.traced, options.from, options.to};
   if (const std::string fault = misfit(state, problem, options); !fault.empty())
     throw InputError("the state of the trace does not fit the scene: " + fault);

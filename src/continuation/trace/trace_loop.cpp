@@ -343,7 +343,7 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
   add(remedy.changes, state_.result.regroupings);
   state_.origin.tried.reset();
-  if (step) state_.origin.tried = std::move(step->right);
+  if (step) state_.origin.tried = std::move(step->right.tracks);
   state_.origin.tried_step = state_.frame.plane ? 0.0 : h;
   return true;
 }
@@ -492,9 +492,9 @@ void TraceLoop::move_on(Step step) {
   memory.joins = 0;
   memory.ended = 0;
   state_.branches.tries = 0;
-  origin.previous = std::move(origin.node);
+  const bool grows = grows_towards_pole(frame, origin.node, step.right);
+  origin.previous = std::move(origin.node.tracks);
   origin.node = std::move(step.right);
-  const bool grows = grows_towards_pole(frame, origin.previous, origin.node);
   memory.towards_pole = grows ? memory.towards_pole + 1 : 0;
   origin.last_step = frame.plane ? 0.0 : step.h;
   origin.tried.reset();
