@@ -84,8 +84,12 @@ PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
 ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
   ComplexMatrix P(M.rows(), M.cols());
   const Complex mu2 = mu * mu;
-  P.real() = mu2.real() * M + mu.real() * C + K;
-  P.imag() = mu2.imag() * M + mu.imag() * C;
+  // Entry by entry: assignments to real and imaginary part apart go twice through the memory.
+  for (Eigen::Index i = 0; i < P.size(); ++i) {
+    const double m = M.data()[i];
+    const double c = C.data()[i];
+    P.data()[i] = {mu2.real() * m + mu.real() * c + K.data()[i], mu2.imag() * m + mu.imag() * c};
+  }
   return P;
 }
 

@@ -39,11 +39,13 @@ constexpr double curvature_safety = 1.5;
 /// Factor on an estimate of Z2 from a single vector.
 constexpr double rough_safety = 30.0;
 
-/// Multiplications for one tube, about 0.05 s: a large model has few halvings. With a larger value few tubes
+/// Multiplications for one tube, about 0.08 s: a large model has few halvings. With a larger value few tubes
 /// use up what the certificate may cost of all.
-constexpr double most_work = 4e7;
-/// Solutions with each factorization, about: only the budget of the certificate depends on it.
-constexpr double solutions = 30.0;
+constexpr double most_work = 2.5e8;
+/// What the vectors of a piece take, in n^2 multiplications at the speed of an LU: about thirty solutions and as
+/// many products, which are several times slower, and the shares of the step's energy norm and of the pencils
+/// at the samples. Only the budget of the certificate depends on it.
+constexpr double vectors_of_piece = 200.0;
 
 /// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
 /// size n + k. Affects only the time.
@@ -153,7 +155,7 @@ class Tube {
   void count(Eigen::Index factorizations, Eigen::Index size) {
     const auto n = static_cast<double>(size);
     counts_.certificate_factorizations += static_cast<std::uint64_t>(factorizations);
-    counts_.certificate_work += static_cast<double>(factorizations) * n * n * (n / 3.0 + solutions);
+    counts_.certificate_work += static_cast<double>(factorizations) * n * n * (n / 3.0 + vectors_of_piece);
   }
 
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies

@@ -21,25 +21,24 @@ constexpr double attempts_share = 0.25;
 constexpr double enough_failures = 2.5;
 constexpr double not_by_error = 1e-2;
 
-/// Multiplications that the certificate may take in any case, most of them in proportion to the share of the
-/// range: about 0.5 s on a processor of 2020. Beyond, it may take this share of all other work; a
-/// multiplication of the certificate takes about twice as long, as most are those of single solutions, not of
-/// factorizations.
-constexpr double free_work = 1e9;
+/// Work is counted in multiplications at the speed of an LU, of which 1e9 take about 0.3 s on a processor of
+/// 2020. The certificate may take so many in any case, most of them in proportion to the share of the range.
+/// Beyond, it may take this share of all other work.
+constexpr double free_work = 2.5e9;
 constexpr double free_at_start = 0.1;
-constexpr double share_of_work = 0.25;
+constexpr double share_of_work = 0.4;
 /// The same for what it may take in vain, for tracks that it does not certify: where it seldom closes it is
 /// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
-constexpr double free_in_vain = 4e8;
+constexpr double free_in_vain = 1e9;
 constexpr double share_in_vain = 0.12;
 /// The work in vain, in multiplications, from which on a track that fails is tested on fewer steps: after one
 /// failure on the next one, then after pauses of 1, 3, 7 ... steps.
-constexpr double noticed_in_vain = 1e8;
+constexpr double noticed_in_vain = 2.5e8;
 constexpr int most_doublings = 6;
-/// For each factorization, of n^3 / 3 multiplications, the certificate applies the inverse to about this many
-/// vectors, of n^2 each; the corrections of a mode take few.
-constexpr double solutions = 30.0;
-constexpr double solutions_of_mode = 5.0;
+/// For each factorization of a mode, of n^3 / 3 multiplications, its corrections, its series and the search
+/// for events take about so many times n^2: solutions and products with single vectors, which are several times
+/// slower than factorizations.
+constexpr double vectors_of_mode = 250.0;
 /// Multiplications of a spectrum, of a pencil of size n, in n^3.
 constexpr double spectrum_work = 480.0;
 
@@ -90,8 +89,8 @@ CertificateBudget certificate_budget(const RunCounts& counts, Eigen::Index n, do
     return static_cast<double>(factorizations) * size * size * (size / 3.0 + vectors);
   };
   const double certificate = counts.certificate_work;
-  const double others = work(counts.modes.factorizations + counts.event_factorizations, solutions_of_mode) +
-                        work(8 * counts.modes.modal_bases, solutions_of_mode) +
+  const double others = work(counts.modes.factorizations + counts.event_factorizations, vectors_of_mode) +
+                        work(8 * counts.modes.modal_bases, vectors_of_mode) +
                         static_cast<double>(counts.spectra) * spectrum_work * size * size * size;
   const double free = free_work * (free_at_start + (1.0 - free_at_start) * progress);
   const double useful = certificate - counts.certificate_in_vain;

@@ -73,8 +73,14 @@ void JacobianChange::set_pencil() {
   const Complex square_a = s_a * s_a;
   const Complex square_b = s_b * s_b;
   P_.resize(Z_.rows(), Z_.rows());
-  P_.real() = square_b.real() * b.M - square_a.real() * a.M + s_b.real() * b.C - s_a.real() * a.C + b.K - a.K;
-  P_.imag() = square_b.imag() * b.M - square_a.imag() * a.M + s_b.imag() * b.C - s_a.imag() * a.C;
+  // Entry by entry: assignments to real and imaginary part apart go twice through the memory.
+  for (Eigen::Index i = 0; i < P_.size(); ++i) {
+    const double M_a = a.M.data()[i], M_b = b.M.data()[i];
+    const double C_a = a.C.data()[i], C_b = b.C.data()[i];
+    P_.data()[i] = {square_b.real() * M_b - square_a.real() * M_a + s_b.real() * C_b - s_a.real() * C_a +
+                        b.K.data()[i] - a.K.data()[i],
+                    square_b.imag() * M_b - square_a.imag() * M_a + s_b.imag() * C_b - s_a.imag() * C_a};
+  }
   of_eigenvalue_ = scale_ * (s_b * at_to_.MZ - s_a * at_from_.MZ + slope_);
 }
 
