@@ -63,7 +63,12 @@ void ComplexLu::solve_adjoint_in_place(ComplexMatrix& B) const {
   restore_rows(pivots_, B);
 }
 
+void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {
+  substitute(triangle, form, b.data());
+}
+
 void ComplexLu::substitute(char triangle, char form, ComplexMatrix& B) const {
+  if (B.cols() == 1) return substitute(triangle, form, B.data());
   const auto n = static_cast<int>(factors_.rows());
   const auto columns = static_cast<int>(B.cols());
   const char side = 'L';
@@ -72,12 +77,12 @@ void ComplexLu::substitute(char triangle, char form, ComplexMatrix& B) const {
   ztrsm_(&side, &triangle, &form, &diagonal, &n, &columns, &one, factors_.data(), &n, B.data(), &n);
 }
 
-void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {
+void ComplexLu::substitute(char triangle, char form, Complex* b) const {
   const auto n = static_cast<int>(factors_.rows());
   const int next = 1;
   // L has a unit diagonal that is not stored, U stores its own
   const char diagonal = triangle == 'L' ? 'U' : 'N';
-  ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, b.data(), &next);
+  ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, b, &next);
 }
 
 }  // namespace eigentrail

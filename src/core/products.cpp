@@ -61,8 +61,9 @@ ComplexMatrix zgemm(char form, const ComplexMatrix& A, const ComplexMatrix& X) {
   return Y;
 }
 
-/// A X (form 'N') or A^T X (form 'T') for few complex columns X. Real and imaginary parts alternate in memory:
-/// each is a vector with increment two. dgemm would copy A first, which takes longer than the products.
+/// A X (form 'N') or A^T X (form 'T') for few complex columns X. Real and imaginary parts alternate in
+/// memory: each is a vector with increment two. dgemm would copy A first, which takes longer than the
+/// products.
 ComplexMatrix by_vectors(char form, const Matrix& A, const ComplexMatrix& X) {
   const auto rows = static_cast<int>(A.rows());
   const auto columns = static_cast<int>(A.cols());

@@ -106,7 +106,12 @@ void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, Co
 }
 
 void PairFactorization::solve_in_place(ComplexVector& b) const {
-  if (coupling_) return solve_block(b);
+  if (coupling_) {
+    ComplexMatrix B = b;
+    solve_block(B);
+    b = B;
+    return;
+  }
   const Eigen::Index n = b.size() - 1;
   b[n] *= border_scale_;
   if (real_) {
@@ -121,7 +126,12 @@ void PairFactorization::solve_in_place(ComplexVector& b) const {
 }
 
 void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
-  if (coupling_) return solve_block_adjoint(b);
+  if (coupling_) {
+    ComplexMatrix B = b;
+    solve_block_adjoint(B);
+    b = B;
+    return;
+  }
   const Eigen::Index n = b.size() - 1;
   b[n] *= slope_scale_;
   if (real_) {
@@ -136,66 +146,105 @@ void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
 }
 
 void PairFactorization::solve_in_place(ComplexMatrix& B) const {
-  if (coupling_ || real_) return for_each_column(B, [this](ComplexVector& b) { solve_in_place(b); });
+  if (coupling_) return solve_block(B);
+  if (real_) return for_each_column(B, [this](ComplexVector& b) { solve_in_place(b); });
   B.bottomRows(1) *= border_scale_;
   columns_.front().solve_in_place(B);
   B.bottomRows(1) *= slope_scale_;
 }
 
 void PairFactorization::solve_adjoint_in_place(ComplexMatrix& B) const {
-  if (coupling_ || real_) return for_each_column(B, [this](ComplexVector& b) { solve_adjoint_in_place(b); });
+  if (coupling_) return solve_block_adjoint(B);
+  if (real_) return for_each_column(B, [this](ComplexVector& b) { solve_adjoint_in_place(b); });
   B.bottomRows(1) *= slope_scale_;
   columns_.front().solve_adjoint_in_place(B);
   B.bottomRows(1) *= border_scale_;
 }
 
-void PairFactorization::solve_block(ComplexVector& b) const {
-  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
-  const Eigen::Index n = Z.rows();
-  const Eigen::Index k = Z.cols();
-  ComplexMatrix X = b.head(n * k).reshaped(n, k).lazyProduct(U);  // right sides, then solutions
-  ComplexMatrix Y = U.adjoint() * b.tail(k * k).reshaped(k, k) * U;
-  ComplexVector column(n + k);
+PairFactorization::InSchurForm PairFactorization::in_schur_form(const ComplexMatrix& B) const {
+  const ComplexMatrix& U = coupling_->U;
+  const Eigen::Index n = coupling_->Z.rows();
+  const Eigen::Index k = U.rows();
+  const Eigen::Index m = B.cols();
+  InSchurForm columns{ComplexMatrix::Zero(n, k * m), ComplexMatrix::Zero(k, k * m)};
   for (Eigen::Index j = 0; j < k; ++j) {
-    if (j > 0) {
-      // Contribution of the previous columns through the strict upper triangle of T.
-      const auto t = T.col(j).head(j);
-      const auto before = X.leftCols(j);
-      const ComplexVector Xt = before.lazyProduct(t);
-      const ComplexVector turn = Y.leftCols(j).lazyProduct(t);
-      X.col(j) -= multiply(M, before.lazyProduct(T2.col(j).head(j)) + Z.lazyProduct(turn)) + multiply(C, Xt);
-      Y.col(j) -= W1.adjoint() * Xt;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      columns.X.middleCols(j * m, m) += U(i, j) * B.middleRows(i * n, n);
+      columns.Y.middleCols(j * m, m) += U(i, j) * B.middleRows(n * k + i * k, k);
     }
-    column << X.col(j), border_scale_ * Y.col(j);
-    columns_[static_cast<std::size_t>(j)].solve_in_place(column);
-    X.col(j) = column.head(n);
-    Y.col(j) = slope_scale_ * column.tail(k);
   }
-  b.head(n * k).reshaped(n, k) = X.lazyProduct(U.adjoint());
-  b.tail(k * k).reshaped(k, k) = U * Y * U.adjoint();
+  columns.Y = (U.adjoint() * columns.Y).eval();
+  return columns;
 }
 
-void PairFactorization::solve_block_adjoint(ComplexVector& b) const {
+void PairFactorization::from_schur_form(const InSchurForm& columns, ComplexMatrix& B) const {
+  const ComplexMatrix& U = coupling_->U;
+  const Eigen::Index n = coupling_->Z.rows();
+  const Eigen::Index k = U.rows();
+  const Eigen::Index m = B.cols();
+  const ComplexMatrix UY = U * columns.Y;
+  B.setZero();
+  for (Eigen::Index j = 0; j < k; ++j) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      B.middleRows(i * n, n) += std::conj(U(i, j)) * columns.X.middleCols(j * m, m);
+      B.middleRows(n * k + i * k, k) += std::conj(U(i, j)) * UY.middleCols(j * m, m);
+    }
+  }
+}
+
+void PairFactorization::solve_block(ComplexMatrix& B) const {
   const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
-  ComplexMatrix X = b.head(n * k).reshaped(n, k).lazyProduct(U);
-  ComplexMatrix Y = U.adjoint() * b.tail(k * k).reshaped(k, k) * U;
-  ComplexVector column(n + k);
-  for (Eigen::Index j = k - 1; j >= 0; --j) {
-    column << X.col(j), slope_scale_ * Y.col(j);
-    columns_[static_cast<std::size_t>(j)].solve_adjoint_in_place(column);
-    X.col(j) = column.head(n);
-    Y.col(j) = border_scale_ * column.tail(k);
-    if (j == 0) break;
-    const auto t = T.col(j).head(j);
-    const ComplexMatrix MX = transposed_multiply(M, X.col(j));
-    const ComplexMatrix Xt = transposed_multiply(C, X.col(j)) + W1.lazyProduct(Y.col(j));
-    X.leftCols(j) -= MX.lazyProduct(T2.col(j).head(j).adjoint()) + Xt.lazyProduct(t.adjoint());
-    Y.leftCols(j) -= (Z.adjoint() * MX).lazyProduct(t.adjoint());
+  const Eigen::Index m = B.cols();
+  auto [X, Y] = in_schur_form(B);  // right sides, then solutions
+  ComplexMatrix column(n + k, m);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    auto Xj = X.middleCols(j * m, m);
+    auto Yj = Y.middleCols(j * m, m);
+    if (j > 0) {
+      // Contribution of the previous columns through the strict upper triangle of T.
+      ComplexMatrix Xt = ComplexMatrix::Zero(n, m), Xt2 = Xt, Yt = ComplexMatrix::Zero(k, m);
+      for (Eigen::Index i = 0; i < j; ++i) {
+        Xt += T(i, j) * X.middleCols(i * m, m);
+        Xt2 += T2(i, j) * X.middleCols(i * m, m);
+        Yt += T(i, j) * Y.middleCols(i * m, m);
+      }
+      Xj -= multiply(M, Xt2 + Z.lazyProduct(Yt)) + multiply(C, Xt);
+      Yj -= W1.adjoint() * Xt;
+    }
+    column << Xj, border_scale_ * Yj;
+    columns_[static_cast<std::size_t>(j)].solve_in_place(column);
+    Xj = column.topRows(n);
+    Yj = slope_scale_ * column.bottomRows(k);
   }
-  b.head(n * k).reshaped(n, k) = X.lazyProduct(U.adjoint());
-  b.tail(k * k).reshaped(k, k) = U * Y * U.adjoint();
+  from_schur_form({std::move(X), std::move(Y)}, B);
+}
+
+void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
+  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
+  const Eigen::Index n = Z.rows();
+  const Eigen::Index k = Z.cols();
+  const Eigen::Index m = B.cols();
+  auto [X, Y] = in_schur_form(B);
+  ComplexMatrix column(n + k, m);
+  for (Eigen::Index j = k - 1; j >= 0; --j) {
+    column << X.middleCols(j * m, m), slope_scale_ * Y.middleCols(j * m, m);
+    columns_[static_cast<std::size_t>(j)].solve_adjoint_in_place(column);
+    const ComplexMatrix Xj = column.topRows(n);
+    const ComplexMatrix Yj = border_scale_ * column.bottomRows(k);
+    X.middleCols(j * m, m) = Xj;
+    Y.middleCols(j * m, m) = Yj;
+    if (j == 0) break;
+    const ComplexMatrix MX = transposed_multiply(M, Xj);
+    const ComplexMatrix Xt = transposed_multiply(C, Xj) + W1.lazyProduct(Yj);
+    const ComplexMatrix ZMX = Z.adjoint() * MX;
+    for (Eigen::Index i = 0; i < j; ++i) {
+      X.middleCols(i * m, m) -= std::conj(T2(i, j)) * MX + std::conj(T(i, j)) * Xt;
+      Y.middleCols(i * m, m) -= std::conj(T(i, j)) * ZMX;
+    }
+  }
+  from_schur_form({std::move(X), std::move(Y)}, B);
 }
 
 double PairFactorization::sensitivity() const {

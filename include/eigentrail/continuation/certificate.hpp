@@ -69,7 +69,7 @@ class StepPencil {
   const PathNode& left_;
   const ReducedPencil& left_pencil_;
   double length_;
-  Eigen::Index count_;   ///< number of coefficients at each end
+  Eigen::Index count_;  ///< number of coefficients at each end
   int part_;
   ReducedPencil right_;  ///< the right pencil in the reduced coordinates of the left point
   mutable std::mutex mutex_;

@@ -32,6 +32,7 @@ class ComplexLu {
   /// 'U'.
   void substitute(char triangle, char form, ComplexVector& b) const;
   void substitute(char triangle, char form, ComplexMatrix& B) const;
+  void substitute(char triangle, char form, Complex* b) const;
 
   ComplexMatrix factors_;
   std::vector<int> pivots_;

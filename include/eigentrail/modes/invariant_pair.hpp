@@ -62,7 +62,7 @@ class PairFactorization {
   /// Overwrites b with B^H b, where B is the linear map of solve_in_place.
   void solve_adjoint_in_place(ComplexVector& b) const;
 
-  /// The same on each column of B; for a single mode all at once, which takes less time.
+  /// The same on all columns of B together, which takes less time.
   void solve_in_place(ComplexMatrix& B) const;
   void solve_adjoint_in_place(ComplexMatrix& B) const;
 
@@ -87,8 +87,16 @@ class PairFactorization {
   /// Factors the real form of the equations of a single mode. Returns false if they are not real.
   bool factor_real(const PencilAtPoint& pencil, const ComplexVector& z, Complex s, const ComplexVector& w,
                    const ComplexVector& slope);
-  void solve_block(ComplexVector& b) const;
-  void solve_block_adjoint(ComplexVector& b) const;
+  /// Columns of right sides of a block, in the basis of its Schur form: for each column j of the block those
+  /// of X (n x m) and of Y (k x m), one after the other.
+  struct InSchurForm {
+    ComplexMatrix X, Y;
+  };
+  InSchurForm in_schur_form(const ComplexMatrix& B) const;
+  /// Overwrites B.
+  void from_schur_form(const InSchurForm& columns, ComplexMatrix& B) const;
+  void solve_block(ComplexMatrix& B) const;
+  void solve_block_adjoint(ComplexMatrix& B) const;
 
   std::optional<Coupling> coupling_;
   std::optional<RealMode> real_;

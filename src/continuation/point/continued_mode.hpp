@@ -12,9 +12,9 @@
 namespace eigentrail {
 
 /// Track `index` of `node` extrapolated to the distance h behind the node, from the step of signed length
-/// `last` between the point of the tracks `previous` and the node, both lengths in the path's coordinate. Empty for blocks, for
-/// tracks that were not followed unchanged on that step, and for those accepted without correction at either
-/// end.
+/// `last` between the point of the tracks `previous` and the node, both lengths in the path's coordinate.
+/// Empty for blocks, for tracks that were not followed unchanged on that step, and for those accepted without
+/// correction at either end.
 std::optional<ContinuedMode> continue_mode(const std::vector<Track>& previous, const PathNode& node,
                                            std::size_t index, double last, double h);
 

@@ -23,7 +23,8 @@ constexpr double falling = 0.75;
 /// makes up for the rest.
 constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
-constexpr int iterations_within = 1;   ///< the same within the piece, where Z1 is about half of that at its ends
+constexpr int iterations_within =
+    1;  ///< the same within the piece, where Z1 is about half of that at its ends
 /// Directions that the adapted norm scales: those of the largest singular values of I - B J. A larger number
 /// costs more solutions, and closes more pieces of sensitive eigenvalues.
 constexpr Eigen::Index least_directions = 3;
@@ -42,9 +43,9 @@ constexpr double rough_safety = 30.0;
 /// Multiplications for one tube, about 0.08 s: a large model has few halvings. With a larger value few tubes
 /// use up what the certificate may cost of all.
 constexpr double most_work = 2.5e8;
-/// What the vectors of a piece take, in n^2 multiplications at the speed of an LU: about thirty solutions and as
-/// many products, which are several times slower, and the shares of the step's energy norm and of the pencils
-/// at the samples. Only the budget of the certificate depends on it.
+/// What the vectors of a piece take, in n^2 multiplications at the speed of an LU: about thirty solutions and
+/// as many products, which are several times slower, and the shares of the step's energy norm and of the
+/// pencils at the samples. Only the budget of the certificate depends on it.
 constexpr double vectors_of_piece = 200.0;
 
 /// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
@@ -79,36 +80,37 @@ class Tube {
  private:
   /// The interpolated pair and pencil at one value of t.
   struct State {
-    State(std::shared_ptr<const StepPencil::Sample> at, Chart chart, Eigen::Index n, Eigen::Index k)
-        : sample(std::move(at)),
-          pencil(sample->at, chart),
-          Z(ComplexMatrix::Zero(n, k)),
-          Lambda(ComplexMatrix::Zero(k, k)) {}
-
-    PairAtPlace place() const { return {pencil, Z, Lambda}; }
+    State(const Tube& tube, double t)
+        : sample(tube.pencil_.at(t)),
+          pencil(sample->at, tube.chart_),
+          Z(weighted_sum(tube.left_Z_, tube.right_Z_, sample->weights)),
+          Lambda(weighted_sum(tube.left_Lambda_, tube.right_Lambda_, sample->weights)),
+          place(pencil, Z, Lambda) {}
+    State(const State&) = delete;  // refers to itself
 
     std::shared_ptr<const StepPencil::Sample> sample;
     PencilAtPoint pencil;  ///< of the sample
     ComplexMatrix Z, Lambda;
+    PairAtPlace place;
   };
 
-  State state(double t) const {
-    State state(pencil_.at(t), chart_, W_.rows() / 2, W_.cols());
-    const Vector& w = state.sample->weights;
-    const auto count = static_cast<Eigen::Index>(left_Z_.size());
+  /// The sum of the coefficients at both ends with Hermite weights.
+  static ComplexMatrix weighted_sum(const std::vector<ComplexMatrix>& left,
+                                    const std::vector<ComplexMatrix>& right, const Vector& weights) {
+    const auto count = static_cast<Eigen::Index>(left.size());
+    ComplexMatrix sum = ComplexMatrix::Zero(left[0].rows(), left[0].cols());
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      state.Z += w[i] * left_Z_[at] + w[count + i] * right_Z_[at];
-      state.Lambda += w[i] * left_Lambda_[at] + w[count + i] * right_Lambda_[at];
+      sum += weights[i] * left[at] + weights[count + i] * right[at];
     }
-    return state;
+    return sum;
   }
 
   /// F(U): the residual of the pair's equation (n k), then that of the normalization (k^2).
   ComplexVector residual(const State& s) const {
     const Eigen::Index n = s.Z.rows();
     const Eigen::Index k = s.Z.cols();
-    const ComplexMatrix R = s.pencil.residual(s.Z, s.Lambda);
+    const ComplexMatrix R = s.place.residual();
     const ComplexMatrix N =
         W_.topRows(n).adjoint() * s.Z + W1_.adjoint() * (s.Z * s.Lambda) - ComplexMatrix::Identity(k, k);
     ComplexVector F(n * k + k * k);
@@ -140,15 +142,15 @@ class Tube {
 
   /// The same without halving. Sets Z1.
   bool piece_closes(double begin, double middle, double end, double& Z1) {
-    const State centre = state(middle);
+    const State centre(*this, middle);
     const double scale = unknown_scale(gap_, centre.Lambda.norm());
     const auto samples = samples_of(begin, middle, end);
     if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       count(1, centre.Z.size() + centre.Lambda.size());
-      return closes_about(centre, WholeInverse(centre.place(), W_, scale), scale, samples, Z1);
+      return closes_about(centre, WholeInverse(centre.place, W_, scale), scale, samples, Z1);
     }
     count(W_.cols(), centre.Z.rows() + W_.cols());
-    return closes_about(centre, TriangularInverse(centre.place(), W_, W1_, scale), scale, samples, Z1);
+    return closes_about(centre, TriangularInverse(centre.place, W_, W1_, scale), scale, samples, Z1);
   }
 
   /// Counts LUs of a size, with the solutions for the bounds.
@@ -164,13 +166,14 @@ class Tube {
   bool closes_about(const State& centre, const Inverse& B, double scale,
                     const std::array<PlaceOnPiece, 4>& samples, double& Z1) const {
     TubeNorm norm(centre.Z.rows(), centre.Z.cols());
-    ComplexMatrix residuals(centre.Z.size() + centre.Lambda.size(), 1 + static_cast<Eigen::Index>(samples.size()));
+    ComplexMatrix residuals(centre.Z.size() + centre.Lambda.size(),
+                            1 + static_cast<Eigen::Index>(samples.size()));
     residuals.col(0) = residual(centre);
     ComplexVector direction;
     double largest = 0.0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const State s = state(samples[i].t);
-      const auto change = B.change_to(s.place());
+      const State s(*this, samples[i].t);
+      const auto change = B.change_to(s.place);
       const double size =
           i == 0 ? choose_norm(centre, B, change, norm, direction)
                  : norm_safety * norm_of_solved(B, change, samples[i].iterations, norm, direction);
@@ -184,8 +187,8 @@ class Tube {
     return curvature_is_below(room * room / (2.0 * Y), centre, scale, B, norm);
   }
 
-  /// The first of the plain, the energy and the adapted norm in which Z1 of a change is below one, or the last.
-  /// Returns Z1 and sets the direction of the largest change.
+  /// The first of the plain, the energy and the adapted norm in which Z1 of a change is below one, or the
+  /// last. Returns Z1 and sets the direction of the largest change.
   template <class Inverse, class Change>
   double choose_norm(const State& centre, const Inverse& B, const Change& change, TubeNorm& norm,
                      ComplexVector& direction) const {
@@ -225,12 +228,12 @@ class Tube {
     for (const bool is_rough : {true, false}) {
       double squares = 0.0;
       for (Eigen::Index i = 0; i < k * k; ++i) {
-        const PairCurvature A(s.place(), W1_, scale, i % k, i / k);
+        const PairCurvature A(s.place, W1_, scale, i % k, i / k);
         ComplexVector direction = start_vector(s.Z.size() + s.Lambda.size());
         const double estimate =
-            is_rough ? rough_safety * std::sqrt(size) * size_of_image(B, A, norm, direction)
-                     : curvature_safety * norm_safety *
-                           norm_of_solved(B, A, power_iterations, norm, direction);
+            is_rough
+                ? rough_safety * std::sqrt(size) * size_of_image(B, A, norm, direction)
+                : curvature_safety * norm_safety * norm_of_solved(B, A, power_iterations, norm, direction);
         squares += estimate * estimate;
       }
       if (both * std::sqrt(squares) < limit) return true;

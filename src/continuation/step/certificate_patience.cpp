@@ -36,8 +36,8 @@ constexpr double share_in_vain = 0.12;
 constexpr double noticed_in_vain = 2.5e8;
 constexpr int most_doublings = 6;
 /// For each factorization of a mode, of n^3 / 3 multiplications, its corrections, its series and the search
-/// for events take about so many times n^2: solutions and products with single vectors, which are several times
-/// slower than factorizations.
+/// for events take about so many times n^2: solutions and products with single vectors, which are several
+/// times slower than factorizations.
 constexpr double vectors_of_mode = 250.0;
 /// Multiplications of a spectrum, of a pencil of size n, in n^3.
 constexpr double spectrum_work = 480.0;

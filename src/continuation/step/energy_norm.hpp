@@ -13,7 +13,8 @@ namespace eigentrail {
 /// whatever the units of the coordinates and however far their stiffnesses are apart.
 class EnergyNorm {
  public:
-  /// By one singular value decomposition, in about 8 n^3 multiplications. Null if P is singular or not finite.
+  /// By one singular value decomposition, in about 8 n^3 multiplications. Null if P is singular or not
+  /// finite.
   static std::shared_ptr<const EnergyNorm> of(const PencilAtPoint& pencil, double shift);
 
   const Matrix& root() const { return root_; }                  ///< R, symmetric, n x n

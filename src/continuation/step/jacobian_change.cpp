@@ -15,19 +15,26 @@ double unknown_scale(double gap, double size) {
   return std::max({0.5 * gap, least * size, tiny});
 }
 
-PairProducts::PairProducts(const PairAtPlace& place)
-    : MZ(multiply(place.pencil.M, place.Z)),
-      slope(MZ.lazyProduct(place.Lambda) + multiply(place.pencil.C, place.Z)) {}
+PairAtPlace::PairAtPlace(const PencilAtPoint& its_pencil, const ComplexMatrix& its_Z,
+                         const ComplexMatrix& its_Lambda)
+    : pencil(its_pencil),
+      Z(its_Z),
+      Lambda(its_Lambda),
+      MZ(multiply(pencil.M, Z)),
+      slope(MZ.lazyProduct(Lambda) + multiply(pencil.C, Z)) {}
+
+ComplexMatrix PairAtPlace::residual() const {
+  return slope.lazyProduct(Lambda) + multiply(pencil.K, Z);
+}
 
 /// The n x n block (i, j) maps column j of Z to column i of the residual. It is (Lambda^2)(j, i) M +
 /// Lambda(j, i) C, plus K for i = j. The blocks of Lambda and of the normalization are arranged in the same
 /// way.
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale) {
-  const auto& [pencil, Z, Lambda] = at;
+  const auto& [pencil, Z, Lambda, MZ, slope] = at;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const ComplexMatrix L2 = Lambda * Lambda;
-  const auto [MZ, slope] = PairProducts(at);
   const ComplexMatrix W0 = W.topRows(n).adjoint();
   const ComplexMatrix W1 = W.bottomRows(n).adjoint();
   const ComplexMatrix W1Z = W1 * Z;
@@ -47,17 +54,15 @@ ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, dou
   return J;
 }
 
-JacobianChange::JacobianChange(const PairAtPlace& from, const PairProducts& at_from, const PairAtPlace& to,
-                               const ComplexMatrix& W1, double scale)
+JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1,
+                               double scale)
     : from_(from),
       to_(to),
       W1_(W1),
       scale_(scale),
-      at_from_(at_from),
-      at_to_(to),
       Z_(to.Z - from.Z),
       Lambda_(to.Lambda - from.Lambda),
-      slope_(at_to_.slope - at_from_.slope) {
+      slope_(to.slope - from.slope) {
   if (Z_.cols() == 1) {
     set_pencil();
   } else {
@@ -81,7 +86,7 @@ void JacobianChange::set_pencil() {
                         b.K.data()[i] - a.K.data()[i],
                     square_b.imag() * M_b - square_a.imag() * M_a + s_b.imag() * C_b - s_a.imag() * C_a};
   }
-  of_eigenvalue_ = scale_ * (s_b * at_to_.MZ - s_a * at_from_.MZ + slope_);
+  of_eigenvalue_ = scale_ * (s_b * to_.MZ - s_a * from_.MZ + slope_);
 }
 
 void JacobianChange::set_terms() {
@@ -126,53 +131,64 @@ Columns JacobianChange::adjoint_times_of_mode(const Columns& V) const {
   return result;
 }
 
-ComplexVector JacobianChange::times(const ComplexVector& v) const {
+ComplexMatrix JacobianChange::times_of_block(const ComplexMatrix& V) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
-  if (k == 1) return times_of_mode(v);
-  const ComplexMatrix X = v.head(n * k).reshaped(n, k);
-  const ComplexMatrix Y = scale_ * v.tail(k * k).reshaped(k, k);
-  ComplexMatrix R = at_to_.MZ.lazyProduct(Y * to_.Lambda) - at_from_.MZ.lazyProduct(Y * from_.Lambda) +
-                    slope_.lazyProduct(Y);
+  const Eigen::Index m = V.cols();
+  const ComplexMatrix X = V.topRows(n * k).reshaped(n, k * m);
   const ComplexMatrix BX = multiply(B_, X);
-  for (std::size_t i = 0; i < L_.size(); ++i)
-    R += BX.middleRows(static_cast<Eigen::Index>(i) * n, n).lazyProduct(L_[i]);
-  const ComplexMatrix N = W1_.adjoint() * (X.lazyProduct(Lambda_) + Z_.lazyProduct(Y));
-  ComplexVector result(v.size());
-  result << R.reshaped(), N.reshaped();
+  ComplexMatrix result(V.rows(), m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const ComplexMatrix Y = scale_ * V.col(j).tail(k * k).reshaped(k, k);
+    ComplexMatrix R =
+        to_.MZ.lazyProduct(Y * to_.Lambda) - from_.MZ.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      R += BX.block(static_cast<Eigen::Index>(i) * n, j * k, n, k).lazyProduct(L_[i]);
+    const ComplexMatrix N = W1_.adjoint() * (X.middleCols(j * k, k).lazyProduct(Lambda_) + Z_.lazyProduct(Y));
+    result.col(j) << R.reshaped(), N.reshaped();
+  }
   return result;
+}
+
+ComplexMatrix JacobianChange::adjoint_times_of_block(const ComplexMatrix& V) const {
+  const Eigen::Index n = Z_.rows();
+  const Eigen::Index k = Z_.cols();
+  const Eigen::Index m = V.cols();
+  const ComplexMatrix R = V.topRows(n * k).reshaped(n, k * m);
+  ComplexMatrix RL(B_.rows(), k * m);
+  for (std::size_t i = 0; i < L_.size(); ++i) {
+    for (Eigen::Index j = 0; j < m; ++j)
+      RL.block(static_cast<Eigen::Index>(i) * n, j * k, n, k) =
+          R.middleCols(j * k, k).lazyProduct(L_[i].adjoint());
+  }
+  const ComplexMatrix BRL = transposed_multiply(B_, RL);
+  ComplexMatrix result(V.rows(), m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const auto Rj = R.middleCols(j * k, k);
+    const ComplexMatrix W1N = W1_.lazyProduct(V.col(j).tail(k * k).reshaped(k, k));
+    const ComplexMatrix X = BRL.middleCols(j * k, k) + W1N.lazyProduct(Lambda_.adjoint());
+    const ComplexMatrix Y = (to_.MZ.adjoint() * Rj) * to_.Lambda.adjoint() -
+                            (from_.MZ.adjoint() * Rj) * from_.Lambda.adjoint() + slope_.adjoint() * Rj +
+                            Z_.adjoint() * W1N;
+    result.col(j) << X.reshaped(), scale_ * Y.reshaped();
+  }
+  return result;
+}
+
+ComplexVector JacobianChange::times(const ComplexVector& v) const {
+  return Z_.cols() == 1 ? times_of_mode(v) : ComplexVector(times_of_block(v));
 }
 
 ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
-  const Eigen::Index n = Z_.rows();
-  const Eigen::Index k = Z_.cols();
-  if (k == 1) return adjoint_times_of_mode(v);
-  const ComplexMatrix R = v.head(n * k).reshaped(n, k);
-  const ComplexMatrix W1N = W1_.lazyProduct(v.tail(k * k).reshaped(k, k));
-  ComplexMatrix RL(B_.rows(), k);
-  for (std::size_t i = 0; i < L_.size(); ++i)
-    RL.middleRows(static_cast<Eigen::Index>(i) * n, n) = R.lazyProduct(L_[i].adjoint());
-  const ComplexMatrix X = transposed_multiply(B_, RL) + W1N.lazyProduct(Lambda_.adjoint());
-  const ComplexMatrix Y = (at_to_.MZ.adjoint() * R) * to_.Lambda.adjoint() -
-                          (at_from_.MZ.adjoint() * R) * from_.Lambda.adjoint() + slope_.adjoint() * R +
-                          Z_.adjoint() * W1N;
-  ComplexVector result(v.size());
-  result << X.reshaped(), scale_ * Y.reshaped();
-  return result;
+  return Z_.cols() == 1 ? adjoint_times_of_mode(v) : ComplexVector(adjoint_times_of_block(v));
 }
 
 ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
-  if (Z_.cols() == 1) return times_of_mode(V);
-  ComplexMatrix result(V.rows(), V.cols());
-  for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = times(ComplexVector(V.col(j)));
-  return result;
+  return Z_.cols() == 1 ? times_of_mode(V) : times_of_block(V);
 }
 
 ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
-  if (Z_.cols() == 1) return adjoint_times_of_mode(V);
-  ComplexMatrix result(V.rows(), V.cols());
-  for (Eigen::Index j = 0; j < V.cols(); ++j) result.col(j) = adjoint_times(ComplexVector(V.col(j)));
-  return result;
+  return Z_.cols() == 1 ? adjoint_times_of_mode(V) : adjoint_times_of_block(V);
 }
 
 }  // namespace eigentrail

@@ -15,53 +15,52 @@ double unknown_scale(double gap, double size);
 
 /// A pair (Z, Lambda), in general not an exact solution, and the pencil at its place.
 struct PairAtPlace {
+  /// Keeps references to its arguments.
+  PairAtPlace(const PencilAtPoint& pencil, const ComplexMatrix& Z, const ComplexMatrix& Lambda);
+
+  /// M Z Lambda^2 + C Z Lambda + K Z.
+  ComplexMatrix residual() const;
+
   const PencilAtPoint& pencil;
   const ComplexMatrix& Z;       ///< n x k
   const ComplexMatrix& Lambda;  ///< k x k
+  ComplexMatrix MZ;             ///< M Z
+  ComplexMatrix slope;          ///< M Z Lambda + C Z
 };
 
 /// The Jacobian J of the pair's equations and of its normalization, as a matrix of size n k + k^2 that maps
 /// (vec Z, vec Lambda / scale). W = [W0; W1] is 2n x k.
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale);
 
-/// What the Jacobian of a pair needs besides its pencil: M Z and M Z Lambda + C Z.
-struct PairProducts {
-  explicit PairProducts(const PairAtPlace& place);
-
-  ComplexMatrix MZ, slope;
-};
-
 /// J(to) - J(from) as a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Keeps references to its
 /// arguments. For a single mode the change is stored as a matrix, for a block as a sum of products, because
 /// the matrix would have k^2 times the entries of the pencil.
 class JacobianChange {
  public:
-  /// W1 (n x k) is the lower half of the normalization W. `at_from`: the products at `from`, which changes to
-  /// several places share.
-  JacobianChange(const PairAtPlace& from, const PairProducts& at_from, const PairAtPlace& to,
-                 const ComplexMatrix& W1, double scale);
+  /// W1 (n x k) is the lower half of the normalization W.
+  JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1, double scale);
 
   ComplexVector times(const ComplexVector& v) const;
   ComplexVector adjoint_times(const ComplexVector& v) const;
 
-  /// The same for each column of V; for a single mode all at once, which takes less time.
+  /// The same for all columns of V together, which takes less time.
   ComplexMatrix times(const ComplexMatrix& V) const;
   ComplexMatrix adjoint_times(const ComplexMatrix& V) const;
 
  private:
   void set_pencil();
   void set_terms();
+  ComplexMatrix times_of_block(const ComplexMatrix& V) const;
+  ComplexMatrix adjoint_times_of_block(const ComplexMatrix& V) const;
   /// The maps of a single mode, for a vector or the columns of a matrix.
   template <class Columns>
   Columns times_of_mode(const Columns& V) const;
   template <class Columns>
   Columns adjoint_times_of_mode(const Columns& V) const;
 
-  PairAtPlace from_, to_;
+  const PairAtPlace &from_, &to_;
   const ComplexMatrix& W1_;
   double scale_;
-  const PairProducts& at_from_;
-  PairProducts at_to_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
   ComplexMatrix P_;                   ///< for a single mode: the change of s^2 M + s C + K
   ComplexVector of_eigenvalue_;       ///< and the change of its derivative by s, times the scale

@@ -1,4 +1,5 @@
-// The inverse B of the Jacobian of a pair, in two forms with the same interface. Which one affects only the time.
+// The inverse B of the Jacobian of a pair, in two forms with the same interface. Which one affects only the
+// time.
 #pragma once
 
 #include "continuation/step/jacobian_change.hpp"
@@ -50,7 +51,7 @@ class WholeInverse {
 class TriangularInverse {
  public:
   TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
-      : at_(at), products_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
+      : at_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
 
   template <class Vectors>
   void apply(Vectors& v) const {
@@ -63,11 +64,10 @@ class TriangularInverse {
     factors_.solve_adjoint_in_place(v);
   }
 
-  JacobianChange change_to(const PairAtPlace& other) const { return {at_, products_, other, W1_, scale_}; }
+  JacobianChange change_to(const PairAtPlace& other) const { return {at_, other, W1_, scale_}; }
 
  private:
-  PairAtPlace at_;
-  PairProducts products_;
+  const PairAtPlace& at_;
   const ComplexMatrix& W1_;
   double scale_;
   PairFactorization factors_;

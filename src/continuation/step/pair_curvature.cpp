@@ -4,11 +4,7 @@ namespace eigentrail {
 
 PairCurvature::PairCurvature(const PairAtPlace& at, const ComplexMatrix& W1, double scale, Eigen::Index i,
                              Eigen::Index j)
-    : at_(at),
-      W1_(W1),
-      scale_(scale),
-      MZ_(multiply(at.pencil.M, at.Z)),
-      E_(ComplexMatrix::Zero(at.Lambda.rows(), at.Lambda.cols())) {
+    : at_(at), W1_(W1), scale_(scale), E_(ComplexMatrix::Zero(at.Lambda.rows(), at.Lambda.cols())) {
   E_(i, j) = scale;
   EL_ = E_ * at.Lambda + at.Lambda * E_;
 }
@@ -20,7 +16,7 @@ ComplexVector PairCurvature::times(const ComplexVector& v) const {
   const ComplexMatrix L = scale_ * v.tail(k * k).reshaped(k, k);
   const ComplexMatrix R = multiply(at_.pencil.M, X).lazyProduct(EL_) +
                           multiply(at_.pencil.C, X).lazyProduct(E_) +
-                          MZ_.lazyProduct(0.5 * (L * E_ + E_ * L));
+                          at_.MZ.lazyProduct(0.5 * (L * E_ + E_ * L));
   const ComplexMatrix N = (W1_.adjoint() * X) * E_;
   ComplexVector result(v.size());
   result << R.reshaped(), N.reshaped();
@@ -35,7 +31,7 @@ ComplexVector PairCurvature::adjoint_times(const ComplexVector& v) const {
   const ComplexMatrix X = transposed_multiply(at_.pencil.M, R.lazyProduct(EL_.adjoint())) +
                           transposed_multiply(at_.pencil.C, R.lazyProduct(E_.adjoint())) +
                           W1_.lazyProduct(N * E_.adjoint());
-  const ComplexMatrix of_R = 0.5 * (MZ_.adjoint() * R);
+  const ComplexMatrix of_R = 0.5 * (at_.MZ.adjoint() * R);
   const ComplexMatrix L = scale_ * (of_R * E_.adjoint() + E_.adjoint() * of_R);
   ComplexVector result(v.size());
   result << X.reshaped(), L.reshaped();

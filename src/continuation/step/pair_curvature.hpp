@@ -11,8 +11,8 @@ namespace eigentrail {
 ///     F''[(X, L), (X', L')] = A(L') (X, L) + A(L) (X', L'),
 ///     A(L') (X, L) = (M X (L' Lambda + Lambda L') + C X L' + M Z (L L' + L' L) / 2,  W1^H X L')
 ///
-/// and |B F''| <= 2 |Lambda part| (sum over the entries (i, j) of |B A(E_ij)|^2)^(1/2), with the matrices E_ij
-/// of one entry `scale`, and the bound of the Lambda part of a change in the norm of the unknowns.
+/// and |B F''| <= 2 |Lambda part| (sum over the entries (i, j) of |B A(E_ij)|^2)^(1/2), with the matrices
+/// E_ij of one entry `scale`, and the bound of the Lambda part of a change in the norm of the unknowns.
 class PairCurvature {
  public:
   /// A(E_ij). Keeps references to its arguments. W1 (n x k) is the lower half of the normalization.
@@ -22,10 +22,9 @@ class PairCurvature {
   ComplexVector adjoint_times(const ComplexVector& v) const;
 
  private:
-  const PairAtPlace at_;
+  const PairAtPlace& at_;
   const ComplexMatrix& W1_;
   double scale_;
-  ComplexMatrix MZ_;
   ComplexMatrix E_;   ///< k x k, with the entry `scale`
   ComplexMatrix EL_;  ///< E Lambda + Lambda E
 };

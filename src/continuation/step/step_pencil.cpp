@@ -174,8 +174,7 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {
 std::shared_ptr<const EnergyNorm> StepPencil::energy_norm() const {
   const std::shared_ptr<const Sample> middle = at(0.5);
   const std::lock_guard lock(mutex_);
-  if (!energy_norm_)
-    energy_norm_ = EnergyNorm::of(middle->at, typical_magnitude(left_, part_, middle->at));
+  if (!energy_norm_) energy_norm_ = EnergyNorm::of(middle->at, typical_magnitude(left_, part_, middle->at));
   return *energy_norm_;
 }
 
