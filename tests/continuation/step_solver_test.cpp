@@ -65,13 +65,38 @@ TEST(Attempt, ReusesWhatWasComputedAtTheSameDistanceOnly) {
   };
   const std::uint64_t all = factorizations(0.1);
   ASSERT_GT(all, 0U);
-  origin.tried = first.right;
-  origin.tried_step = 0.1;
+  origin.tried = TriedPoint{0.1, first.right.tracks};
   EXPECT_EQ(factorizations(0.1), 0U);
   EXPECT_EQ(factorizations(0.11), all);
   // A track that was joined meanwhile has another number.
   origin.tried->tracks[1].lineage = 99;
   EXPECT_EQ(3 * factorizations(0.1), all);
+}
+
+/// Equilibrium, reduction and the series of the equations do not depend on the blocks.
+TEST(Attempt, ComputesTheEquationsOnceForOneDistance) {
+  const Setting setting = pushed_pendulum({});
+  const PathProblem problem = setting.problem();
+  RunCounts counts;
+  PathFrame frame{PathRange{problem.traced, 0.0, 1.2}};
+  const PointSolver points(problem, frame, counts);
+  StepOrigin origin{differentiate_point(problem, point_from_guess(problem, 0.6, counts), counts).value()};
+  for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
+  StepSolver solver(points, origin, reach);
+  Step first = solver.attempt(0.05).step.value();
+  ASSERT_TRUE(first.point);
+  const PathNode whole = first.right;
+  origin.tried = TriedPoint{0.05, {}, first.point, std::move(first.right)};  // no track is known
+  const auto linearizations = counts.evaluations.linearization;
+  const Step again = solver.attempt(0.05).step.value();
+  EXPECT_EQ(counts.evaluations.linearization, linearizations);
+  EXPECT_EQ(again.right.path.x, whole.path.x);
+  EXPECT_EQ(again.right.pencil.K, whole.pencil.K);
+  EXPECT_EQ(again.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
+  EXPECT_FALSE(origin.tried->point) << "used once";
+  const Step anew = solver.attempt(0.05).step.value();
+  EXPECT_NE(counts.evaluations.linearization, linearizations);
+  EXPECT_EQ(anew.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
 }
 
 TEST(Attempt, SaysWhyThereIsNoPoint) {

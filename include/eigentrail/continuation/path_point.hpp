@@ -39,11 +39,20 @@ EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& 
 PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
+/// The modes of a point that was computed, anew from another prediction.
+void compute_modes(const PathProblem& problem, const Prediction& prediction, PathPoint& point,
+                   RunCounts& counts);
+
 /// Series of everything at a computed point, to one order more than the problem's, in powers of the traced
 /// parameter, or of the distance across the plane if the point lies on one. Empty if a series coefficient is
 /// not finite. The tracks have roots, but no mode numbers yet.
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts);
+
+/// The same for modes that were computed anew: `equations` is what differentiate_point gave for others at the
+/// point, of which only the tracks change.
+std::optional<PathNode> differentiate_modes(const PathProblem& problem, const PathPoint& point,
+                                            PathNode equations, RunCounts& counts);
 
 /// The same in powers of another parameter, all others constant: the sensitivities of the equilibrium and of
 /// the modes to it. The factorizations of the point are reused, so each further parameter costs only

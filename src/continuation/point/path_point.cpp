@@ -209,7 +209,24 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
   return point;
 }
 
+void compute_modes(const PathProblem& problem, const Prediction& prediction, PathPoint& point,
+                   RunCounts& counts) {
+  point.all.reset();
+  point.symmetric.reset();
+  point.passed.clear();
+  point.ready.clear();
+  correct_modes(problem, prediction, point, counts);
+}
+
 namespace {
+
+/// A node with the tracks of a point's modes; empty if they are not finite.
+std::optional<PathNode> with_tracks(const PathProblem& problem, const PathPoint& point, PathNode node,
+                                    RunCounts& counts) {
+  node.tracks = tracks_of(problem, point, node, counts);
+  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
+  return node;
+}
 
 /// Linearization, basis, pencil and tracks of a node as series, from the series of its equilibrium.
 std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
@@ -220,9 +237,7 @@ std::optional<PathNode> differentiate_along(const PathProblem& problem, const Pa
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
   node.pencil = reduce(node.linearization, node.basis, order);
-  node.tracks = tracks_of(problem, point, node, counts);
-  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
-  return node;
+  return with_tracks(problem, point, std::move(node), counts);
 }
 
 }  // namespace
@@ -234,6 +249,12 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   PathNode node;
   if (equilibrium_series(problem, point, problem.order + 1, node.path, counts)) return std::nullopt;
   return differentiate_along(problem, point, std::move(node), counts);
+}
+
+std::optional<PathNode> differentiate_modes(const PathProblem& problem, const PathPoint& point,
+                                            PathNode equations, RunCounts& counts) {
+  const StageTimer timer(counts.differentiation_seconds);
+  return with_tracks(problem, point, std::move(equations), counts);
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,

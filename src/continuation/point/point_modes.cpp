@@ -139,43 +139,54 @@ void correct_modes(const PathProblem& problem, const Prediction& prediction, Pat
 
 namespace {
 
-/// Series of T Z, with each product of a real and a complex matrix as a real product; see `multiply`.
-std::vector<ComplexMatrix> multiply_series_by_columns(const MatrixSeries& T,
-                                                      const std::vector<ComplexMatrix>& Z) {
-  std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(T[0].rows(), Z[0].cols()));
-  if (const auto sparse = mostly_zero(T)) {
-    for (std::size_t i = 0; i < T.size(); ++i) {
-      for (std::size_t j = 0; i + j < V.size(); ++j) V[i + j] += (*sparse)[i] * Z[j];
+/// Series of V = T Z at a node from the series of Z, reduced vectors of a part.
+class PhysicalSeries {
+ public:
+  explicit PhysicalSeries(const PathNode& node) : basis_(node.basis) {
+    const bool varies = !basis_.is_identity && basis_.T.size() > 1;
+    is_large_ = varies && node.linearization.K[0].is_sparse();
+    if (is_large_) sparse_ = mostly_zero(basis_.T);
+  }
+
+  std::vector<ComplexMatrix> operator()(std::vector<ComplexMatrix> Z, int part) const {
+    if (basis_.is_identity) return Z;
+    if (basis_.parts && basis_.T.size() == 1) {
+      for (ComplexMatrix& coefficient : Z) coefficient = basis_.shapes(coefficient, part);
+      return Z;
+    }
+    if (is_large_) return of_large(Z);
+    std::vector<ComplexMatrix> T;
+    for (const Matrix& coefficient : basis_.T) {
+      if (!basis_.parts) {
+        T.emplace_back(coefficient.cast<Complex>());
+        continue;
+      }
+      const IndependentParts::Range& range = basis_.parts->ranges[static_cast<std::size_t>(part)];
+      T.emplace_back(coefficient.middleCols(range.first, range.size).cast<Complex>());
+    }
+    return multiply_series(T, Z, Z.size());
+  }
+
+ private:
+  /// For a large model, a complex copy of the basis for every mode would take longer than the product.
+  std::vector<ComplexMatrix> of_large(const std::vector<ComplexMatrix>& Z) const {
+    std::vector<ComplexMatrix> V(Z.size(), ComplexMatrix::Zero(basis_.T[0].rows(), Z[0].cols()));
+    for (std::size_t i = 0; i < basis_.T.size(); ++i) {
+      for (std::size_t j = 0; i + j < V.size(); ++j) {
+        if (sparse_) {
+          V[i + j] += (*sparse_)[i] * Z[j];
+        } else {
+          V[i + j] += multiply(basis_.T[i], Z[j]);
+        }
+      }
     }
     return V;
   }
-  for (std::size_t i = 0; i < T.size(); ++i) {
-    for (std::size_t j = 0; i + j < V.size(); ++j) V[i + j] += multiply(T[i], Z[j]);
-  }
-  return V;
-}
 
-/// Series of V = T Z from the series of Z, reduced vectors of a part.
-std::vector<ComplexMatrix> physical_series(const PathNode& node, std::vector<ComplexMatrix> Z, int part) {
-  const TangentBasis& basis = node.basis;
-  if (basis.is_identity) return Z;
-  if (basis.parts && basis.T.size() == 1) {
-    for (ComplexMatrix& coefficient : Z) coefficient = basis.shapes(coefficient, part);
-    return Z;
-  }
-  // For a large model, a complex copy of the basis for every mode would take longer than the product.
-  if (node.linearization.K[0].is_sparse()) return multiply_series_by_columns(basis.T, Z);
-  std::vector<ComplexMatrix> T;
-  for (const Matrix& coefficient : basis.T) {
-    if (!basis.parts) {
-      T.emplace_back(coefficient.cast<Complex>());
-      continue;
-    }
-    const IndependentParts::Range& range = basis.parts->ranges[static_cast<std::size_t>(part)];
-    T.emplace_back(coefficient.middleCols(range.first, range.size).cast<Complex>());
-  }
-  return multiply_series(T, Z, Z.size());
-}
+  const TangentBasis& basis_;
+  bool is_large_ = false;
+  std::optional<SparseSeries> sparse_;  ///< of a large model, where most entries are zero
+};
 
 /// The track of a corrected pair, from its series in physical coordinates. No mode numbers yet.
 Track make_track(InvariantPair pair, PairSeries series) {
@@ -188,24 +199,24 @@ Track make_track(InvariantPair pair, PairSeries series) {
   return track;
 }
 
-Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
-                          ModeCounts& counts) {
+Track differentiate_track(const PathProblem& problem, const PathNode& node, const PhysicalSeries& physical,
+                          InvariantPair pair, ModeCounts& counts) {
   PairSeries series = differentiate_pair(node.pencil.of(pair.part), pair, problem.order + 1, counts,
                                          problem.corrector.series_accuracy);
-  series.Z = physical_series(node, std::move(series.Z), pair.part);
+  series.Z = physical(std::move(series.Z), pair.part);
   return make_track(std::move(pair), std::move(series));
 }
 
 /// The track of pair i of a point: from an earlier computation, as extrapolated, or differentiated now.
-Track track_at(const PathProblem& problem, const PathNode& node, const PathPoint& point, std::size_t i,
-               ModeCounts& counts) {
+Track track_at(const PathProblem& problem, const PathNode& node, const PhysicalSeries& physical,
+               const PathPoint& point, std::size_t i, ModeCounts& counts) {
   if (i < point.ready.size() && point.ready[i] != nullptr) {
     Track track = make_track(point.ready[i]->pair, point.ready[i]->series);
     track.passed = point.ready[i]->passed;
     return track;
   }
   if (i >= point.passed.size() || !point.passed[i])
-    return differentiate_track(problem, node, point.pairs[i], counts);
+    return differentiate_track(problem, node, physical, point.pairs[i], counts);
   Track track = make_track(point.pairs[i], *point.passed[i]);
   track.passed = true;
   return track;
@@ -215,17 +226,19 @@ Track track_at(const PathProblem& problem, const PathNode& node, const PathPoint
 
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
                           RunCounts& counts) {
-  return differentiate_track(problem, node, std::move(pair), counts.modes);
+  return differentiate_track(problem, node, PhysicalSeries(node), std::move(pair), counts.modes);
 }
 
 std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point, const PathNode& node,
                              RunCounts& counts) {
   const int order = problem.order + 1;
   std::vector<Track> tracks(point.pairs.size());
+  const PhysicalSeries physical(node);
   if (!point.symmetric && !point.all) {
-    for_every_mode(
-        problem, tracks.size(), node.pencil.size(), counts.modes,
-        [&](std::size_t i, ModeCounts& own) { tracks[i] = track_at(problem, node, point, i, own); });
+    for_every_mode(problem, tracks.size(), node.pencil.size(), counts.modes,
+                   [&](std::size_t i, ModeCounts& own) {
+                     tracks[i] = track_at(problem, node, physical, point, i, own);
+                   });
     return tracks;
   }
   std::vector<PairSeries> series =
@@ -233,7 +246,7 @@ std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point,
                       : differentiate_all(node.pencil, *point.all, order, problem.corrector.series_accuracy,
                                           counts.modes);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    series[i].Z = physical_series(node, std::move(series[i].Z), point.pairs[i].part);
+    series[i].Z = physical(std::move(series[i].Z), point.pairs[i].part);
     tracks[i] = make_track(point.pairs[i], std::move(series[i]));
   }
   return tracks;

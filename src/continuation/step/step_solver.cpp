@@ -54,24 +54,41 @@ Prediction StepSolver::predict(double h) {
   }
   Prediction prediction = solver_.predict(all_tracks(node), h);
   prediction.ready.assign(node.tracks.size(), nullptr);
-  for (std::size_t i = 0; origin_.tried && origin_.tried_step == h && i < node.tracks.size(); ++i) {
-    for (const Track& other : *origin_.tried) {
-      if (other.lineage == node.tracks[i].lineage) prediction.ready[i] = &other;
+  if (origin_.tried && origin_.tried->h == h) {
+    for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+      for (const Track& other : origin_.tried->tracks) {
+        if (other.lineage == node.tracks[i].lineage) prediction.ready[i] = &other;
+      }
     }
   }
   continue_modes(h, prediction);
   return prediction;
 }
 
-AttemptedStep StepSolver::attempt(double h) {
+StepSolver::Computed StepSolver::compute(double h) {
   const PathProblem& problem = solver_.problem();
+  RunCounts& counts = solver_.counts();
+  const Prediction prediction = predict(h);
+  std::optional<TriedPoint>& tried = origin_.tried;
+  if (tried && tried->h == h && tried->point) {
+    const std::shared_ptr<PathPoint> point = std::move(tried->point);
+    compute_modes(problem, prediction, *point, counts);
+    if (point->status != PointStatus::computed) return {point, std::nullopt};
+    return {point, differentiate_modes(problem, *point, std::move(tried->equations), counts)};
+  }
+  const auto point =
+      std::make_shared<PathPoint>(compute_point(problem, prediction, origin_.node.basis.T[0], counts));
+  if (point->status != PointStatus::computed) return {point, std::nullopt};
+  return {point, differentiate_point(problem, *point, counts)};
+}
+
+AttemptedStep StepSolver::attempt(double h) {
   const PathNode& node = origin_.node;
-  const PathPoint point = compute_point(problem, predict(h), node.basis.T[0], solver_.counts());
-  if (point.status == PointStatus::no_equilibrium)
-    return {{}, {Verdict::Kind::no_equilibrium, -1, INFINITY, point.message}};
-  if (point.status == PointStatus::mode_lost)
-    return {{}, {Verdict::Kind::mode_lost, point.lost_track, INFINITY, point.message}};
-  std::optional<PathNode> next = differentiate_point(problem, point, solver_.counts());
+  auto [point, next] = compute(h);
+  if (point->status == PointStatus::no_equilibrium)
+    return {{}, {Verdict::Kind::no_equilibrium, -1, INFINITY, point->message}};
+  if (point->status == PointStatus::mode_lost)
+    return {{}, {Verdict::Kind::mode_lost, point->lost_track, INFINITY, point->message}};
   if (!next) return {{}, {Verdict::Kind::mode_lost, -1, INFINITY, "a series is not finite"}};
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     next->tracks[i].lineage = node.tracks[i].lineage;
@@ -79,6 +96,7 @@ AttemptedStep StepSolver::attempt(double h) {
     next->tracks[i].unproven = node.tracks[i].unproven;
   }
   AttemptedStep attempted{Step{&node, std::move(*next), h}, {}};
+  attempted.step->point = std::move(point);
   order_arrival(*attempted.step);
   return attempted;
 }

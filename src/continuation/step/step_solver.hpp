@@ -7,14 +7,22 @@
 
 namespace eigentrail {
 
-/// The begin of the next step, with data of earlier ones. All members are saved with the state of a trace.
+/// The point of an attempt that is repeated with other blocks.
+struct TriedPoint {
+  double h = 0.0;  ///< its signed distance from the begin of the step
+  std::vector<Track> tracks;
+  /// The point, and the series of its equations without tracks, which do not depend on the blocks. Not saved:
+  /// without them, or once they were used, they are computed again, with the same bits.
+  std::shared_ptr<PathPoint> point = {};
+  PathNode equations = {};
+};
+
+/// The begin of the next step, with data of earlier ones. The state of a trace has all members.
 struct StepOrigin {
   PathNode node;                     ///< the last accepted point
   std::vector<Track> previous = {};  ///< at the point before it
   double last_step = 0.0;            ///< signed length between the two; 0: none in the present coordinate
-  /// Tracks that an attempt with other blocks computed, at this signed distance from `node`.
-  std::optional<std::vector<Track>> tried = {};
-  double tried_step = 0.0;
+  std::optional<TriedPoint> tried = {};
   std::uint64_t lineages = 0;  ///< largest number given to a track so far
 };
 
@@ -39,6 +47,12 @@ class StepSolver {
 
  private:
   Prediction predict(double h);
+  /// The point at a distance h, and the series there.
+  struct Computed {
+    std::shared_ptr<PathPoint> point;
+    std::optional<PathNode> node;
+  };
+  Computed compute(double h);
   /// Adds the extrapolation of the last step's dense output as a second prediction of single modes.
   void continue_modes(double h, Prediction& prediction) const;
   /// Whether a mode may be accepted without correction.

@@ -115,10 +115,17 @@ static void fields(Self& self, Visit& visit) {
   visit(plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point);
 }
 
+/// The equations are not saved: they are computed again.
+template <SameAs<TriedPoint> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [h, tracks, point, equations] = self;
+  visit(h, tracks);
+}
+
 template <SameAs<StepOrigin> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [node, previous, last_step, tried, tried_step, lineages] = self;
-  visit(node, previous, last_step, tried, tried_step, lineages);
+  auto& [node, previous, last_step, tried, lineages] = self;
+  visit(node, previous, last_step, tried, lineages);
 }
 
 template <SameAs<TraceSettings> Self, class Visit>
@@ -328,7 +335,7 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
   if (!fits(origin.node, sizes, problem.parts.get())) return "another size of the last point";
   if (origin.last_step != 0.0 && !fits(origin.previous, origin.node.pencil, sizes))
     return "another size of the point before it";
-  if (origin.tried && !fits(*origin.tried, origin.node.pencil, sizes))
+  if (origin.tried && !fits(origin.tried->tracks, origin.node.pencil, sizes))
     return "another size of a point that was tried";
   for (const EndedTrack& one : state.ended) {
     const auto parts = static_cast<int>(std::max<std::size_t>(origin.node.pencil.parts.size(), 1));

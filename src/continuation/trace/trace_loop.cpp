@@ -343,8 +343,10 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
   add(remedy.changes, state_.result.regroupings);
   state_.origin.tried.reset();
-  if (step) state_.origin.tried = std::move(step->right.tracks);
-  state_.origin.tried_step = state_.frame.plane ? 0.0 : h;
+  if (step && !state_.frame.plane) {
+    std::vector<Track> tracks = std::move(step->right.tracks);
+    state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->point), std::move(step->right)};
+  }
   return true;
 }
 
