@@ -78,12 +78,12 @@ TEST(CertificatePatience, TestsATrackThatFailsAfterPausesThatDouble) {
 TEST(CertificateBudget, IsAFixedAmountAndAShareOfAllOtherWork) {
   RunCounts counts;
   const auto count = [&counts](double factorizations, double n) {
-    counts.certificate_work = factorizations * n * n * (n / 3.0 + 30.0);
+    counts.certificate_work = factorizations * n * n * (n / 3.0 + 200.0);
   };
   const auto at = [&counts](Eigen::Index n, double progress) {
     return certificate_budget(counts, n, progress);
   };
-  count(4000, 24);
+  count(1500, 24);
   EXPECT_EQ(at(24, 0.0), CertificateBudget::within) << "small";
   count(150, 224);
   EXPECT_EQ(at(224, 0.1), CertificateBudget::spent);
@@ -96,12 +96,12 @@ TEST(CertificateBudget, IsAFixedAmountAndAShareOfAllOtherWork) {
 
 TEST(CertificateBudget, IsLessWhereItDoesNotClose) {
   RunCounts counts;
-  counts.certificate_work = 9e8;
+  counts.certificate_work = 2.2e9;
   EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::within);
-  counts.certificate_in_vain = 2e8;
+  counts.certificate_in_vain = 5e8;
   EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::within) << "most of it was useful";
   EXPECT_TRUE(is_costly_in_vain(counts));
-  counts.certificate_in_vain = 8e8;
+  counts.certificate_in_vain = 2e9;
   EXPECT_EQ(certificate_budget(counts, 24, 1.0), CertificateBudget::spent_in_vain);
   counts.certificate_in_vain = 0.0;
   EXPECT_FALSE(is_costly_in_vain(counts));

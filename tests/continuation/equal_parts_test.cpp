@@ -9,8 +9,10 @@
 #include <cmath>
 #include <random>
 
+#include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "support/scenes.hpp"
+#include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -462,14 +464,47 @@ TEST(EqualPartsOfAScene, ThatMovesAreNoCopiesWhereTheyAreMistuned) {
   EXPECT_TRUE(found.result.events.empty());
 }
 
-/// A stiffness that differs only on a small part of the range is seen at no place where parts are looked for.
-/// It must not be passed as if all were equal.
+std::vector<Complex> modes_at(const RecordedTrace& trace, double p) {
+  const ComplexVector s = trace.eigenvalues_at(p);
+  return {s.begin(), s.end()};
+}
+
+/// A stiffness that differs only on a small part of the range is no accident: expressions are known. The two
+/// masses without it remain copies.
+TEST(EqualPartsOfAScene, ThatMovesAreLookedAtWhereAnExpressionHasABump) {
+  const std::string bump = "1000 * (1 + 0.01 * exp(-((omega - 7.77) / 0.01)^2))";
+  const RecordedTrace one = record_trace(make_setting(masses_in_a_rotating_frame(1)));
+  const RecordedTrace other = record_trace(make_setting(masses_in_a_rotating_frame(1, "1", bump)));
+  const RecordedTrace found = record_trace(make_setting(masses_in_a_rotating_frame(3, "1", bump)));
+  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
+  for (const double omega : {3.0, 7.765, 7.77, 7.775, 11.0}) {
+    std::vector<Complex> expected = modes_at(other, omega);
+    for (int i = 0; i < 2; ++i)
+      for (const Complex s : modes_at(one, omega)) expected.push_back(s);
+    EXPECT_LT(matched_distance(modes_at(found, omega), expected), 1e-8) << omega;
+  }
+  EXPECT_GT(matched_distance(modes_at(one, 7.77), modes_at(other, 7.77)), 1e-4);
+}
+
+/// Equations that do not have the parts of the problem are no point of the path.
 TEST(EqualPartsOfAScene, ThatMovesAreTestedAtEveryPoint) {
-  const RecordedTrace found = record_trace(make_setting(
-      masses_in_a_rotating_frame(3, "1", "1000 * (1 + 0.01 * exp(-((omega - 7.77) / 0.01)^2))")));
-  EXPECT_EQ(found.result.status, TraceStatus::step_too_small);
-  EXPECT_NE(found.result.message.find("do not fall apart"), std::string::npos) << found.result.message;
-  EXPECT_NEAR(found.result.reached, 7.7, 0.1);
+  std::string scene = masses_in_a_rotating_frame(3, "1", "k");
+  scene.replace(scene.find("omega = 1.0"), 11, "omega = 1.0\nk = 1000.0");
+  const Setting setting = make_setting(scene);
+  PathProblem problem = setting.problem();
+  problem.parts = scene_at_start(problem, setting.options).parts;
+  ASSERT_TRUE(problem.parts);
+  RunCounts counts;
+  const auto at_three = [&] {
+    const Vector guess = problem.model.initial_guess(parameters_at(problem, 3.0));
+    return reduce_at(problem, 3.0, {guess, Vector()}, Matrix(), counts);
+  };
+  EXPECT_EQ(at_three().status, PointStatus::computed);
+  problem.parameters[1] = 1000.1;
+  const PathPoint point = at_three();
+  EXPECT_EQ(point.status, PointStatus::no_equilibrium);
+  EXPECT_NE(point.message.find("do not fall apart"), std::string::npos) << point.message;
 }
 
 /// Masses on rods that hang from a hub in a rotating frame and rise as it turns faster. Nothing connects

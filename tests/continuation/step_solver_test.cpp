@@ -83,17 +83,16 @@ TEST(Attempt, ComputesTheEquationsOnceForOneDistance) {
   StepOrigin origin{differentiate_point(problem, point_from_guess(problem, 0.6, counts), counts).value()};
   for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
   StepSolver solver(points, origin, reach);
-  Step first = solver.attempt(0.05).step.value();
-  ASSERT_TRUE(first.point);
+  const Step first = solver.attempt(0.05).step.value();
   const PathNode whole = first.right;
-  origin.tried = TriedPoint{0.05, {}, first.point, std::move(first.right)};  // no track is known
+  origin.tried = TriedPoint{0.05, {}, first.right};  // no track is known
   const auto linearizations = counts.evaluations.linearization;
   const Step again = solver.attempt(0.05).step.value();
   EXPECT_EQ(counts.evaluations.linearization, linearizations);
   EXPECT_EQ(again.right.path.x, whole.path.x);
   EXPECT_EQ(again.right.pencil.K, whole.pencil.K);
   EXPECT_EQ(again.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
-  EXPECT_FALSE(origin.tried->point) << "used once";
+  EXPECT_FALSE(origin.tried->equations) << "used once";
   const Step anew = solver.attempt(0.05).step.value();
   EXPECT_NE(counts.evaluations.linearization, linearizations);
   EXPECT_EQ(anew.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
@@ -147,11 +146,10 @@ struct Smooth {
         points(problem, planted.frame, planted.family.counts),
         d(damping) {
     problem.corrector.passing_error = 1e-8;
-    origin.previous = at(0.0);
+    origin.previous = at(0.0).tracks;
     origin.node = at(h);
     origin.last_step = h;
-    for (std::size_t i = 0; i < 2; ++i)
-      origin.previous.tracks[i].lineage = origin.node.tracks[i].lineage = i + 1;
+    for (std::size_t i = 0; i < 2; ++i) origin.previous[i].lineage = origin.node.tracks[i].lineage = i + 1;
     origin.lineages = 2;
   }
   std::vector<Complex> exact(double p) const {

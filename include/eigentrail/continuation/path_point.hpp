@@ -39,9 +39,8 @@ EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& 
 PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
-/// The modes of a point that was computed, anew from another prediction.
-void compute_modes(const PathProblem& problem, const Prediction& prediction, PathPoint& point,
-                   RunCounts& counts);
+/// The point of a node without its equilibrium and its modes: the basis and the reduced pencil.
+PathPoint point_of(const PathNode& node);
 
 /// Series of everything at a computed point, to one order more than the problem's, in powers of the traced
 /// parameter, or of the distance across the plane if the point lies on one. Empty if a series coefficient is
@@ -49,8 +48,8 @@ void compute_modes(const PathProblem& problem, const Prediction& prediction, Pat
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts);
 
-/// The same for modes that were computed anew: `equations` is what differentiate_point gave for others at the
-/// point, of which only the tracks change.
+/// The same for other modes at a place that was differentiated before: `equations` is what came out, of which
+/// only the tracks change.
 std::optional<PathNode> differentiate_modes(const PathProblem& problem, const PathPoint& point,
                                             PathNode equations, RunCounts& counts);
 

@@ -13,7 +13,8 @@ struct SceneOnRange {
   std::shared_ptr<const IndependentParts> parts;  ///< null where the equations do not fall apart
 };
 
-/// Looks at a scene with the equilibrium (x, lambda) at the start, at a few places of the range. It counts as
+/// Looks at a scene with the equilibrium (x, lambda) at the start, at a few places of the range, and at those
+/// where an expression has a narrow bump or a kink. It counts as
 /// resting if x is an equilibrium at all of them: positions are analytic functions of the parameter. Scenes
 /// whose positions move have parts where their constraints do not change. Models that give their coefficients
 /// are not looked at, nor are traces that leave their path at a branch point. Costs a dozen linearizations;

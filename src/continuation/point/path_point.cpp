@@ -135,6 +135,14 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
   point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
 }
 
+ReducedPencil of_order_zero(const ReducedPencil& series) {
+  ReducedPencil pencil;
+  if (!series.M.empty()) pencil = {{series.M[0]}, {series.C[0]}, {series.K[0]}};
+  for (const ReducedPencil& part : series.parts) pencil.parts.push_back(of_order_zero(part));
+  pencil.copies = series.copies;
+  return pencil;
+}
+
 bool is_finite(const Track& track) {
   return track.functions.allFinite() && std::all_of(track.series.Z.begin(), track.series.Z.end(),
                                                     [](const auto& Z) { return Z.allFinite(); });
@@ -209,13 +217,13 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
   return point;
 }
 
-void compute_modes(const PathProblem& problem, const Prediction& prediction, PathPoint& point,
-                   RunCounts& counts) {
-  point.all.reset();
-  point.symmetric.reset();
-  point.passed.clear();
-  point.ready.clear();
-  correct_modes(problem, prediction, point, counts);
+PathPoint point_of(const PathNode& node) {
+  PathPoint point;
+  point.p = node.p;
+  point.basis = node.basis;
+  if (!point.basis.T.empty()) point.basis.T.resize(1);
+  point.pencil = of_order_zero(node.pencil);
+  return point;
 }
 
 namespace {

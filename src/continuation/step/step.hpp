@@ -1,7 +1,6 @@
 // One step of the trace (two neighbouring points), and the judgement whether it is accepted.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@ struct Step {
   std::vector<std::size_t> meeting = {};  ///< tracks whose eigenvalues meet on the right end
   /// Length of the accurate step that was cut to this one; 0 where it is not part of one.
   double whole = 0.0;
-  std::shared_ptr<PathPoint> point = {};  ///< what `right` was computed from
 };
 
 /// Whether a step is accepted, and if not, why.

@@ -70,25 +70,28 @@ StepSolver::Computed StepSolver::compute(double h) {
   RunCounts& counts = solver_.counts();
   const Prediction prediction = predict(h);
   std::optional<TriedPoint>& tried = origin_.tried;
-  if (tried && tried->h == h && tried->point) {
-    const std::shared_ptr<PathPoint> point = std::move(tried->point);
-    compute_modes(problem, prediction, *point, counts);
-    if (point->status != PointStatus::computed) return {point, std::nullopt};
-    return {point, differentiate_modes(problem, *point, std::move(tried->equations), counts)};
+  if (tried && tried->h == h && tried->equations) {
+    PathNode equations = std::move(*tried->equations);
+    tried->equations.reset();
+    Computed again{point_of(equations)};
+    correct_modes(problem, prediction, again.point, counts);
+    if (again.point.status == PointStatus::computed)
+      again.node = differentiate_modes(problem, again.point, std::move(equations), counts);
+    return again;
   }
-  const auto point =
-      std::make_shared<PathPoint>(compute_point(problem, prediction, origin_.node.basis.T[0], counts));
-  if (point->status != PointStatus::computed) return {point, std::nullopt};
-  return {point, differentiate_point(problem, *point, counts)};
+  Computed computed{compute_point(problem, prediction, origin_.node.basis.T[0], counts)};
+  if (computed.point.status == PointStatus::computed)
+    computed.node = differentiate_point(problem, computed.point, counts);
+  return computed;
 }
 
 AttemptedStep StepSolver::attempt(double h) {
   const PathNode& node = origin_.node;
   auto [point, next] = compute(h);
-  if (point->status == PointStatus::no_equilibrium)
-    return {{}, {Verdict::Kind::no_equilibrium, -1, INFINITY, point->message}};
-  if (point->status == PointStatus::mode_lost)
-    return {{}, {Verdict::Kind::mode_lost, point->lost_track, INFINITY, point->message}};
+  if (point.status == PointStatus::no_equilibrium)
+    return {{}, {Verdict::Kind::no_equilibrium, -1, INFINITY, point.message}};
+  if (point.status == PointStatus::mode_lost)
+    return {{}, {Verdict::Kind::mode_lost, point.lost_track, INFINITY, point.message}};
   if (!next) return {{}, {Verdict::Kind::mode_lost, -1, INFINITY, "a series is not finite"}};
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     next->tracks[i].lineage = node.tracks[i].lineage;
@@ -96,7 +99,6 @@ AttemptedStep StepSolver::attempt(double h) {
     next->tracks[i].unproven = node.tracks[i].unproven;
   }
   AttemptedStep attempted{Step{&node, std::move(*next), h}, {}};
-  attempted.step->point = std::move(point);
   order_arrival(*attempted.step);
   return attempted;
 }

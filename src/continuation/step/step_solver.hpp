@@ -7,17 +7,16 @@
 
 namespace eigentrail {
 
-/// The point of an attempt that is repeated with other blocks.
+/// What an attempt computed that is repeated with other blocks.
 struct TriedPoint {
   double h = 0.0;  ///< its signed distance from the begin of the step
-  std::vector<Track> tracks;
-  /// The point, and the series of its equations without tracks, which do not depend on the blocks. Not saved:
-  /// without them, or once they were used, they are computed again, with the same bits.
-  std::shared_ptr<PathPoint> point = {};
-  PathNode equations = {};
+  std::vector<Track> tracks = {};
+  /// The series of its equations, without tracks: they do not depend on the blocks. Empty once they were
+  /// used.
+  std::optional<PathNode> equations = {};
 };
 
-/// The begin of the next step, with data of earlier ones. The state of a trace has all members.
+/// The begin of the next step, with data of earlier ones. All members are saved with the state of a trace.
 struct StepOrigin {
   PathNode node;                     ///< the last accepted point
   std::vector<Track> previous = {};  ///< at the point before it
@@ -49,8 +48,8 @@ class StepSolver {
   Prediction predict(double h);
   /// The point at a distance h, and the series there.
   struct Computed {
-    std::shared_ptr<PathPoint> point;
-    std::optional<PathNode> node;
+    PathPoint point;
+    std::optional<PathNode> node = {};
   };
   Computed compute(double h);
   /// Adds the extrapolation of the last step's dense output as a second prediction of single modes.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "continuation/trace/narrow_landings.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "reduction/separated_basis.hpp"
 
@@ -18,10 +19,19 @@ constexpr int n_places = 12;
 /// The search for parts takes some dozen eigenproblems of this size, half a second in all.
 constexpr Eigen::Index most_freedoms = 200;
 
-/// Irregular places, so that no function of the parameter vanishes at all of them by chance.
-double place(const TraceOptions& options, int i) {
-  const double share = std::fmod(0.5 + i / std::numbers::phi, 1.0);
-  return options.from + share * (options.to - options.from);
+/// Irregular places, so that no function of the parameter vanishes at all of them by chance, and those where
+/// the model changes on a small part of the range: there parts may cease to be parts.
+std::vector<double> places_of(const PathProblem& problem, const TraceOptions& options) {
+  std::vector<double> places;
+  for (int i = 0; i < n_places; ++i) {
+    const double share = std::fmod(0.5 + i / std::numbers::phi, 1.0);
+    places.push_back(options.from + share * (options.to - options.from));
+  }
+  const auto [least, largest] = std::minmax(options.from, options.to);
+  for (const double narrow : narrow_landings(problem, options)) {
+    if (narrow >= least && narrow <= largest) places.push_back(narrow);
+  }
+  return places;
 }
 
 void add(const SystemSeries& B, bool is_constant, std::vector<Matrix>& samples) {
@@ -64,8 +74,7 @@ std::shared_ptr<const IndependentParts> parts_at(const std::vector<PlaceOnPath>&
 std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem& problem,
                                                               const TraceOptions& options, const Vector& x,
                                                               const Vector& lambda) {
-  std::vector<double> places;
-  for (int i = 0; i < n_places; ++i) places.push_back(place(options, i));
+  std::vector<double> places = places_of(problem, options);
   std::sort(places.begin(), places.end());
   if (options.to < options.from) std::reverse(places.begin(), places.end());
   RunCounts counts;
@@ -109,10 +118,10 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
   Matrix A;
-  for (int i = 0; i < n_places; ++i) {
-    const auto there = linearize_at_rest(problem, place(options, i), x, lambda, counts);
+  for (const double place : places_of(problem, options)) {
+    const auto there = linearize_at_rest(problem, place, x, lambda, counts);
     if (there && there->A[0].is_sparse()) return {};
-    if (there && i == 0) A = there->A[0].dense();
+    if (there && samples.M.empty()) A = there->A[0].dense();
     if (!there || there->A[0].dense() != A)
       return {false, parts_of_moving_scene(problem, options, x, lambda)};
     add(there->M, structure.constant_mass, samples.M);

@@ -115,11 +115,10 @@ static void fields(Self& self, Visit& visit) {
   visit(plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point);
 }
 
-/// The equations are not saved: they are computed again.
 template <SameAs<TriedPoint> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [h, tracks, point, equations] = self;
-  visit(h, tracks);
+  auto& [h, tracks, equations] = self;
+  visit(h, tracks, equations);
 }
 
 template <SameAs<StepOrigin> Self, class Visit>
@@ -337,6 +336,8 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
     return "another size of the point before it";
   if (origin.tried && !fits(origin.tried->tracks, origin.node.pencil, sizes))
     return "another size of a point that was tried";
+  if (origin.tried && origin.tried->equations && !fits(*origin.tried->equations, sizes, problem.parts.get()))
+    return "another size of the equations that were tried";
   for (const EndedTrack& one : state.ended) {
     const auto parts = static_cast<int>(std::max<std::size_t>(origin.node.pencil.parts.size(), 1));
     const int part = one.track.pair.part;
@@ -388,6 +389,8 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     problem.parts = scene.parts;
   }
   restore_parts(problem, state.origin.node);
+  if (state.origin.tried && state.origin.tried->equations)
+    restore_parts(problem, *state.origin.tried->equations);
   state.frame.range = {problem.traced, options.from, options.to};
   if (const std::string fault = misfit(state, problem, options); !fault.empty())
     throw InputError("the state of the trace does not fit the scene: " + fault);

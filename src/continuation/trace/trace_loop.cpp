@@ -14,6 +14,7 @@
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/step/stored_step.hpp"
+#include "continuation/trace/narrow_landings.hpp"
 #include "continuation/trace/stop_remarks.hpp"
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
@@ -21,7 +22,6 @@
 #include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
-#include "scene/narrow_places.hpp"
 
 namespace eigentrail {
 namespace {
@@ -35,8 +35,6 @@ CertificateBudget budget_of_certificate(const TraceState& state, const TraceOpti
 /// the square root of the distance it changes by only 3e-7 over such a step. With a larger value traces end
 /// that a shorter step would carry on; with a smaller one hopeless traces try longer before they end.
 constexpr double shortest_step = 1e-13;
-/// Share of the range by which a trace stays away from a kink; the step across it is twice as long.
-constexpr double beside_kink = 1e-11;
 /// The shortest step moves p by at least this many units in its last place. With fewer, the step length
 /// itself would be dominated by rounding.
 constexpr double units_in_last_place = 8.0;
@@ -140,21 +138,6 @@ double distance_to_next(const std::vector<double>& places, const PathFrame& fram
   return INFINITY;
 }
 
-/// Where the trace ends its steps because the model changes on a small part of the range, or at a kink, on
-/// both sides of it.
-std::vector<double> places_to_land(const Model& model, const PathProblem& problem,
-                                   const TraceOptions& options) {
-  std::vector<double> places = narrow_places(model.description().parameters, problem.parameters,
-                                             problem.traced, options.from, options.to, model.expressions());
-  const double beside = beside_kink * std::abs(options.to - options.from);
-  for (const double kink : model.kinks(problem.traced)) {
-    places.push_back(kink - beside);
-    places.push_back(kink + beside);
-  }
-  std::sort(places.begin(), places.end());
-  return places;
-}
-
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -164,7 +147,7 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       criteria_(criteria_of(options.events)),
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
-      narrow_places_(places_to_land(model, problem_, options)),
+      narrow_places_(narrow_landings(problem_, options)),
       log_{state_.events,       state_.dismissed, state_.frame.range,
            problem_.thresholds, nullptr,          equilibrium_moves(problem_)},
       search_{points_, options_, criteria_, log_} {
@@ -345,7 +328,8 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   state_.origin.tried.reset();
   if (step && !state_.frame.plane) {
     std::vector<Track> tracks = std::move(step->right.tracks);
-    state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->point), std::move(step->right)};
+    step->right.tracks.clear();
+    state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->right)};
   }
   return true;
 }
