@@ -184,6 +184,65 @@ TEST(Certificate, ClosesForSinglesOnAStepThatResolvesTheVeering) {
   }
 }
 
+/// The veering in coordinates that differ by 1e4, where the plain norm of a change is as large: the norms
+/// that are used in its place do not close the tube of an exchange.
+TEST(Certificate, StaysOpenForSinglesThatAreExchangedInBadlyScaledCoordinates) {
+  const auto scaled = [](double eps) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1e8]] ]\n"
+         << "K = [ [[4, " << 1e4 * eps << "], [" << 1e4 * eps << ", 4e8]], [[1, 0], [0, -1e8]] ]\n";
+    return make_setting(text.str());
+  };
+  for (const double eps : {1e-2, 1e-3, 1e-6}) {
+    Step step(scaled(eps), -0.3, 0.3);
+    EXPECT_FALSE(step.certified(0)) << eps;
+    EXPECT_FALSE(step.certified(1)) << eps;
+    step.join(0.3);
+    EXPECT_TRUE(step.certified(0)) << eps;
+  }
+  Step resolved(scaled(0.2), -0.1, -0.05);
+  EXPECT_TRUE(resolved.certified(0) && resolved.certified(1));
+}
+
+/// A chain of masses whose springs are soft and 1e8 times stiffer in turn, and stiffen together by a fifth.
+/// In the plain norm the change is as large as the ratio of the stiffnesses, and no number of halvings helps.
+TEST(Certificate, ClosesInOnePieceWhereStiffAndSoftFreedomsChangeTogether) {
+  constexpr int n = 24;
+  Matrix K = Matrix::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    const double k = (i % 2 == 0 ? 1.0 : 1e8) * (1.0 + 0.03 * i);
+    K(i, i) += k;
+    if (i == 0) continue;
+    K(i - 1, i - 1) += k;
+    K(i, i - 1) -= k;
+    K(i - 1, i) -= k;
+  }
+  std::ostringstream text;
+  text.precision(17);
+  const auto matrix = [&](const Matrix& A) {
+    for (int i = 0; i < n; ++i) {
+      text << (i == 0 ? "[[" : ", [");
+      for (int j = 0; j < n; ++j) text << (j == 0 ? "" : ", ") << A(i, j);
+      text << "]";
+    }
+    text << "]";
+  };
+  text << "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [";
+  matrix(Matrix::Identity(n, n));
+  text << "]\nK = [";
+  matrix(K);
+  text << ", ";
+  matrix(K + 0.1 * Matrix::Identity(n, n));
+  text << "]\n";
+  Step step(make_setting(text.str()), 0.0, 0.2);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint64_t before = step.counts.certificate_factorizations;
+    EXPECT_TRUE(step.certified(i)) << i;
+    EXPECT_LE(step.counts.certificate_factorizations - before, 3U) << i;
+  }
+}
+
 TEST(Certificate, StaysOpenForSinglesAcrossAnExceptionalPointAndClosesForTheBlock) {
   // K = [[1, p], [-p, 2]]: both modes coalesce at p = 1/2 and go on as a growing and a decaying oscillation.
   const auto setting = [] {
