@@ -201,6 +201,7 @@ class Projector {
     options.certify = false;
     options.events = {};
     options.events.extrema = false;
+    options.events.veerings = false;
     options.order.reset();
     options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
     TraceObserver observer;

@@ -102,7 +102,8 @@ TEST(EnergyNorm, MakesTheCouplingOfStiffAndSoftSmall) {
   EXPECT_LT(change(pencil, dP, 1.0, 1.0), 0.2);
 }
 
-/// The shift is a matter of strength: over two decades the norm of a change is about the same, whatever the stiffnesses.
+/// The shift is a matter of strength: over two decades the norm of a change is about the same, whatever the
+/// stiffnesses.
 TEST(EnergyNorm, DependsLittleOnTheShift) {
   const Chain chain(10, 1e6);
   const double best = change(chain.pencil, chain.softening, 0.5, 0.5);

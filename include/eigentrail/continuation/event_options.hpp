@@ -23,6 +23,7 @@ struct EventOptions {
   /// it is requested.
   std::optional<Expression> excitation = {};
   bool extrema = false;            ///< whether extrema of the damping ratio are searched for
+  bool veerings = true;            ///< the same for veerings; not an option of a scene
   OperatingRanges operating = {};  ///< from which critical speeds must stay away
 
   /// The values requested of one kind.

@@ -433,7 +433,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log(std::move(met));
   log(scan_criteria(search_, step, state_.histories));
   inherit_histories(births, criteria_, state_.histories);  // after the scan of their parents up to here
-  log(find_veerings(search_, step));
+  if (options_.events.veerings) log(find_veerings(search_, step));
   log(find_part_crossings(search_, step));
   log_branch_point(step.right);
   log(find_fold(search_, step.right, step.h));
