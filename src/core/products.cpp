@@ -116,6 +116,20 @@ Eigen::Index nonzeros(const Matrix& A) {
   return (A.array() != 0.0).count();
 }
 
+bool has_few_entries(const Matrix& A) {
+  return few_entries * nonzeros(A) <= A.size();
+}
+
+/// A B and A^T B, without the zeros of B and of A, respectively, where they are most of its entries.
+Matrix by_entries(const Matrix& A, const Matrix& B) {
+  if (has_few_entries(B)) return A * SparseMatrix(B.sparseView());
+  return dgemm('N', A, B);
+}
+Matrix transposed_by_entries(const Matrix& A, const Matrix& B) {
+  if (has_few_entries(A)) return SparseMatrix(A.sparseView()).transpose() * B;
+  return dgemm('T', A, B);
+}
+
 }  // namespace
 
 Matrix product(const Matrix& A, const Matrix& B) {
@@ -154,13 +168,14 @@ MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, st
                         [](const Matrix& a, const Matrix& b, Matrix& sum) { sum += dgemm('T', a, b); });
 }
 
-MatrixSeries congruence(const SparseSeries& T, const SparseSeries& B, std::size_t count) {
-  const std::size_t products = std::min(count, B.size() + T.size() - 1);
-  SparseSeries BT(products, SparseMatrix(B[0].rows(), T[0].cols()));
+MatrixSeries congruence(const SparseSeries& left, const SparseSeries& B, const SparseSeries& right,
+                        std::size_t count) {
+  const std::size_t products = std::min(count, B.size() + right.size() - 1);
+  SparseSeries BT(products, SparseMatrix(B[0].rows(), right[0].cols()));
   for (std::size_t i = 0; i < B.size(); ++i) {
-    for (std::size_t j = 0; j < T.size() && i + j < products; ++j) BT[i + j] += B[i] * T[j];
+    for (std::size_t j = 0; j < right.size() && i + j < products; ++j) BT[i + j] += B[i] * right[j];
   }
-  return series_product(T, BT, T[0].cols(), std::min(count, BT.size() + T.size() - 1),
+  return series_product(left, BT, left[0].cols(), std::min(count, BT.size() + left.size() - 1),
                         [](const SparseMatrix& t, const SparseMatrix& bt, Matrix& sum) {
                           sum += SparseMatrix(t.transpose() * bt);
                         });
@@ -190,8 +205,13 @@ ComplexMatrix adjoint_product(const ComplexMatrix& A, const ComplexMatrix& X) {
   return zgemm('C', A, X);
 }
 
+Matrix congruence(const Matrix& left, const Matrix& B, const Matrix& right) {
+  return transposed_by_entries(left, by_entries(B, right));
+}
+
 Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C) {
-  return A.cwiseAbs().transpose() * B.cwiseAbs() * C.cwiseAbs();
+  const Matrix magnitudes_A = A.cwiseAbs();
+  return transposed_by_entries(magnitudes_A, by_entries(B.cwiseAbs(), Matrix(C.cwiseAbs())));
 }
 
 }  // namespace eigentrail

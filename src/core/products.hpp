@@ -15,6 +15,9 @@ Matrix product(const Matrix& A, const Matrix& B);
 /// A^T B.
 Matrix transposed_product(const Matrix& A, const Matrix& B);
 
+/// left^T B right. Zeros of `left` and `right` are left out where they are most of the entries.
+Matrix congruence(const Matrix& left, const Matrix& B, const Matrix& right);
+
 /// |A|^T |B| |C|: for every entry of A^T B C the sum of the magnitudes of its terms.
 Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C);
 
@@ -25,8 +28,9 @@ using SparseSeries = std::vector<SparseMatrix>;
 /// bodies whose constraints fall into blocks; else empty.
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A);
 
-/// The first coefficients, at most `count`, of T(h)^T B(h) T(h).
-MatrixSeries congruence(const SparseSeries& T, const SparseSeries& B, std::size_t count);
+/// The first coefficients, at most `count`, of left(h)^T B(h) right(h).
+MatrixSeries congruence(const SparseSeries& left, const SparseSeries& B, const SparseSeries& right,
+                        std::size_t count);
 
 /// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h). Zeros of the factor that is given second
 /// and first, respectively, are left out where they are most of its entries.

@@ -89,7 +89,7 @@ std::shared_ptr<IndependentParts> find_parts(const CoefficientMatrices& coeffici
 Matrix projected(const Matrix& A, const Matrix& T, double& magnified) {
   constexpr double most = 100.0;
   constexpr double nothing = 1e-14;
-  const Matrix result = T.transpose() * A * T;
+  const Matrix result = congruence(T, A, T);
   const double terms = magnitudes_of_terms(T, A, T).norm();
   if (result.norm() <= nothing * terms) return Matrix::Zero(T.cols(), T.cols());
   magnified = std::clamp(terms / result.norm(), magnified, most);

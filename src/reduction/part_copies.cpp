@@ -210,7 +210,7 @@ double departure_from_parts(const Matrix& A, const IndependentParts& parts) {
   const Eigen::Index n = parts.freedoms();
   Matrix right(A.cols(), n), left(A.rows(), n);
   Matrix expected = Matrix::Zero(n, n);
-  const Matrix own = parts.left.transpose() * A * parts.right;
+  const Matrix own = congruence(parts.left, A, parts.right);
   Eigen::Index at = 0;
   const auto add = [&](const IndependentParts::Range& range, const auto& columns, const auto& rows) {
     right.middleCols(at, range.size) = columns;
@@ -225,7 +225,7 @@ double departure_from_parts(const Matrix& A, const IndependentParts& parts) {
     for (const PartCopy& copy : range.copies) add(range, copy.right, copy.left);
   }
   const double terms = magnitudes_of_terms(left, A, right).norm();
-  return terms > 0.0 ? (left.transpose() * A * right - expected).norm() / terms : 0.0;
+  return terms > 0.0 ? (congruence(left, A, right) - expected).norm() / terms : 0.0;
 }
 
 }  // namespace eigentrail

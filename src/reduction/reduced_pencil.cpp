@@ -21,17 +21,21 @@ void add_product(Matrix& sum, const SystemMatrix& B, const Matrix& X) {
   B.add_product_to(sum, X);
 }
 
-/// The product by sparse matrices, if both factors have such coefficients.
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries&, const MatrixSeries&, int) {
+/// left^T B right by sparse matrices, if all factors have such coefficients.
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries&, const MatrixSeries&, const MatrixSeries&,
+                                              int) {
   return std::nullopt;
 }
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& T, const SystemSeries& B, int order) {
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
+                                              const MatrixSeries& right, int order) {
   if (!B[0].is_sparse()) return std::nullopt;
-  const auto sparse_T = mostly_zero(T);
-  if (!sparse_T) return std::nullopt;
+  const auto sparse_left = mostly_zero(left);
+  if (!sparse_left) return std::nullopt;
+  const auto sparse_right = &left == &right ? sparse_left : mostly_zero(right);
+  if (!sparse_right) return std::nullopt;
   SparseSeries sparse_B;
   for (const SystemMatrix& coefficient : B) sparse_B.push_back(coefficient.sparse());
-  return congruence(*sparse_T, sparse_B, static_cast<std::size_t>(order) + 1);
+  return congruence(*sparse_left, sparse_B, *sparse_right, static_cast<std::size_t>(order) + 1);
 }
 
 bool is_sparse(const MatrixSeries&) {
@@ -57,7 +61,7 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   if (basis.is_identity) {
     return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(last_order(order, B.size(), 1)) + 1};
   }
-  if (auto sparse = sparse_congruence(T, B, order)) return *sparse;
+  if (auto sparse = sparse_congruence(T, B, T, order)) return *sparse;
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
@@ -84,23 +88,32 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
 
 namespace {
 
-/// left^T B right within its pattern, coefficient by coefficient up to h^order.
+/// The diagonal blocks of left^T B right.
+Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
+  Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
+  Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
+  add_product(product, B, parts.right);
+  for (const IndependentParts::Range& range : parts.ranges) {
+    result.block(range.first, range.first, range.size, range.size).noalias() =
+        parts.left.middleCols(range.first, range.size).transpose() *
+        product.middleCols(range.first, range.size);
+  }
+  return result;
+}
+
+/// left^T B right within its pattern, coefficient by coefficient up to h^order. Of what is beside the
+/// diagonal blocks nothing is used.
 MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, const Matrix& pattern,
                          int order) {
-  MatrixSeries result(last_order(order, B.size(), 1) + 1);
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    const Matrix coefficient = B[k].dense();
+  const std::size_t last = last_order(order, B.size(), 1);
+  auto sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(last));
+  MatrixSeries result = sparse ? *std::move(sparse) : MatrixSeries(last + 1);
+  for (std::size_t k = 0; k <= last; ++k) {
     if (parts.is_diagonal) {
-      result[k] = parts.left.diagonal().asDiagonal() * coefficient * parts.right.diagonal().asDiagonal();
+      result[k] = parts.left.diagonal().asDiagonal() * B[k].dense() * parts.right.diagonal().asDiagonal();
       continue;
     }
-    result[k] = Matrix::Zero(parts.left.cols(), parts.right.cols());
-    const Matrix product = coefficient * parts.right;
-    for (const IndependentParts::Range& range : parts.ranges) {
-      result[k].block(range.first, range.first, range.size, range.size).noalias() =
-          parts.left.middleCols(range.first, range.size).transpose() *
-          product.middleCols(range.first, range.size);
-    }
+    if (result[k].size() == 0) result[k] = blocks_of(parts, B[k]);
     result[k] = result[k].cwiseProduct(pattern);
   }
   return result;
@@ -118,9 +131,13 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
 /// The same where the basis changes along the path: left(h)^T B(h) right(h), of which the diagonal blocks are
 /// used. Freedoms that no force holds stay without force.
 MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const Matrix& pattern, int order) {
-  const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
-  const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
-  MatrixSeries result = transposed_product(basis.left, BT, count);
+  const auto product = [&] {
+    const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
+    const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
+    return transposed_product(basis.left, BT, count);
+  };
+  auto sparse = sparse_congruence(basis.left, B, basis.T, order);
+  MatrixSeries result = sparse ? *std::move(sparse) : product();
   for (const IndependentParts::Range& range : basis.parts->ranges) {
     if (range.size > 1) continue;
     for (Matrix& coefficient : result)

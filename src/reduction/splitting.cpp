@@ -11,6 +11,7 @@
 
 #include "core/products.hpp"
 #include "core/singular_vectors.hpp"
+#include "eigentrail/core/complex_lu.hpp"
 
 namespace eigentrail {
 namespace {
@@ -39,6 +40,9 @@ struct Search {
   /// How many times rounding may be magnified in the search for X by the condition of eigenvectors. What a
   /// generous search finds is tested like anything else.
   double slack = 1.0;
+  /// An eigenspace was found that is too large for X. Others would be as large: a stiff system has many
+  /// eigenvalues that are close to each other in relation to the largest.
+  bool is_too_large = false;
 
   /// Largest share of a matrix that counts as zero.
   double zero() const { return rounding * slack * no_coupling; }
@@ -114,6 +118,13 @@ UnknownsOfX unknowns_of(const std::vector<Eigen::Index>& members, const std::vec
     unknowns.count += size(group.front()) * size(group.front());
   }
   return unknowns;
+}
+
+/// Whether one of the groups has too many unknowns in X by itself.
+bool are_too_large(const std::vector<std::vector<Eigen::Index>>& spaces) {
+  return std::any_of(spaces.begin(), spaces.end(), [](const auto& space) {
+    return static_cast<Eigen::Index>(space.size() * space.size()) > most_unknowns;
+  });
 }
 
 /// A random X with X H = H X, block diagonal in the given groups of coordinates (eigenspaces of another
@@ -206,9 +217,11 @@ std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Search&
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(0.5 * (G + G.transpose())));
   const Matrix& V = eigen.eigenvectors();
   const ComplexVector values = eigen.eigenvalues().cast<Complex>();
+  const auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
+  search.is_too_large = are_too_large(spaces);
+  if (search.is_too_large) return std::nullopt;
   const Matrix H = V.transpose() * reduced(random_combination(all, search.random)) * V;
-  const auto X =
-      random_commuting(H, close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff()), search);
+  const auto X = random_commuting(H, spaces, search);
   if (!X) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(0.5 * (*X + X->transpose())));
   const Vector& x = parts.eigenvalues();
@@ -238,11 +251,28 @@ Matrix real_basis(const ComplexMatrix& columns, Eigen::Index size) {
   return qr.householderQ() * Matrix::Identity(columns.rows(), size);
 }
 
+/// Orthonormal basis of the space of the `size` eigenvalues of G next to s, by inverse iteration: the
+/// eigenvalues of a group are equal up to rounding, so that few passes are enough. Empty if it is not finite.
+ComplexMatrix invariant_space(const Matrix& G, Complex s, Eigen::Index size, Random& random) {
+  constexpr int passes = 3;
+  // As far from the eigenvalue as rounding: exactly on it the factors are singular.
+  const double beside = 1e-14 * G.norm();
+  const Eigen::Index n = G.rows();
+  const ComplexLu lu(G.cast<Complex>() - (s + beside) * ComplexMatrix::Identity(n, n));
+  ComplexMatrix space = ComplexMatrix::NullaryExpr(n, size, [&] { return Complex(random_number(random)); });
+  for (int i = 0; i < passes; ++i) {
+    lu.solve_in_place(space);
+    if (!space.allFinite()) return {};
+    space = space.householderQr().householderQ() * ComplexMatrix::Identity(n, size);
+  }
+  return space;
+}
+
 /// Orthonormal bases of the eigenspaces of G, one after the other, for groups of close eigenvalues. Computed
-/// eigenvectors of equal eigenvalues may be nearly parallel; null vectors of G - s I are not. Empty if an
-/// eigenspace has fewer dimensions than eigenvalues.
+/// eigenvectors of equal eigenvalues may be nearly parallel; a basis of their invariant space is not. Empty
+/// if an eigenspace has fewer dimensions than eigenvalues.
 ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const ComplexMatrix& vectors,
-                          const std::vector<std::vector<Eigen::Index>>& groups) {
+                          const std::vector<std::vector<Eigen::Index>>& groups, Random& random) {
   const Eigen::Index n = G.rows();
   ComplexMatrix V(n, n);
   for (const auto& members : groups) {
@@ -252,10 +282,9 @@ ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const Co
       continue;
     }
     const Complex mean = values(members).mean();
-    ComplexMatrix shifted = G.cast<Complex>() - mean * ComplexMatrix::Identity(n, n);
-    const auto right = right_singular_vectors(std::move(shifted));
-    if (!right.values.allFinite() || right.values[n - size] > possibly_equal * G.norm()) return {};
-    V(Eigen::all, members) = right.V.rightCols(size);
+    const ComplexMatrix space = invariant_space(G, mean, size, random);
+    if (space.size() == 0 || (product(G, space) - mean * space).norm() > possibly_equal * G.norm()) return {};
+    V(Eigen::all, members) = space;
   }
   return V;
 }
@@ -271,12 +300,14 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& searc
   if (eigen.info() != Eigen::Success) return std::nullopt;
   const ComplexVector values = eigen.eigenvalues();
   const auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
-  const ComplexMatrix V = eigenspaces(G, values, eigen.eigenvectors(), spaces);
+  search.is_too_large = are_too_large(spaces);
+  if (search.is_too_large) return std::nullopt;
+  const ComplexMatrix V = eigenspaces(G, values, eigen.eigenvectors(), spaces, search.random);
   if (V.size() == 0) return std::nullopt;
   const Eigen::PartialPivLU<ComplexMatrix> lu(V);
   if (!(lu.rcond() > 1.0 / (worst * worst))) return std::nullopt;
   const Matrix other = B.solve(random_combination(all, search.random));
-  const ComplexMatrix H = lu.solve(other.cast<Complex>() * V);
+  const ComplexMatrix H = lu.solve(product(other, V));
   const auto X = random_commuting(H, spaces, search);
   if (!X) return std::nullopt;
   const Matrix real_X = ((V * *X) * lu.inverse()).real();
@@ -388,7 +419,8 @@ Splitting split_connected(const std::vector<Matrix>& all, Search& search) {
     search.slack = attempt % 2 == 0 ? 1.0 : generous;
     std::optional<Splitting> found;
     if (keeps_symmetry) found = split_symmetric(all, search);
-    if (!found) found = split_any(all, search);
+    if (!found && !search.is_too_large) found = split_any(all, search);
+    if (search.is_too_large) break;
     if (!found) continue;
     const bool is_one = found->sizes.size() == 1 && !found->of_pair[0];
     if (is_one && search.slack > 1.0) break;  // X is a multiple of the unit matrix

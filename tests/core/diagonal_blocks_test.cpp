@@ -79,7 +79,7 @@ TEST(SparseProducts, AreTheDenseOnes) {
   SparseSeries B;
   for (const Matrix& coefficient : dense) B.push_back(sparse(coefficient));
   const MatrixSeries BT = product(dense, T, 4), TBT = transposed_product(T, BT, 4);
-  const MatrixSeries together = congruence(*mostly_zero(T), B, 4);
+  const MatrixSeries together = congruence(*mostly_zero(T), B, *mostly_zero(T), 4);
   ASSERT_EQ(together.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
     Matrix expected_BT = Matrix::Zero(75, 30), expected = Matrix::Zero(30, 30);
@@ -99,7 +99,7 @@ TEST(SparseProducts, AreTheDenseOnes) {
 
 TEST(SparseProducts, HaveNoMoreCoefficientsThanThereAre) {
   const SparseSeries one{sparse(Matrix::Identity(3, 3))};
-  EXPECT_EQ(congruence(one, one, 6).size(), 1U);
+  EXPECT_EQ(congruence(one, one, one, 6).size(), 1U);
 }
 
 }  // namespace

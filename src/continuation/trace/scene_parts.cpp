@@ -18,6 +18,8 @@ namespace {
 constexpr int n_places = 12;
 /// The search for parts takes some dozen eigenproblems of this size, half a second in all.
 constexpr Eigen::Index most_freedoms = 200;
+/// Dense matrices of all coordinates at a dozen places: 100 MB.
+constexpr Eigen::Index most_coordinates = 600;
 
 /// Irregular places, so that no function of the parameter vanishes at all of them by chance, and those where
 /// the model changes on a small part of the range: there parts may cease to be parts.
@@ -85,7 +87,6 @@ std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem&
     const PathPoint point = reduce_at(problem, places[i], guess, Matrix(), counts);
     if (point.status != PointStatus::computed || point.pencil.size() < 2) return nullptr;
     const Linearization& there = point.equilibrium.linearization;
-    if (there.K[0].is_sparse()) return nullptr;
     samples.push_back(
         {there.M[0].dense(), there.C[0].dense(), there.K[0].dense(), point.equilibrium.kkt.constraints()});
     guess = {point.equilibrium.x, point.equilibrium.lambda, true};
@@ -115,12 +116,12 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   const bool gives_coefficients = !known.M.empty() || !known.C.empty() || !known.K.empty();
   if (gives_coefficients || leaves_its_path(options) || problem.basis != BasisChoice::aligned) return {};
   if (model.n_coordinates() - model.n_constraints() > most_freedoms) return {};
+  if (model.n_coordinates() > most_coordinates) return {};
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
   Matrix A;
   for (const double place : places_of(problem, options)) {
     const auto there = linearize_at_rest(problem, place, x, lambda, counts);
-    if (there && there->A[0].is_sparse()) return {};
     if (there && samples.M.empty()) A = there->A[0].dense();
     if (!there || there->A[0].dense() != A)
       return {false, parts_of_moving_scene(problem, options, x, lambda)};
