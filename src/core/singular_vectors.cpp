@@ -9,21 +9,25 @@
 namespace eigentrail {
 namespace {
 
-/// `svd(m, n, A, result)` computes the values, U and V^H of a matrix with an empty column behind its own, and
-/// returns LAPACK's outcome.
+/// `svd(m, n, A, result)` computes the values, U and V^H and returns LAPACK's outcome. All matrices have an
+/// empty column behind their own.
 template <class Values, class Svd>
 SingularVectors<Values> decompose(Values A, bool with_left, const Svd& svd) {
   const auto m = static_cast<lapack_int>(A.rows());
   const auto n = static_cast<lapack_int>(A.cols());
   const lapack_int count = std::min(m, n);
-  SingularVectors<Values> result{Vector::Zero(count), {}, Values::Identity(n, n)};
-  if (with_left) result.U = Values::Identity(m, m);
-  if (count == 0) return result;
   // zgemv of OpenBLAS 0.3.21 for AVX2 and AVX-512 reads up to a column past the end of a matrix, and crashes
-  // where no memory follows.
-  A.conservativeResize(Eigen::NoChange, n + 1);
-  A.col(n).setZero();
-  const lapack_int info = svd(m, n, A, result);
+  // where no memory follows. So every matrix has one more.
+  SingularVectors<Values> result{Vector::Zero(count), {}, Values::Identity(n, n + 1)};
+  if (with_left) result.U = Values::Identity(m, m + 1);
+  const auto without_the_last = [](Values& B, lapack_int size) { B = Values(B.leftCols(size)); };
+  if (count > 0) {
+    A.conservativeResize(Eigen::NoChange, n + 1);
+    A.col(n).setZero();
+  }
+  const lapack_int info = count > 0 ? svd(m, n, A, result) : 0;
+  without_the_last(result.V, n);
+  if (with_left) without_the_last(result.U, m);
   result.V.adjointInPlace();
   if (info == 0) return result;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();

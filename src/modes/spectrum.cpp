@@ -12,10 +12,10 @@
 namespace eigentrail {
 namespace {
 
-/// An eigenvalue of the scaled pencil with |beta| below this fraction of |alpha| is infinite. Rounding times the
-/// condition of infinite eigenvalues: that of a rotor with six annuli of inflow has 1.4e-13. With a larger value
-/// eigenvalues that are finite are left out, but at 1e12 times the scale of the system rounding of its matrices
-/// is as large as what they are computed from.
+/// An eigenvalue of the scaled pencil with |beta| below this fraction of |alpha| is infinite. Rounding times
+/// the condition of infinite eigenvalues: that of a rotor with six annuli of inflow has 1.4e-13. With a
+/// larger value eigenvalues that are finite are left out, but at 1e12 times the scale of the system rounding
+/// of its matrices is as large as what they are computed from.
 constexpr double infinite = 1e-12;
 /// A matrix with a pivot below this fraction of the largest one is singular to working precision.
 constexpr double singular_pivot = 1e-15;

@@ -87,6 +87,7 @@ std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem&
     const PathPoint point = reduce_at(problem, places[i], guess, Matrix(), counts);
     if (point.status != PointStatus::computed || point.pencil.size() < 2) return nullptr;
     const Linearization& there = point.equilibrium.linearization;
+    if (there.K[0].is_sparse()) return nullptr;
     samples.push_back(
         {there.M[0].dense(), there.C[0].dense(), there.K[0].dense(), point.equilibrium.kkt.constraints()});
     guess = {point.equilibrium.x, point.equilibrium.lambda, true};
