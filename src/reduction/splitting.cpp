@@ -417,6 +417,7 @@ Splitting split_connected(const std::vector<Matrix>& all, Search& search) {
   Splitting best = whole;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     search.slack = attempt % 2 == 0 ? 1.0 : generous;
+    search.is_too_large = false;
     std::optional<Splitting> found;
     if (keeps_symmetry) found = split_symmetric(all, search);
     if (!found && !search.is_too_large) found = split_any(all, search);

@@ -158,7 +158,7 @@ class NormOfATube : public testing::TestWithParam<int> {
 TEST_P(NormOfATube, HasInversesAndAdjoints) {
   const ComplexMatrix S = matrix(&TubeNorm::apply);
   const ComplexMatrix inverse = matrix(&TubeNorm::apply_inverse);
-  EXPECT_FALSE(norm.is_plain());
+  EXPECT_GT((S - ComplexMatrix::Identity(size, size)).norm(), 0.1);
   EXPECT_LT((S * inverse - ComplexMatrix::Identity(size, size)).norm(), 1e-12 * S.norm() * inverse.norm());
   EXPECT_LT((matrix(&TubeNorm::apply_adjoint) - S.adjoint()).norm(), 1e-13 * S.norm());
   EXPECT_LT((matrix(&TubeNorm::apply_inverse_adjoint) - inverse.adjoint()).norm(), 1e-13 * inverse.norm());

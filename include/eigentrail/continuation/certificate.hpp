@@ -50,8 +50,8 @@ class StepPencil {
   /// The sample at t in [0, 1].
   std::shared_ptr<const Sample> at(double t) const;
 
-  /// The energy norm at the middle of the step, by a shift that is the geometric mean of the followed
-  /// eigenvalues' magnitudes. Null if there is none. Computed when it is first asked for.
+  /// The energy norm at the middle of the step, by a shift of the magnitude of the followed
+  /// eigenvalues. Null if there is none. Computed when it is first asked for.
   std::shared_ptr<const EnergyNorm> energy_norm() const;
 
   const PathNode& left() const { return left_; }

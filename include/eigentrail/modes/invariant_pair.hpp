@@ -62,7 +62,7 @@ class PairFactorization {
   /// Overwrites b with B^H b, where B is the linear map of solve_in_place.
   void solve_adjoint_in_place(ComplexVector& b) const;
 
-  /// The same on all columns of B together, which takes less time.
+  /// The same on all columns of B together, which takes less time; one by one where the factors are real.
   void solve_in_place(ComplexMatrix& B) const;
   void solve_adjoint_in_place(ComplexMatrix& B) const;
 

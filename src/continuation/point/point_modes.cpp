@@ -143,8 +143,8 @@ namespace {
 class PhysicalSeries {
  public:
   explicit PhysicalSeries(const PathNode& node) : basis_(node.basis) {
-    const bool varies = !basis_.is_identity && basis_.T.size() > 1;
-    is_large_ = varies && node.linearization.K[0].is_sparse();
+    // Of parts only some columns are used.
+    is_large_ = !basis_.is_identity && !basis_.parts && node.linearization.K[0].is_sparse();
     if (is_large_) sparse_ = mostly_zero(basis_.T);
   }
 

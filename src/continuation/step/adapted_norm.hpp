@@ -1,8 +1,6 @@
 // A norm in which an operator that is far from normal is about as large as its eigenvalues.
 #pragma once
 
-#include <algorithm>
-
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
@@ -25,8 +23,6 @@ class AdaptedNorm {
   void apply_inverse(ComplexVector& x) const { scale(x, factors_.cwiseInverse()); }
 
   bool is_plain() const { return factors_.size() == 0; }
-  /// |S|.
-  double largest_factor() const { return is_plain() ? 1.0 : std::max(1.0, factors_.maxCoeff()); }
 
  private:
   void scale(ComplexVector& x, const Vector& factors) const;

@@ -37,7 +37,7 @@ double largest_of_solved(const Inverse& B, ComplexMatrix V, const TubeNorm& norm
 }
 
 /// |B A| from below, by power iteration from the direction v, which is overwritten with the last one. Stops
-/// when the estimate exceeds `enough`.
+/// when the estimate exceeds `enough`. Infinite if it is not a number.
 template <class Inverse, class Operator>
 double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const TubeNorm& norm,
                       ComplexVector& v, double enough = INFINITY) {
@@ -54,7 +54,7 @@ double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const
     ComplexVector next = A.adjoint_times(w);
     norm.apply_adjoint(next);
     const double length = next.norm();
-    if (!(length > 0.0)) return size;
+    if (!(length > 0.0)) return length == 0.0 ? size : INFINITY;
     size = std::max(size, std::sqrt(length));
     v = std::move(next);
   }

@@ -36,7 +36,8 @@ MatrixSeries inverse_by_blocks(const MatrixSeries& A) {
   return inverse;
 }
 
-/// The geometric mean of the magnitudes of the finite eigenvalues of a part's tracks but zeros.
+/// One and a half times the geometric mean of the magnitudes of a part's finite eigenvalues but zeros: not
+/// the mean itself, which is an eigenvalue where a single one is followed that grows without oscillation.
 double typical_magnitude(const PathNode& node, int part, const PencilAtPoint& pencil) {
   double sum = 0.0;
   int count = 0;
@@ -49,7 +50,8 @@ double typical_magnitude(const PathNode& node, int part, const PencilAtPoint& pe
       ++count;
     }
   }
-  if (count > 0) return std::exp(sum / count);
+  constexpr double beside = 1.5;
+  if (count > 0) return beside * std::exp(sum / count);
   const double inertia = pencil.norm_M > 0.0 ? pencil.norm_M : 1.0;
   return pencil.norm_K > 0.0 ? std::sqrt(pencil.norm_K / inertia) : 1.0;
 }

@@ -37,7 +37,6 @@ class TubeNorm {
   void apply_inverse(ComplexVector& x) const;
   void apply_inverse_adjoint(ComplexVector& x) const;
 
-  bool is_plain() const { return !energy_ && adapted_.is_plain(); }
   /// Bound of |Lambda / scale| for unknowns of norm one.
   double largest_eigenvalue_part() const;
 

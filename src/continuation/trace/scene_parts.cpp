@@ -18,19 +18,21 @@ namespace {
 constexpr int n_places = 12;
 /// The search for parts takes some dozen eigenproblems of this size, half a second in all.
 constexpr Eigen::Index most_freedoms = 200;
-/// Dense matrices of all coordinates at a dozen places: 100 MB.
+/// Dense matrices of all coordinates at three dozen places: 300 MB.
 constexpr Eigen::Index most_coordinates = 600;
+/// Where an expression changes abruptly at more places than this, no parts are looked for.
+constexpr std::size_t most_narrow = 24;
 
 /// Irregular places, so that no function of the parameter vanishes at all of them by chance, and those where
 /// the model changes on a small part of the range: there parts may cease to be parts.
-std::vector<double> places_of(const PathProblem& problem, const TraceOptions& options) {
+std::vector<double> places_of(const TraceOptions& options, const std::vector<double>& narrow_ones) {
   std::vector<double> places;
   for (int i = 0; i < n_places; ++i) {
     const double share = std::fmod(0.5 + i / std::numbers::phi, 1.0);
     places.push_back(options.from + share * (options.to - options.from));
   }
   const auto [least, largest] = std::minmax(options.from, options.to);
-  for (const double narrow : narrow_landings(problem, options)) {
+  for (const double narrow : narrow_ones) {
     if (narrow >= least && narrow <= largest) places.push_back(narrow);
   }
   return places;
@@ -74,9 +76,9 @@ std::shared_ptr<const IndependentParts> parts_at(const std::vector<PlaceOnPath>&
 /// The parts of a scene whose equilibrium moves: the matrices at the equilibria of the range take the place
 /// of coefficients. Two of them tell most scenes that do not fall apart.
 std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem& problem,
-                                                              const TraceOptions& options, const Vector& x,
+                                                              const TraceOptions& options,
+                                                              std::vector<double> places, const Vector& x,
                                                               const Vector& lambda) {
-  std::vector<double> places = places_of(problem, options);
   std::sort(places.begin(), places.end());
   if (options.to < options.from) std::reverse(places.begin(), places.end());
   RunCounts counts;
@@ -118,14 +120,17 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   if (gives_coefficients || leaves_its_path(options) || problem.basis != BasisChoice::aligned) return {};
   if (model.n_coordinates() - model.n_constraints() > most_freedoms) return {};
   if (model.n_coordinates() > most_coordinates) return {};
+  const std::vector<double> narrow = narrow_landings(problem, options);
+  if (narrow.size() > most_narrow) return {};
+  const std::vector<double> places = places_of(options, narrow);
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
   Matrix A;
-  for (const double place : places_of(problem, options)) {
+  for (const double place : places) {
     const auto there = linearize_at_rest(problem, place, x, lambda, counts);
     if (there && samples.M.empty()) A = there->A[0].dense();
     if (!there || there->A[0].dense() != A)
-      return {false, parts_of_moving_scene(problem, options, x, lambda)};
+      return {false, parts_of_moving_scene(problem, options, places, x, lambda)};
     add(there->M, structure.constant_mass, samples.M);
     add(there->C, structure.constant_damping, samples.C);
     add(there->K, structure.constant_stiffness, samples.K);

@@ -45,8 +45,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TangentBasis> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [T, is_identity, parts, left] = self;  // parts are found again; left is of sensitivities only
-  visit(T, is_identity);
+  auto& [T, is_identity, parts, left] = self;  // parts are found again
+  visit(T, is_identity, left);
 }
 
 template <SameAs<ReducedPencil> Self, class Visit>
@@ -269,7 +269,9 @@ bool fits(const PathNode& node, const PointSizes& sizes, const IndependentParts*
   return is_series(node.path.parameters, sizes.parameters) && is_series(node.path.x, n) &&
          is_series(node.path.lambda, sizes.multipliers) && all_are(full.M, n, n) && all_are(full.C, n, n) &&
          all_are(full.K, n, n) && all_are(full.A, sizes.constraints, n) &&
-         all_are(node.basis.T, n, sizes.freedoms) && all_are(node.pencil.M, sizes.freedoms, sizes.freedoms) &&
+         all_are(node.basis.T, n, sizes.freedoms) &&
+         (node.basis.left.empty() || all_are(node.basis.left, n, sizes.freedoms)) &&
+         all_are(node.pencil.M, sizes.freedoms, sizes.freedoms) &&
          all_are(node.pencil.C, sizes.freedoms, sizes.freedoms) &&
          all_are(node.pencil.K, sizes.freedoms, sizes.freedoms);
 }
