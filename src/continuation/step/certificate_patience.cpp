@@ -26,7 +26,7 @@ constexpr double not_by_error = 1e-2;
 /// Beyond, it may take this share of all other work.
 constexpr double free_work = 2.5e9;
 constexpr double free_at_start = 0.1;
-constexpr double share_of_work = 0.4;
+constexpr double share_of_work = 0.36;
 /// The same for what it may take in vain, for tracks that it does not certify: where it seldom closes it is
 /// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
 constexpr double free_in_vain = 1e9;
