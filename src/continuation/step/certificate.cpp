@@ -29,9 +29,6 @@ constexpr int iterations_within =
 /// costs more solutions, and closes more pieces of sensitive eigenvalues.
 constexpr Eigen::Index least_directions = 3;
 constexpr Eigen::Index most_directions = 12;
-/// Number of freedoms from which on the plain norm is not tried: it seldom is the right one, since stiff and
-/// soft directions are far apart there. Affects only the time.
-constexpr Eigen::Index never_plain = 64;
 /// One direction for so many unknowns: in a small system the solutions for them would take longer than a few
 /// more factorizations.
 constexpr Eigen::Index unknowns_per_direction = 16;
@@ -200,8 +197,7 @@ class Tube {
       return norm_safety * norm_of_solved(B, change, power_iterations, norm, direction, enough);
     };
     const double too_large = 1.0 / norm_safety;
-    double Z1 = 1.0;
-    if (centre.Z.rows() < never_plain) Z1 = size_of_change(too_large);
+    double Z1 = size_of_change(too_large);
     if (Z1 < 1.0) return Z1;
     norm.set_energy(pencil_.energy_norm(), centre.Z);
     Z1 = size_of_change(too_large);
