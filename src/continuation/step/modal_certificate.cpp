@@ -13,7 +13,7 @@
 namespace eigentrail {
 namespace {
 
-/// A step is halved up to this often, as in certificate.cpp.
+/// A step is halved up to this often: one basis serves all modes, so that more halvings cost less here.
 constexpr int max_depth = 6;
 /// As in certificate.cpp: halving is given up for a track whose Z1 >= 1 does not decrease to this share.
 constexpr double falling = 0.75;
