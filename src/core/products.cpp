@@ -142,7 +142,7 @@ Matrix transposed_product(const Matrix& A, const Matrix& B) {
 
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {
   for (const Matrix& coefficient : A) {
-    if (few_entries * nonzeros(coefficient) > coefficient.size()) return std::nullopt;
+    if (!has_few_entries(coefficient)) return std::nullopt;
   }
   SparseSeries sparse;
   for (const Matrix& coefficient : A) sparse.emplace_back(coefficient.sparseView());

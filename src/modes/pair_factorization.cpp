@@ -23,6 +23,14 @@ void for_each_column(ComplexMatrix& B, Map map) {
   }
 }
 
+/// Overwrites b with what `map` makes of it as a matrix of one column.
+template <class Map>
+void as_column(ComplexVector& b, Map map) {
+  ComplexMatrix B = b;
+  map(B);
+  b = B;
+}
+
 /// Phase of a vector that is real up to a phase; empty if it is not.
 std::optional<Complex> phase_of(const ComplexVector& z) {
   const Complex square = (z.transpose() * z)(0, 0);
@@ -106,12 +114,7 @@ void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, Co
 }
 
 void PairFactorization::solve_in_place(ComplexVector& b) const {
-  if (coupling_) {
-    ComplexMatrix B = b;
-    solve_block(B);
-    b = B;
-    return;
-  }
+  if (coupling_) return as_column(b, [this](ComplexMatrix& B) { solve_block(B); });
   const Eigen::Index n = b.size() - 1;
   b[n] *= border_scale_;
   if (real_) {
@@ -126,12 +129,7 @@ void PairFactorization::solve_in_place(ComplexVector& b) const {
 }
 
 void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
-  if (coupling_) {
-    ComplexMatrix B = b;
-    solve_block_adjoint(B);
-    b = B;
-    return;
-  }
+  if (coupling_) return as_column(b, [this](ComplexMatrix& B) { solve_block_adjoint(B); });
   const Eigen::Index n = b.size() - 1;
   b[n] *= slope_scale_;
   if (real_) {
@@ -197,7 +195,8 @@ void PairFactorization::solve_block(ComplexMatrix& B) const {
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const Eigen::Index m = B.cols();
-  auto [X, Y] = in_schur_form(B);  // right sides, then solutions
+  InSchurForm columns = in_schur_form(B);
+  auto& [X, Y] = columns;  // right sides, then solutions
   ComplexMatrix column(n + k, m);
   for (Eigen::Index j = 0; j < k; ++j) {
     auto Xj = X.middleCols(j * m, m);
@@ -218,7 +217,7 @@ void PairFactorization::solve_block(ComplexMatrix& B) const {
     Xj = column.topRows(n);
     Yj = slope_scale_ * column.bottomRows(k);
   }
-  from_schur_form({std::move(X), std::move(Y)}, B);
+  from_schur_form(columns, B);
 }
 
 void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
@@ -226,7 +225,8 @@ void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const Eigen::Index m = B.cols();
-  auto [X, Y] = in_schur_form(B);
+  InSchurForm columns = in_schur_form(B);
+  auto& [X, Y] = columns;
   ComplexMatrix column(n + k, m);
   for (Eigen::Index j = k - 1; j >= 0; --j) {
     column << X.middleCols(j * m, m), slope_scale_ * Y.middleCols(j * m, m);
@@ -244,7 +244,7 @@ void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
       Y.middleCols(i * m, m) -= std::conj(T(i, j)) * ZMX;
     }
   }
-  from_schur_form({std::move(X), std::move(Y)}, B);
+  from_schur_form(columns, B);
 }
 
 double PairFactorization::sensitivity() const {

@@ -105,17 +105,17 @@ Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
 /// diagonal blocks nothing is used.
 MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, const Matrix& pattern,
                          int order) {
-  const std::size_t last = last_order(order, B.size(), 1);
-  auto sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(last));
-  MatrixSeries result = sparse ? *std::move(sparse) : MatrixSeries(last + 1);
-  for (std::size_t k = 0; k <= last; ++k) {
-    if (parts.is_diagonal) {
+  const std::size_t count = last_order(order, B.size(), 1) + 1;
+  MatrixSeries result(count);
+  if (parts.is_diagonal) {
+    for (std::size_t k = 0; k < count; ++k)
       result[k] = parts.left.diagonal().asDiagonal() * B[k].dense() * parts.right.diagonal().asDiagonal();
-      continue;
-    }
-    if (result[k].size() == 0) result[k] = blocks_of(parts, B[k]);
-    result[k] = result[k].cwiseProduct(pattern);
+    return result;
   }
+  std::optional<MatrixSeries> sparse;
+  if (is_sparse(B)) sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(count) - 1);
+  for (std::size_t k = 0; k < count; ++k)
+    result[k] = (sparse ? (*sparse)[k] : blocks_of(parts, B[k])).cwiseProduct(pattern);
   return result;
 }
 

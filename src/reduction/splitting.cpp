@@ -120,11 +120,16 @@ UnknownsOfX unknowns_of(const std::vector<Eigen::Index>& members, const std::vec
   return unknowns;
 }
 
-/// Whether one of the groups has too many unknowns in X by itself.
-bool are_too_large(const std::vector<std::vector<Eigen::Index>>& spaces) {
-  return std::any_of(spaces.begin(), spaces.end(), [](const auto& space) {
+/// The eigenspaces of eigenvalues that may be equal. Empty, and noted in the search, if one of them has too
+/// many unknowns in X by itself.
+std::optional<std::vector<std::vector<Eigen::Index>>> eigenspace_groups(const ComplexVector& values,
+                                                                        Search& search) {
+  auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
+  search.is_too_large = std::any_of(spaces.begin(), spaces.end(), [](const auto& space) {
     return static_cast<Eigen::Index>(space.size() * space.size()) > most_unknowns;
   });
+  if (search.is_too_large) return std::nullopt;
+  return spaces;
 }
 
 /// A random X with X H = H X, block diagonal in the given groups of coordinates (eigenspaces of another
@@ -217,11 +222,10 @@ std::optional<Splitting> split_symmetric(const std::vector<Matrix>& all, Search&
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(0.5 * (G + G.transpose())));
   const Matrix& V = eigen.eigenvectors();
   const ComplexVector values = eigen.eigenvalues().cast<Complex>();
-  const auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
-  search.is_too_large = are_too_large(spaces);
-  if (search.is_too_large) return std::nullopt;
+  const auto spaces = eigenspace_groups(values, search);
+  if (!spaces) return std::nullopt;
   const Matrix H = V.transpose() * reduced(random_combination(all, search.random)) * V;
-  const auto X = random_commuting(H, spaces, search);
+  const auto X = random_commuting(H, *spaces, search);
   if (!X) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(0.5 * (*X + X->transpose())));
   const Vector& x = parts.eigenvalues();
@@ -299,16 +303,15 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& searc
   const Eigen::EigenSolver<Matrix> eigen(G);
   if (eigen.info() != Eigen::Success) return std::nullopt;
   const ComplexVector values = eigen.eigenvalues();
-  const auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
-  search.is_too_large = are_too_large(spaces);
-  if (search.is_too_large) return std::nullopt;
-  const ComplexMatrix V = eigenspaces(G, values, eigen.eigenvectors(), spaces, search.random);
+  const auto spaces = eigenspace_groups(values, search);
+  if (!spaces) return std::nullopt;
+  const ComplexMatrix V = eigenspaces(G, values, eigen.eigenvectors(), *spaces, search.random);
   if (V.size() == 0) return std::nullopt;
   const Eigen::PartialPivLU<ComplexMatrix> lu(V);
   if (!(lu.rcond() > 1.0 / (worst * worst))) return std::nullopt;
   const Matrix other = B.solve(random_combination(all, search.random));
   const ComplexMatrix H = lu.solve(product(other, V));
-  const auto X = random_commuting(H, spaces, search);
+  const auto X = random_commuting(H, *spaces, search);
   if (!X) return std::nullopt;
   const Matrix real_X = ((V * *X) * lu.inverse()).real();
   const Eigen::EigenSolver<Matrix> parts(real_X);

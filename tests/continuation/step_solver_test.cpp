@@ -73,42 +73,44 @@ TEST(Attempt, ReusesWhatWasComputedAtTheSameDistanceOnly) {
   EXPECT_EQ(3 * factorizations(0.1), all);
 }
 
-/// Equilibrium, reduction and the series of the equations do not depend on the blocks.
-TEST(Attempt, ComputesTheEquationsOnceForOneDistance) {
-  const Setting setting = pushed_pendulum({});
-  const PathProblem problem = setting.problem();
+/// Steps of a pushed pendulum, whose equilibrium moves, from a point of its path.
+struct StepsOfAPendulum {
+  explicit StepsOfAPendulum(double p)
+      : origin{differentiate_point(problem, point_from_guess(problem, p, counts), counts).value()} {
+    for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
+  }
+
+  Setting setting = pushed_pendulum({});
+  PathProblem problem = setting.problem();
   RunCounts counts;
   PathFrame frame{PathRange{problem.traced, 0.0, 1.2}};
-  const PointSolver points(problem, frame, counts);
-  StepOrigin origin{differentiate_point(problem, point_from_guess(problem, 0.6, counts), counts).value()};
-  for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
-  StepSolver solver(points, origin, reach);
-  const Step first = solver.attempt(0.05).step.value();
+  PointSolver points{problem, frame, counts};
+  StepOrigin origin;
+  StepSolver solver{points, origin, reach};
+};
+
+/// Equilibrium, reduction and the series of the equations do not depend on the blocks.
+TEST(Attempt, ComputesTheEquationsOnceForOneDistance) {
+  StepsOfAPendulum pendulum(0.6);
+  const Step first = pendulum.solver.attempt(0.05).step.value();
   const PathNode whole = first.right;
-  origin.tried = TriedPoint{0.05, {}, first.right};  // no track is known
-  const auto linearizations = counts.evaluations.linearization;
-  const Step again = solver.attempt(0.05).step.value();
-  EXPECT_EQ(counts.evaluations.linearization, linearizations);
+  pendulum.origin.tried = TriedPoint{0.05, {}, first.right};  // no track is known
+  const auto linearizations = pendulum.counts.evaluations.linearization;
+  const Step again = pendulum.solver.attempt(0.05).step.value();
+  EXPECT_EQ(pendulum.counts.evaluations.linearization, linearizations);
   EXPECT_EQ(again.right.path.x, whole.path.x);
   EXPECT_EQ(again.right.pencil.K, whole.pencil.K);
   EXPECT_EQ(again.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
-  EXPECT_FALSE(origin.tried->equations) << "used once";
-  const Step anew = solver.attempt(0.05).step.value();
-  EXPECT_NE(counts.evaluations.linearization, linearizations);
+  EXPECT_FALSE(pendulum.origin.tried->equations) << "used once";
+  const Step anew = pendulum.solver.attempt(0.05).step.value();
+  EXPECT_NE(pendulum.counts.evaluations.linearization, linearizations);
   EXPECT_EQ(anew.right.tracks[0].series.Lambda, whole.tracks[0].series.Lambda);
 }
 
 TEST(Attempt, SaysWhyThereIsNoPoint) {
-  const Setting setting = pushed_pendulum({});
-  const PathProblem problem = setting.problem();
-  RunCounts counts;
-  PathFrame frame{PathRange{problem.traced, 0.0, 1.2}};
-  const PointSolver points(problem, frame, counts);
-  StepOrigin origin{differentiate_point(problem, point_from_guess(problem, 0.9, counts), counts).value()};
-  for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
-  StepSolver solver(points, origin, reach);
-  EXPECT_TRUE(solver.attempt(0.05).step);
-  const AttemptedStep attempted = solver.attempt(0.2);
+  StepsOfAPendulum pendulum(0.9);
+  EXPECT_TRUE(pendulum.solver.attempt(0.05).step);
+  const AttemptedStep attempted = pendulum.solver.attempt(0.2);
   EXPECT_FALSE(attempted.step);
   EXPECT_EQ(attempted.verdict.kind, Kind::no_equilibrium);
   EXPECT_EQ(attempted.verdict.error, INFINITY);

@@ -164,5 +164,20 @@ TEST(FindVeerings, OnBothSidesOfTheAxisAreTwoUnlessTheyAreMirrorImages) {
   }
 }
 
+/// A rough trace needs none, and does not look for them.
+TEST(FindVeerings, IsLeftOutWhereTheOptionsSaySo) {
+  Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
+      "K = [ [[4, 0.02], [0.02, 4]], [[1, 0], [0, -1]] ]\n");
+  const auto veerings = [&] {
+    const std::vector<Event> events = record_trace(setting).result.events;
+    return std::count_if(events.begin(), events.end(),
+                         [](const Event& event) { return event.kind == EventKind::veering; });
+  };
+  EXPECT_EQ(veerings(), 1);
+  setting.options.events.veerings = false;
+  EXPECT_EQ(veerings(), 0);
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -24,8 +24,8 @@ constexpr double falling = 0.75;
 /// makes up for the rest.
 constexpr int power_iterations = 4;
 constexpr int further_iterations = 2;  ///< if started from the direction that another sample ended with
-constexpr int iterations_within =
-    1;  ///< the same within the piece, where Z1 is about half of that at its ends
+/// The same within a piece, where Z1 is about half of that at its ends.
+constexpr int iterations_within = 1;
 /// Directions that the adapted norm scales: those of the largest singular values of I - B J. A larger number
 /// costs more solutions, and closes more pieces of sensitive eigenvalues.
 constexpr Eigen::Index least_directions = 3;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/events/growth_check.hpp"
@@ -327,8 +328,7 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   add(remedy.changes, state_.result.regroupings);
   state_.origin.tried.reset();
   if (step && !state_.frame.plane) {
-    std::vector<Track> tracks = std::move(step->right.tracks);
-    step->right.tracks.clear();
+    std::vector<Track> tracks = std::exchange(step->right.tracks, {});
     state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->right)};
   }
   return true;
