@@ -31,7 +31,7 @@ struct PlantedStep {
     return in_one_block ? std::vector<Together>{{s}} : alone(s);
   }
 
-  std::vector<ExpectedMeeting> in_blocks() const { return expected_in_blocks(left, right, length); }
+  std::vector<ExpectedMeeting> in_blocks() const { return expected_in_blocks(left, right, length).meetings; }
   std::vector<ExpectedMeeting> beside(double width) const {
     return expected_beside(left, right, length, width);
   }

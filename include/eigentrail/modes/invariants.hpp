@@ -44,7 +44,7 @@ Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, c
 /// three and more whose `roots` all coincide within rounding, for example several rigid-body modes or an
 /// exceptional point of that order. A matrix of size k that is far from normal determines its eigenvalues
 /// only to the k-th root of its rounding error (Henrici, Numer. Math. 4, 1962); up to six are taken to meet
-/// two at a time, with the square root.
+/// two at a time, with the square root. Zero, too, for larger ones of which one is known by itself.
 double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
 
 /// The values `to` in the order of `from`: the assignment with the least total distance.

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "continuation/events/roots_on_step.hpp"
 #include "continuation/step/shared_basis.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
@@ -17,21 +18,8 @@
 namespace eigentrail {
 namespace {
 
-// A gap below is the discriminant ((s_a - s_b) / 2)^2 of two eigenvalues as a function of the coordinate. Its
-// roots are the meetings. The error of an interpolant splits a double root into two close ones, also off the
-// real axis. Therefore roots close to the axis and to the ends of an interval are accepted, too.
-
-/// In steps: largest distance from the real axis of a root that can be a meeting on the axis.
+/// In steps: largest distance from the real axis of a root of a gap that can be a meeting on the axis.
 constexpr double looked_into = 0.1;
-/// As a share of an interval: distance from its ends up to which roots are accepted.
-constexpr double beside = 0.05;
-/// In steps: intervals are not halved below this length; one that is still not resolved counts as a root.
-constexpr double smallest_piece = 1e-8;
-/// Roots closer than this many of these lengths are the same.
-constexpr double same_piece = 10.0;
-/// As a share of an interval: the tests that there is no root cover a region larger by this on every side
-/// than the one in which roots are accepted. Then rounding of roots at the border changes no result.
-constexpr double margin = 0.02;
 
 /// Whether a mode, and not only a conjugate or a guest, is among the strand's eigenvalues.
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
@@ -49,139 +37,6 @@ double zero_level(const Track& block, const PathNode& node) {
   }
   return double_zero * largest;
 }
-
-/// Roots of the gap of two eigenvalues of a block near a step, in shares of the step, from Chebyshev
-/// interpolants. Where the gap is not smooth, because one of the two meets a third eigenvalue, the step is
-/// halved repeatedly. On such a piece only roots up to half its length off the real axis are found.
-class RootsOnStep {
- public:
-  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `zero`: up to
-  /// which eigenvalues are rounding.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero)
-      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero) {}
-
-  /// All roots.
-  std::vector<Complex> find() {
-    if (!of_two_has_none() && !are_zero()) search(0.0, 1.0);
-    return roots_;
-  }
-
-  /// Whether the two eigenvalues are closer to each other at the real part of a root than on both sides of
-  /// it. Roots for which this does not hold come from the interpolation of a function with kinks. At the
-  /// distance of three half-widths from a true root a +- ib, the eigenvalues are sqrt(1 + 3^2) = 3.2 times as
-  /// far apart.
-  bool is_closest(Complex root) {
-    constexpr double half_widths = 3.0;
-    constexpr double farther = 1.3;  // far below 3.2, since other eigenvalues disturb this law
-    const double reach = half_widths * std::abs(root.imag());
-    const double at = std::clamp(root.real(), 0.0, 1.0);
-    const double here = std::abs(distance(at));
-    const auto parts = [&](double t) {
-      return t < 0.0 || t > 1.0 || std::abs(distance(t)) >= farther * here;
-    };
-    return parts(at - reach) && parts(at + reach);
-  }
-
- private:
-  /// Degree of the Chebyshev interpolant of a gap on a piece, a little above that of the dense output.
-  static constexpr int degree = 12;
-  /// A piece is halved if one of the last two Chebyshev coefficients is more than this share of the largest
-  /// one. The roots only start Newton's method, so that this accuracy suffices.
-  static constexpr double resolved = 1e-4;
-  /// Isolating a kink takes about thirty halvings. Many more pieces mean that the gap is rounding: the two
-  /// eigenvalues coincide on the whole step, like those of rigid-body modes at s = 0.
-  static constexpr int most_pieces = 300;
-
-  Complex distance(double t) {
-    const ComplexVector& roots = sampler_(t);
-    return roots[a_] - roots[b_];
-  }
-  bool given_up() const { return pieces_ > most_pieces; }
-
-  /// Whether both eigenvalues are zero up to rounding on the whole step: rigid-body motions, whose
-  /// differences would be looked into piece by piece.
-  bool are_zero() {
-    constexpr int samples = 8;
-    for (int i = 0; i <= samples; ++i) {
-      const ComplexVector& roots = sampler_(static_cast<double>(i) / samples);
-      if (std::max(std::abs(roots[a_]), std::abs(roots[b_])) > zero_) return false;
-    }
-    return true;
-  }
-
-  /// Region in which roots of a piece of that length must be excluded, in shares of the piece.
-  Rectangle looked_at(double length) const {
-    return {0.5, 0.5 + beside + margin, farthest_off_axis(length) + margin};
-  }
-  /// Largest distance from the axis of accepted roots, in shares of the piece. A Chebyshev interpolant is not
-  /// accurate farther away than half the piece.
-  double farthest_off_axis(double length) const {
-    constexpr double half_piece = 0.5;
-    return std::min(half_piece, off_axis_ / length);
-  }
-
-  /// Whether the gap of a block of two certainly has no root near the step. That gap is the second smooth
-  /// function of the block, a polynomial on the step: bounds by its coefficients need no samples.
-  bool of_two_has_none() const {
-    const HermiteInterpolant& functions = sampler_.functions();
-    if (functions.size() != 2) return false;
-    Rectangle step = looked_at(1.0);
-    const double middle = std::exchange(step.center, 0.0).real();
-    return has_no_root_in(functions.series(middle, functions.degree()).row(1).transpose(), step);
-  }
-
-  /// Whether the difference of the two eigenvalues at five samples of the piece is everywhere more than three
-  /// times its change. Then there is no root nearby.
-  bool stay_apart(double begin, double end) {
-    constexpr double share = 3.0;
-    double least = INFINITY;
-    double moved = 0.0;
-    const Complex start = distance(begin);
-    for (int i = 0; i <= 4; ++i) {
-      const Complex d = distance(begin + (end - begin) * 0.25 * i);
-      least = std::min(least, std::abs(d));
-      moved = std::max(moved, std::abs(d - start));
-    }
-    return least > share * moved;
-  }
-
-  /// Adds the roots between t = begin and t = end.
-  void search(double begin, double end) {
-    if (given_up() || stay_apart(begin, end)) return;
-    ++pieces_;
-    if (given_up()) return roots_.clear();
-    const double length = end - begin;
-    if (length < smallest_piece) {
-      if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece)
-        roots_.push_back(begin);
-      return;
-    }
-    const auto gap = [&](double u) {
-      const Complex d = distance(begin + u * length);
-      return 0.25 * d * d;
-    };
-    const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
-    if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length)) return;
-    if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
-      const double middle = begin + 0.5 * length;
-      search(begin, middle);
-      search(middle, end);
-      return;
-    }
-    if (chebyshev_has_no_root_in(coefficients, looked_at(length))) return;
-    for (const Complex root : chebyshev_roots(coefficients)) {
-      const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
-      if (on_piece && std::abs(root.imag()) <= farthest_off_axis(length))
-        roots_.push_back(begin + root * length);
-    }
-  }
-
-  StrandSampler& sampler_;
-  int a_, b_;
-  double off_axis_, zero_;
-  int pieces_ = 0;
-  std::vector<Complex> roots_;
-};
 
 /// Whether both eigenvalues take part in a meeting at the left end, so that their gap has a known root there.
 bool have_just_met(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
@@ -229,10 +84,11 @@ double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t tr
 
 }  // namespace
 
-std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length) {
+MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length, bool all) {
   // In steps: roots nearer to the left end are the known meeting there.
   constexpr double behind_a_meeting = 1e-4;
   std::vector<ExpectedMeeting> meetings;
+  FirstRoots first_roots;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
     const Track& track = left.tracks[i];
     if (track.size() < 2) continue;
@@ -246,7 +102,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
         const double first = has_just_met ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero);
         std::vector<double> found;
-        for (const Complex t : roots.find()) {
+        for (const Complex t : all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
         add_near_left_end(track, strands[a].members, strands[b].members, length, found);
@@ -261,7 +117,7 @@ std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const Path
   std::stable_sort(meetings.begin(), meetings.end(), [](const ExpectedMeeting& x, const ExpectedMeeting& y) {
     return std::abs(x.position) < std::abs(y.position);
   });
-  return meetings;
+  return {std::move(meetings), first_roots.up_to};
 }
 
 namespace {
@@ -343,11 +199,11 @@ double behind_the_step(double off_axis) {
 }
 
 /// Region in which roots up to `off_axis` (in steps) off the axis are wanted, in shares of the step and
-/// enlarged by `margin`.
+/// enlarged by `margin_of_region`.
 Rectangle surroundings(double off_axis) {
-  const double from = -behind_the_step(off_axis) - margin;
-  const double to = 1.0 + off_the_ends + margin;
-  return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin};
+  const double from = -behind_the_step(off_axis) - margin_of_region;
+  const double to = 1.0 + off_the_ends + margin_of_region;
+  return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin_of_region};
 }
 
 /// Roots of the gap near a step, as distances from its left end: from the interpolant of the series at both

@@ -17,9 +17,17 @@ struct ExpectedMeeting {
   bool is_rough = false;
 };
 
-/// Meetings, on or close to the real axis, of eigenvalues of one block, by ascending distance from the left
-/// end. `length`: signed length of the step.
-std::vector<ExpectedMeeting> expected_in_blocks(const PathNode& left, const PathNode& right, double length);
+/// Meetings on a step.
+struct MeetingsOnStep {
+  std::vector<ExpectedMeeting> meetings;  ///< by ascending distance from the left end
+  double complete_to = INFINITY;          ///< share of the step beyond which some may be left out
+};
+
+/// Meetings, on or close to the real axis, of eigenvalues of one block. `length`: signed length of the step.
+/// Without `all`, of eigenvalues that meet others as well only those that lie little behind the first
+/// meeting: where many meet in quick succession, the step ends there.
+MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length,
+                                  bool all = true);
 
 /// Meetings of any two eigenvalues at positions up to about `width` off the real axis, in no particular
 /// order. Within a block, those close to the axis are left out: expected_in_blocks has them.

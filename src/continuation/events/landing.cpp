@@ -128,6 +128,7 @@ class MeetingLanding {
   enum class Approach { reached, nothing, failed };
   enum class Cut { done, none, failed };
 
+  bool land_on_first(const std::vector<ExpectedMeeting>& expected, double& place);
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks);
   Approach land_as_told(const ExpectedMeeting& expected);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
@@ -320,10 +321,10 @@ MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, doub
   return on_any_terms_ ? Cut::none : Cut::failed;
 }
 
-bool MeetingLanding::land() {
-  const std::vector<ExpectedMeeting> expected = expected_in_blocks(*step_.left, step_.right, step_.h);
+/// Shortens the step to the first of the expected meetings that it passes. `place` is set to its distance; it
+/// stays the length of the step where there is none. False if one cannot be located.
+bool MeetingLanding::land_on_first(const std::vector<ExpectedMeeting>& expected, double& place) {
   std::optional<std::size_t> first;
-  double place = step_.h;
   int first_looks = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     double distance = expected[i].position.real();
@@ -346,6 +347,18 @@ bool MeetingLanding::land() {
   for (std::size_t j = 0; j < expected.size(); ++j) {
     const bool is_there = std::abs(expected[j].position.real() - place) <= worth_a_look * std::abs(step_.h);
     if (j != *first && is_there) record(expected[j], 1);
+  }
+  return true;
+}
+
+bool MeetingLanding::land() {
+  for (const bool all : {false, true}) {
+    const MeetingsOnStep expected = expected_in_blocks(*step_.left, step_.right, step_.h, all);
+    double place = step_.h;
+    if (!land_on_first(expected.meetings, place)) return false;
+    if (place / step_.h + worth_a_look <= expected.complete_to) return true;
+    cut_.reset();
+    meetings_.clear();
   }
   return true;
 }

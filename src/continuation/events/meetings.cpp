@@ -238,16 +238,18 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   const double share = std::pow(closes_in, 1.0 / static_cast<double>(part[0].rows()));
   const bool near = std::abs(root.imag()) <= on_axis * std::abs(reach) && std::abs(root) <= std::abs(reach);
   if (!near || !(radius(root.real()) < share * radius(root.real() + width))) return std::nullopt;
+  // The radius grows by 2^(1/cycle) when the distance is doubled; by 2 where the eigenvalues cross.
+  const Eigen::Index size = part[0].rows();
+  const double growth = std::log2(radius(root.real() + 2.0 * width) / radius(root.real() + width));
+  constexpr double nearer_to_a_square_root = 0.4;
+  constexpr double nearer_to_a_crossing = 0.75;
+  if (!(growth < nearer_to_a_crossing)) return std::nullopt;
   Meeting meeting;
   meeting.found = true;
   meeting.kind = EventKind::collision;
   meeting.offset = root.real();
-  const Eigen::Index size = part[0].rows();
   meeting.cycle = static_cast<int>(size);
   meeting.puiseux = std::pow((size % 2 == 0 ? -1.0 : 1.0) * slope, 1.0 / static_cast<double>(size));
-  // The radius grows by 2^(1/cycle) when the distance is doubled.
-  const double growth = std::log2(radius(root.real() + 2.0 * width) / radius(root.real() + width));
-  constexpr double nearer_to_a_square_root = 0.4;
   if (size % 2 == 0 && size > 2 && growth > nearer_to_a_square_root) {
     const auto square = [&](double h) {
       const ComplexMatrix N = centred(part, h);

@@ -79,20 +79,21 @@ ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
 /// middle and its end.
 class Differences {
  public:
-  /// `roots` are those at the begin of the first piece. Roots that stay closer than `resolution` are one
-  /// root.
-  Differences(const ComplexVector& roots, double resolution)
-      : scale_(coinciding * roots.cwiseAbs().maxCoeff()),
-        resolution_(std::max(scale_, resolution)),
+  /// `roots` are those of the functions at `from`, the begin of the first piece. Roots that stay closer than
+  /// the resolution there are one root. The functions must outlive the object.
+  Differences(const HermiteInterpolant& functions, const ComplexVector& roots, double from)
+      : functions_(functions),
+        from_(from),
+        scale_(coinciding * roots.cwiseAbs().maxCoeff()),
         start_(roots),
         unclear_(static_cast<std::size_t>(roots.size() * roots.size()), false) {}
 
   /// Whether no difference of two roots changes by more than `largest_change`. Differences below the
   /// resolution at all three places are ignored.
-  bool are_resolved(const std::array<const ComplexVector*, 3>& sets) const {
+  bool are_resolved(const std::array<const ComplexVector*, 3>& sets) {
     return all_pairs([&](Eigen::Index i, Eigen::Index j) {
       const auto vanishes = [&](const ComplexVector* roots) {
-        return std::abs((*roots)[i] - (*roots)[j]) <= resolution_;
+        return std::abs((*roots)[i] - (*roots)[j]) <= resolution();
       };
       return change(sets, i, j) <= 1.0 || std::all_of(sets.begin(), sets.end(), vanishes);
     });
@@ -120,6 +121,11 @@ class Differences {
   /// them.
   static constexpr double coinciding = 1e-12;
 
+  /// Computed when it is asked for: most pieces are resolved without it.
+  double resolution() {
+    if (!resolution_) resolution_ = std::max(scale_, root_resolution(functions_(from_), start_));
+    return *resolution_;
+  }
   std::size_t at(Eigen::Index i, Eigen::Index j) const {
     return static_cast<std::size_t>(i * start_.size() + j);
   }
@@ -143,8 +149,10 @@ class Differences {
     return change > 0.0 ? change / std::max(largest_change * least, 1e-300) : 0.0;
   }
 
+  const HermiteInterpolant& functions_;
+  double from_;
   double scale_;
-  double resolution_;
+  std::optional<double> resolution_;
   ComplexVector start_;
   std::vector<bool> unclear_;
 };
@@ -247,8 +255,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     told_apart = false;
     return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  // root_resolution is zero for blocks of two, which are the most frequent ones.
-  Differences differences(roots, functions.size() > 2 ? root_resolution(functions(from), roots) : 0.0);
+  Differences differences(functions, roots, from);
   ComplexVector current = roots;
   double t = from;
   double piece = to - from;
@@ -262,12 +269,13 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     work += 2 * static_cast<std::size_t>(roots.size());
     const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
     const auto coincide = [&](double place, const ComplexVector& there) {
-      return there.size() > 2 && root_resolution(functions(place), there) > 0.0;
+      return root_resolution(functions(place), there) > 0.0;
     };
     // Where all coincide within rounding, shorter pieces distinguish nothing.
-    const bool may_halve =
-        std::abs(piece) > shortest && !coincide(t + 0.5 * piece, middle) && !coincide(t + piece, ahead);
-    if (!differences.are_resolved(sets) && may_halve) {
+    const auto may_halve = [&] {
+      return std::abs(piece) > shortest && !coincide(t + 0.5 * piece, middle) && !coincide(t + piece, ahead);
+    };
+    if (!differences.are_resolved(sets) && may_halve()) {
       piece *= 0.5;
       continue;
     }

@@ -1,0 +1,135 @@
+#include "continuation/events/roots_on_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace eigentrail {
+namespace {
+
+/// As a share of an interval: distance from its ends up to which roots are accepted.
+constexpr double beside = 0.05;
+/// In steps: intervals are not halved below this length; one that is still not resolved counts as a root.
+constexpr double smallest_piece = 1e-8;
+/// Roots closer than this many of these lengths are the same.
+constexpr double same_piece = 10.0;
+/// Degree of the Chebyshev interpolant of a gap on a piece, a little above that of the dense output.
+constexpr int degree = 12;
+/// A piece is halved if one of the last two Chebyshev coefficients is more than this share of the largest
+/// one. The roots only start Newton's method, so that this accuracy suffices.
+constexpr double resolved = 1e-4;
+/// Isolating a kink takes about thirty halvings. Many more pieces mean that the gap is rounding: the two
+/// eigenvalues coincide on the whole step, like those of rigid-body modes at s = 0.
+constexpr int most_pieces = 300;
+
+}  // namespace
+
+std::vector<Complex> RootsOnStep::find() {
+  if (!of_two_has_none() && !are_zero()) search(0.0, 1.0);
+  return std::move(roots_);
+}
+
+std::vector<Complex> RootsOnStep::find_first(double from, FirstRoots& first) {
+  from_ = from;
+  first_ = &first;
+  return find();
+}
+
+bool RootsOnStep::is_closest(Complex root) {
+  constexpr double half_widths = 3.0;
+  constexpr double farther = 1.3;  // far below 3.2, since other eigenvalues disturb this law
+  const double reach = half_widths * std::abs(root.imag());
+  const double at = std::clamp(root.real(), 0.0, 1.0);
+  const double here = std::abs(distance(at));
+  const auto parts = [&](double t) { return t < 0.0 || t > 1.0 || std::abs(distance(t)) >= farther * here; };
+  return parts(at - reach) && parts(at + reach);
+}
+
+bool RootsOnStep::given_up() const {
+  return pieces_ > most_pieces;
+}
+
+/// Whether both eigenvalues are zero up to rounding on the whole step: rigid-body motions, whose differences
+/// would be looked into piece by piece.
+bool RootsOnStep::are_zero() {
+  constexpr int samples = 8;
+  for (int i = 0; i <= samples; ++i) {
+    const ComplexVector& roots = sampler_(static_cast<double>(i) / samples);
+    if (std::max(std::abs(roots[a_]), std::abs(roots[b_])) > zero_) return false;
+  }
+  return true;
+}
+
+/// Region in which roots of a piece of that length must be excluded, in shares of the piece.
+Rectangle RootsOnStep::looked_at(double length) const {
+  return {0.5, 0.5 + beside + margin_of_region, farthest_off_axis(length) + margin_of_region};
+}
+
+/// Largest distance from the axis of accepted roots, in shares of the piece. A Chebyshev interpolant is not
+/// accurate farther away than half the piece.
+double RootsOnStep::farthest_off_axis(double length) const {
+  constexpr double half_piece = 0.5;
+  return std::min(half_piece, off_axis_ / length);
+}
+
+/// Whether the gap of a block of two certainly has no root near the step. That gap is the second smooth
+/// function of the block, a polynomial on the step: bounds by its coefficients need no samples.
+bool RootsOnStep::of_two_has_none() const {
+  const HermiteInterpolant& functions = sampler_.functions();
+  if (functions.size() != 2) return false;
+  Rectangle step = looked_at(1.0);
+  const double middle = std::exchange(step.center, 0.0).real();
+  return has_no_root_in(functions.series(middle, functions.degree()).row(1).transpose(), step);
+}
+
+/// Whether the difference of the two eigenvalues at five samples of the piece is everywhere more than three
+/// times its change. Then there is no root nearby.
+bool RootsOnStep::stay_apart(double begin, double end) {
+  constexpr double share = 3.0;
+  double least = INFINITY;
+  double moved = 0.0;
+  const Complex start = distance(begin);
+  for (int i = 0; i <= 4; ++i) {
+    const Complex d = distance(begin + (end - begin) * 0.25 * i);
+    least = std::min(least, std::abs(d));
+    moved = std::max(moved, std::abs(d - start));
+  }
+  return least > share * moved;
+}
+
+void RootsOnStep::add(Complex root) {
+  roots_.push_back(root);
+  if (first_ != nullptr && root.real() > from_) first_->found(root.real());
+}
+
+/// Adds the roots between t = begin and t = end, from left to right.
+void RootsOnStep::search(double begin, double end) {
+  if (first_ != nullptr && begin > first_->up_to) return;
+  if (given_up() || stay_apart(begin, end)) return;
+  ++pieces_;
+  if (given_up()) return roots_.clear();
+  const double length = end - begin;
+  if (length < smallest_piece) {
+    if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece) add(begin);
+    return;
+  }
+  const auto gap = [&](double u) {
+    const Complex d = distance(begin + u * length);
+    return 0.25 * d * d;
+  };
+  const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
+  if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length)) return;
+  if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
+    const double middle = begin + 0.5 * length;
+    search(begin, middle);
+    search(middle, end);
+    return;
+  }
+  if (chebyshev_has_no_root_in(coefficients, looked_at(length))) return;
+  for (const Complex root : chebyshev_roots(coefficients)) {
+    const bool on_piece = root.real() > -beside && root.real() < 1.0 + beside;
+    if (on_piece && std::abs(root.imag()) <= farthest_off_axis(length)) add(begin + root * length);
+  }
+}
+
+}  // namespace eigentrail

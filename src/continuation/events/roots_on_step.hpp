@@ -1,0 +1,72 @@
+// Roots of the gap ((s_a - s_b) / 2)^2 of two eigenvalues of a block near a step, from the dense output. They
+// are the meetings of the two. The error of an interpolant splits a double root into two close ones, also off
+// the real axis. Therefore roots close to the axis and to the ends of an interval are accepted, too.
+#pragma once
+
+#include <vector>
+
+#include "continuation/tracks/strands.hpp"
+#include "eigentrail/core/chebyshev.hpp"
+
+namespace eigentrail {
+
+/// As a share of an interval: tests that there is no root cover a region larger by this on every side than
+/// the one in which roots are accepted. Then rounding of roots at the border changes no result.
+inline constexpr double margin_of_region = 0.02;
+
+/// Up to where roots are wanted, in shares of a step. Shared by the searches for all pairs of a step.
+struct FirstRoots {
+  /// Also in shares of the step: roots so little behind the first one are still found.
+  static constexpr double behind = 1e-2;
+
+  double up_to = INFINITY;  ///< what lies beyond may be left out; lowered by what is found
+
+  void found(double t) { up_to = std::min(up_to, t + behind); }
+};
+
+/// Chebyshev interpolants of the gap of two eigenvalues. Where the gap is not smooth, because one of the two
+/// meets a third eigenvalue, the step is halved repeatedly. On such a piece only roots up to half its length
+/// off the real axis are found.
+class RootsOnStep {
+ public:
+  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `zero`: up to
+  /// which eigenvalues are rounding.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero)
+      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero) {}
+
+  /// All roots, in shares of the step.
+  std::vector<Complex> find();
+
+  /// Of a gap that is not smooth only those up to `first`, which a root behind `from` lowers.
+  std::vector<Complex> find_first(double from, FirstRoots& first);
+
+  /// Whether the two eigenvalues are closer to each other at the real part of a root than on both sides of
+  /// it. Roots for which this does not hold come from the interpolation of a function with kinks. At the
+  /// distance of three half-widths from a true root a +- ib, the eigenvalues are sqrt(1 + 3^2) = 3.2 times as
+  /// far apart.
+  bool is_closest(Complex root);
+
+ private:
+  Complex distance(double t) {
+    const ComplexVector& roots = sampler_(t);
+    return roots[a_] - roots[b_];
+  }
+  bool are_zero();
+  bool of_two_has_none() const;
+  bool stay_apart(double begin, double end);
+  bool given_up() const;
+  Rectangle looked_at(double length) const;
+  double farthest_off_axis(double length) const;
+  void search(double begin, double end);
+  void add(Complex root);
+
+  StrandSampler& sampler_;
+  int a_, b_;
+  double off_axis_, zero_;
+  double from_ = 0.0;
+  FirstRoots* first_ = nullptr;
+  int pieces_ = 0;
+  std::vector<Complex> roots_;
+};
+
+}  // namespace eigentrail
