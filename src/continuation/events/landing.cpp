@@ -284,15 +284,23 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
 }
 
 /// Adds the meeting to the list if it is at the end of the step; once where several are predicted close to
-/// it.
+/// it. Of crossings and collisions of some members and of more, which each pair sees as its neighbours are,
+/// the one of more stays.
 void MeetingLanding::record(const ExpectedMeeting& expected, int looks) {
   const std::optional<Meeting> meeting = meeting_at_end(expected);
   if (!meeting) return;
-  const auto is_it = [&](const MeetingOnEnd& other) {
-    return other.track == expected.a.track && other.meeting.members == meeting->members;
+  const auto covers = [&](const Meeting& more, const Meeting& some) {
+    return more.kind == some.kind &&
+           std::includes(more.members.begin(), more.members.end(), some.members.begin(), some.members.end());
   };
-  if (std::none_of(meetings_.begin(), meetings_.end(), is_it))
-    meetings_.push_back({expected.a.track, *meeting, looks});
+  const auto is_it = [&](const MeetingOnEnd& other) {
+    return other.track == expected.a.track && covers(other.meeting, *meeting);
+  };
+  if (std::any_of(meetings_.begin(), meetings_.end(), is_it)) return;
+  std::erase_if(meetings_, [&](const MeetingOnEnd& other) {
+    return other.track == expected.a.track && covers(*meeting, other.meeting);
+  });
+  meetings_.push_back({expected.a.track, *meeting, looks});
 }
 
 /// Shortens the step to one predicted meeting. `distance` is set to its position, and `looks` counts the
