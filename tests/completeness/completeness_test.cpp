@@ -28,5 +28,14 @@ TEST(RandomFamilies, HaveCollisionsBesideWhichStepsAreShort) {
   EXPECT_TRUE(report.passed()) << report.problems();
 }
 
+/// Proportional damping a M + b K: where a(p) b = 1, all overdamped modes pass through s = -1/b. Such a fan
+/// is neither a collision of all, nor of those of which one is at their mean.
+TEST(RandomFamilies, HaveNoCollisionOfAllOverdampedModes) {
+  for (const bool reversed : {false, true}) {
+    const CompletenessReport report = check_completeness(random_family(603), reversed);
+    EXPECT_TRUE(report.passed()) << report.problems();
+  }
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -34,7 +34,7 @@ TEST(HelpfulPartners, AreThoseWithWhichTheErrorFalls) {
   Veering veering(0.02);
   const Step step = veering.step(-0.08, 0.06);
   const JoiningRules rules{1e-8, 3.0, 0.14};
-  const double error = track_error(veering.planted.family.problem(), rules.tolerance, step, 0);
+  const double error = track_error(veering.planted.family.problem(), rules.tolerance, 0.0, step, 0);
   ASSERT_GT(error, 1.0);
   const auto candidates = find_partners(step.right, 0, 0.1, rules.parting_reach);
   const auto chosen = helpful_partners(veering.planted.family.problem(), rules, step, 0, error, candidates);

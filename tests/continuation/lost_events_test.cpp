@@ -118,5 +118,26 @@ TEST(LandedSteps, EndAtTheirPoints) {
   }
 }
 
+/// A stiffness that changes within 1e-3 of the range: two modes collide and diverge on its way down and up.
+/// Beside the collisions rounding is above this tolerance, and no step is short enough for it. Steps that
+/// rounding shortens are not to stay short.
+TEST(LostEvents, NoneWhereTheToleranceIsBelowRounding) {
+  for (const bool upward : {true, false}) {
+    SCOPED_TRACE(upward ? "upward" : "downward");
+    const RecordedTrace trace =
+        record_trace(family(upward ? "0" : "1", upward ? "1" : "0", "[ [[0.066, 0.02], [-0.02, 0.3]] ]",
+                            "[ [[\"2.5 - 3.5*exp(-1e6*(p-0.3137)^2)\", 3], [3, 17]] ]",
+                            {{"tolerance", "1e-11"}, {"max_nodes", "1000"}}));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    const auto& events = trace.result.events;
+    EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                            [](const Event& e) { return e.kind == EventKind::collision; }),
+              2);
+    EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                            [](const Event& e) { return e.kind == EventKind::divergence; }),
+              2);
+  }
+}
+
 }  // namespace
 }  // namespace eigentrail::test

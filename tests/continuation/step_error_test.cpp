@@ -25,7 +25,7 @@ Planted monomial(int degree, double c, int order) {
 /// The error of one track between two points, in units of the accepted one.
 double error_on(Planted& family, const PathNode& left, const PathNode& right) {
   const Step step{&left, right, right.p - left.p};
-  return track_error(family.problem(), tolerance, step, 0);
+  return track_error(family.problem(), tolerance, 0.0, step, 0);
 }
 
 TEST(TrackError, VanishesWhereTheOutputIsExact) {
@@ -107,9 +107,9 @@ TEST(TrackError, OfABlockThatMeetsOnTheEndIsTakenBesideIt) {
   Meeting meeting;
   const PathNode left = meeting.at(0.15);
   Step step{&left, meeting.at(0.0), -0.15};
-  const double at_the_end = track_error(meeting.family.problem(), tolerance, step, 0);
+  const double at_the_end = track_error(meeting.family.problem(), tolerance, 0.0, step, 0);
   step.meeting = {0};
-  const double beside = track_error(meeting.family.problem(), tolerance, step, 0);
+  const double beside = track_error(meeting.family.problem(), tolerance, 0.0, step, 0);
   ASSERT_TRUE(std::isfinite(at_the_end));
   EXPECT_GT(beside, 0.0);
   EXPECT_LT(beside, 0.7 * at_the_end);
@@ -152,7 +152,7 @@ TEST(JudgeError, NamesTheTrackThatIsWorst) {
   const Verdict verdict = judge_error(two.family.problem(), two.frame, tolerance, step);
   EXPECT_EQ(verdict.kind, Verdict::Kind::inaccurate);
   EXPECT_EQ(verdict.track, 1);
-  EXPECT_EQ(verdict.error, track_error(two.family.problem(), tolerance, step, 1));
+  EXPECT_EQ(verdict.error, track_error(two.family.problem(), tolerance, 0.0, step, 1));
   EXPECT_FALSE(verdict.reason.empty());
 }
 
@@ -164,7 +164,7 @@ TEST(JudgeError, AcceptsUpToAnErrorOfOne) {
   const Verdict above = judge_error(two.family.problem(), two.frame, tolerance * error * 1.001, step);
   EXPECT_TRUE(above.accepted());
   EXPECT_NEAR(above.error, 1.0, 2e-3);
-  EXPECT_EQ(above.track, -1);
+  EXPECT_EQ(above.track, 1);  // the worst
   EXPECT_FALSE(judge_error(two.family.problem(), two.frame, tolerance * error * 0.999, step).accepted());
 }
 
@@ -196,6 +196,52 @@ TEST(JudgeError, CountsTheParameterWhereItIsNotTheCoordinate) {
   EXPECT_NE(verdict.reason.find("parameter"), std::string::npos);
   step.right.path.parameters(0, 2) = 0.0;
   EXPECT_TRUE(judge_error(two.family.problem(), two.frame, tolerance, step).accepted());
+}
+
+/// s = j sqrt(1 + p), where the right end of a short step is off by `noise`, with a tolerance below rounding.
+struct Noisy {
+  static constexpr double below_rounding = 1e-14;
+  Root root{2};
+  PathNode right;
+  Step step;
+
+  Noisy(double h, double noise) : right(root.at(h)), step{&root.left, {}, h} {
+    right.tracks[0].functions(0, 0) += noise;
+    step.right = right;
+  }
+  double observed() { return observed_rounding(root.family.problem(), below_rounding, step, 0); }
+  double error(double rounding) {
+    return track_error(root.family.problem(), below_rounding, rounding, step, 0);
+  }
+};
+
+TEST(ObservedRounding, IsWhatTheEndsOfAShortStepDisagreeBy) {
+  Noisy noisy(1e-8, 1.5e-14);
+  ASSERT_GT(noisy.error(0.0), 1.0);
+  const double seen = noisy.observed();
+  EXPECT_GT(seen, 0.0);
+  EXPECT_EQ(noisy.error(seen), 0.0);
+}
+
+TEST(ObservedRounding, IsNoJumpAndNoTruncation) {
+  EXPECT_EQ(Noisy(1e-8, 1e-9).observed(), 0.0);
+  Noisy truncated(0.1, 0.0);
+  ASSERT_GT(truncated.error(0.0), 1.0);
+  EXPECT_EQ(truncated.observed(), 0.0);
+}
+
+TEST(ObservedRounding, IsKnownByModeWhateverTheyAreFollowedWith) {
+  PathFrame frame;
+  Track pair, single, other;
+  pair.modes = {2, Track::guest};
+  single.modes = {2};
+  other.modes = {0, Track::no_mode};
+  EXPECT_EQ(known_rounding(frame, single), 0.0);
+  note_rounding(pair, 1e-15, frame);
+  note_rounding(single, 1e-16, frame);
+  EXPECT_EQ(known_rounding(frame, single), 1e-15);
+  EXPECT_EQ(known_rounding(frame, pair), 1e-15);
+  EXPECT_EQ(known_rounding(frame, other), 0.0);
 }
 
 }  // namespace

@@ -273,6 +273,21 @@ TEST(LeastGap, IsThatOfTheClosestTwo) {
   EXPECT_EQ(least_gap(ComplexVector{{Complex(1.0)}}), INFINITY);
 }
 
+/// Ten eigenvalues a few thousandths apart: with simple ones each is known by itself, with one Jordan block
+/// all but coincide. Both matrices are far from normal.
+TEST(RootResolution, IsThatOfADefectiveBlockOnly) {
+  constexpr Eigen::Index k = 10;
+  Matrix fan = Vector::LinSpaced(k, 2.0, 2.005).asDiagonal();
+  fan(0, k - 1) = 1.0;
+  const ComplexVector known = fan.cast<Complex>().reshaped();
+  EXPECT_EQ(root_resolution(known, block_roots(known)), 0.0);
+  Matrix jordan = 2.0 * Matrix::Identity(k, k);
+  jordan.diagonal(1).setConstant(0.1);
+  jordan(k - 1, 0) = 1e-16;
+  const ComplexVector defective = jordan.cast<Complex>().reshaped();
+  EXPECT_GT(root_resolution(defective, block_roots(defective)), 1e-3);
+}
+
 TEST(SeriesOfVectors, ReciprocalTimesItselfIsOne) {
   const ComplexVector series = random_block(6, 2).col(0);
   const ComplexVector one = multiply_series(series, reciprocal_series(series));

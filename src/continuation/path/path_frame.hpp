@@ -29,6 +29,7 @@ struct PathFrame {
   double largest_position = 0.0;        ///< largest |x| on the path so far
   double scaled_at = 0.0;               ///< largest_position that scales the plane in use
   Vector largest_unknowns = {};         ///< largest magnitudes of the trimmed parameters so far
+  std::vector<double> rounding = {};    ///< by mode, what was seen so far (step_error.hpp)
   std::optional<Bridge> bridge = {};    ///< in the coordinate of `plane`
   struct BranchPoint {
     double coordinate = 0.0, p = 0.0;

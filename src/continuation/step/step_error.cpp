@@ -39,12 +39,11 @@ double parameter_error(const PathFrame& frame, double tolerance, const Step& ste
          (parameter_accuracy * tolerance * frame.range.length());
 }
 
-}  // namespace
-
-double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t i) {
+/// Largest of `root error(t) / accepted error(t)` at places of a step where errors are largest, for errors of
+/// the functions of a block and an error of its eigenvalues that is forgiven, 1/s.
+double worst_ratio(const PathProblem& problem, double tolerance, const Step& step, std::size_t i,
+                   const HermiteInterpolant& dense, const Vector& errors, double forgiven) {
   const Track& track = step.left->tracks[i];
-  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
-  const Vector errors = (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
   const auto degree = static_cast<int>(2 * track.functions.cols() - 1);
   const double smallest = place_of_least_magnitude(dense.series(0.0, degree));
   // Where roots of a block coincide, the error of a single root has no bound, although the functions of the
@@ -58,11 +57,69 @@ double track_error(const PathProblem& problem, double tolerance, const Step& ste
     // The error of the block is taken relative to its smallest eigenvalue.
     const double size = block_roots(functions).cwiseAbs().minCoeff();
     const double scale = std::max(size, problem.reference(track.pair.chart));
-    const double error =
-        root_error(functions, errors, least_relative_gap * scale) / (accepted_share * tolerance * scale);
+    const double error = (root_error(functions, errors, least_relative_gap * scale) - forgiven) /
+                         (accepted_share * tolerance * scale);
     worst = std::isfinite(error) ? std::max(worst, error) : INFINITY;
   }
   return worst;
+}
+
+/// By how much eigenvalues change if the pencil changes by its rounding times one, 1/s.
+double sensitivity_to_rounding(const Track& track) {
+  return track.pair.condition * track.pair.Lambda.norm();
+}
+
+Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
+  return (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
+}
+
+}  // namespace
+
+double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,
+                   std::size_t i) {
+  const Track& track = step.left->tracks[i];
+  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  return worst_ratio(problem, tolerance, step, i, dense, estimated_errors(dense, track),
+                     rounding * sensitivity_to_rounding(track));
+}
+
+double known_rounding(const PathFrame& frame, const Track& track) {
+  double rounding = 0.0;
+  for (const int mode : track.modes) {
+    if (mode >= 0 && mode < static_cast<int>(frame.rounding.size()))
+      rounding = std::max(rounding, frame.rounding[static_cast<std::size_t>(mode)]);
+  }
+  return rounding;
+}
+
+void note_rounding(const Track& track, double seen, PathFrame& frame) {
+  for (const int mode : track.modes) {
+    if (mode < 0) continue;
+    const auto index = static_cast<std::size_t>(mode);
+    if (index >= frame.rounding.size()) frame.rounding.resize(index + 1, 0.0);
+    frame.rounding[index] = std::max(frame.rounding[index], seen);
+  }
+}
+
+double observed_rounding(const PathProblem& problem, double tolerance, const Step& step, std::size_t i) {
+  // Of the accepted error: up to here the terms of the series are negligible.
+  constexpr double negligible = 0.1;
+  // What is seen on one step may be twice as large on the next.
+  constexpr double margin = 2.0;
+  // Relative, for a condition of one: some hundred and eighty machine epsilons. More is no rounding.
+  constexpr double largest = 4e-14;
+  const Track& track = step.left->tracks[i];
+  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  const auto last = static_cast<int>(track.functions.cols()) - 1;
+  for (const double end : {0.0, 1.0}) {
+    const Vector terms = dense.series(end, last).rightCols(2).cwiseAbs().rowwise().sum();
+    if (!(worst_ratio(problem, tolerance, step, i, dense, terms, 0.0) <= negligible)) return 0.0;
+  }
+  // Relative to the accepted error of the smallest eigenvalue on the step.
+  const double ratio = worst_ratio(problem, tolerance, step, i, dense, estimated_errors(dense, track), 0.0);
+  const double scale = std::max(track.roots.cwiseAbs().maxCoeff(), problem.reference(track.pair.chart));
+  const double seen = margin * ratio * accepted_share * tolerance * scale / sensitivity_to_rounding(track);
+  return seen <= largest ? seen : 0.0;
 }
 
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step) {
@@ -70,7 +127,8 @@ Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double t
                 "the error of the dense output stays above the tolerance"};
   if (is_short_part(problem, step)) return {};
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
-    const double error = track_error(problem, tolerance, step, i);
+    const double error =
+        track_error(problem, tolerance, known_rounding(frame, step.left->tracks[i]), step, i);
     if (error <= worst.error) continue;
     worst.error = error;
     worst.track = static_cast<int>(i);
@@ -80,7 +138,7 @@ Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double t
     if (error > worst.error)
       worst = {Verdict::Kind::inaccurate, -1, error, "the parameter along the path is inaccurate"};
   }
-  if (!(worst.error > 1.0)) return {Verdict::Kind::accepted, -1, worst.error};
+  if (!(worst.error > 1.0)) return {Verdict::Kind::accepted, worst.track, worst.error};
   return worst;
 }
 

@@ -18,11 +18,25 @@ constexpr double accepted_share = 0.5;
 /// there.
 constexpr double least_relative_gap = 0.1;
 
-/// Error of one track; infinite if it cannot be computed.
-double track_error(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
+/// Error of one track; infinite if it cannot be computed. `rounding`: that of eigenvalues, relative to their
+/// condition and size, which is no error of the step.
+double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,
+                   std::size_t track);
+
+/// Rounding of eigenvalues, relative to their condition and size, where a track of a step that is too
+/// inaccurate shows it: its length is so short that the terms of the series at both ends are far below the
+/// accepted error, and the two ends still disagree by more, but by no more than rounding can be. Zero
+/// elsewhere.
+double observed_rounding(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
+
+/// The rounding that is known of the modes of a track, and what becomes known of them. Modes keep it when
+/// they are followed together with others.
+double known_rounding(const PathFrame& frame, const Track& track);
+void note_rounding(const Track& track, double seen, PathFrame& frame);
 
 /// The largest error of all tracks, and of p where the coordinate is the distance across a plane. The verdict
-/// is `accepted` up to an error of one, else `inaccurate`. A short part of an accurate step is accurate.
+/// is `accepted` up to an error of one, else `inaccurate`.
+/// Rounding that the frame knows is none. A short part of an accurate step is accurate.
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step);
 
 }  // namespace eigentrail

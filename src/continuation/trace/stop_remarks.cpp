@@ -65,4 +65,13 @@ std::string too_small_message(const PathProblem& problem, const TraceOptions& op
          remarks;
 }
 
+std::string rounding_note(const TraceOptions& options, const PathNode& node, const Track& track,
+                          double known) {
+  std::ostringstream text;
+  text.precision(1);
+  text << names_of(track) << "rounding leaves the eigenvalue known to " << std::scientific << known
+       << " beside " << place_text(options, node.p);
+  return text.str();
+}
+
 }  // namespace eigentrail

@@ -111,8 +111,9 @@ static void fields(Self& self, Visit& visit) {
 /// The range is not saved: the options give it.
 template <SameAs<PathFrame> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [range, plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point] = self;
-  visit(plane, direction, largest_position, scaled_at, largest_unknowns, bridge, branch_point);
+  auto& [range, plane, direction, largest_position, scaled_at, largest_unknowns, rounding, bridge,
+         branch_point] = self;
+  visit(plane, direction, largest_position, scaled_at, largest_unknowns, rounding, bridge, branch_point);
 }
 
 template <SameAs<TriedPoint> Self, class Visit>

@@ -95,7 +95,7 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
     if (tracks[i].lineage != step.left->tracks[i].lineage ||
         tracks[i].size() != step.left->tracks[i].size() || distinct_eigenvalues(tracks[i]) > 1)
       continue;
-    const double error = track_error(problem, rules.tolerance, step, i);
+    const double error = track_error(problem, rules.tolerance, 0.0, step, i);
     if (error < limiting_error) continue;
     const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
     if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
