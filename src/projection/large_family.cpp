@@ -37,9 +37,11 @@ class LargeFamily final : public LargeModel {
   }
 
   SmallPencil small(const Model& reduced, const TracePoint& point) const override {
-    const AffinePencil<Matrix> at =
-        dynamic_cast<const ProjectedFamily&>(reduced).at(point.node.path.parameters.col(0));
-    return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+    return small_at(reduced, point.node.path.parameters.col(0));
+  }
+  SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil&,
+                    const Matrix&) const override {
+    return small_at(reduced, place.parameters);
   }
   ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
 
@@ -48,6 +50,11 @@ class LargeFamily final : public LargeModel {
   }
 
  private:
+  static SmallPencil small_at(const Model& reduced, const Vector& parameters) {
+    const AffinePencil<Matrix> at = dynamic_cast<const ProjectedFamily&>(reduced).at(parameters);
+    return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+  }
+
   const SparseFamily& family_;
   FamilyPencils pencils_;
 };

@@ -44,6 +44,9 @@ class LargeModel {
 
   /// The projected matrices at a traced point, and the reduced coordinates of one of its shapes.
   virtual SmallPencil small(const Model& reduced, const TracePoint& point) const = 0;
+  /// The same at a place with its pencil and the basis of its motions.
+  virtual SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil& pencil,
+                            const Matrix& basis) const = 0;
   virtual ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const = 0;
 
   /// Basis of the motions of the reduced model at the place of a pencil, n x k; it lives as long as `reduced`

@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/reduction/restricted_basis.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
+#include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
 
 namespace eigentrail {
@@ -103,6 +104,10 @@ class LargeScene final : public LargeModel {
   SmallPencil small(const Model&, const TracePoint& point) const override {
     const ReducedPencil& pencil = point.node.pencil;
     return {pencil.M[0], pencil.C[0], pencil.K[0]};
+  }
+  SmallPencil small(const Model&, const LargePlace&, const SparsePencil& pencil,
+                    const Matrix& basis) const override {
+    return {projected(pencil.M, basis), projected(pencil.C, basis), projected(pencil.K, basis)};
   }
   ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const override {
     return point.node.basis.T[0].transpose() * shape;

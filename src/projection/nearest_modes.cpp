@@ -411,7 +411,7 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
-    if (pencil.one_sided) return modes;
+    if (pencil.one_sided || request.only_right) return modes;
     Inverse transposed(pencil, solver, shift, true, scale, solutions_);
     const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance);
     if (!left) return std::nullopt;

@@ -45,6 +45,7 @@ struct ModeRequest {
   double cover = 0.0;  ///< all within this distance of the shift, as far as `most` modes reach
   int most = 0;        ///< a limit for `cover`
   std::optional<double> tolerance = std::nullopt;  ///< in place of that of the finder
+  bool only_right = false;                         ///< left vectors are not needed
 };
 
 /// The matrix that is factored for a real shift, and whether it is symmetric: P = M s^2 + C s + K, or with

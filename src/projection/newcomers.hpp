@@ -17,6 +17,7 @@ struct ProjectedPlace {
   LargePlace at;
   SmallPencil small;
   std::vector<ProjectedMode> modes;
+  bool is_old = false;  ///< `small` and `modes` are of a space that has changed
 };
 
 struct Newcomers {
@@ -28,6 +29,6 @@ struct Newcomers {
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
 Newcomers find_newcomers(const LargeModel& large, const Model& model,
-                         const std::vector<ProjectedPlace>& places, Complex centre, double reference);
+                         const std::vector<ProjectedPlace>& places, const Shift& centre, double reference);
 
 }  // namespace eigentrail

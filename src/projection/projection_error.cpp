@@ -27,25 +27,25 @@ ProjectedMode mode_of(const SmallPencil& small, Complex s) {
   return mode;
 }
 
-ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
+RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
   constexpr double elsewhere = 0.05;  // of |s|: far above the tolerance of the trace
   constexpr int rounds = 3;           // each doubles the digits
   constexpr double settled = 1e-8;    // of |s|: what is left is the square of the last correction
-  if (!std::isfinite(std::abs(s)) || s == 0.0) return {s, {}, {}};
+  if (!std::isfinite(std::abs(s)) || s == 0.0) return {{s, {}, {}}, true};
   const auto& [M, C, K] = small;
-  ProjectedMode mode{s, {}, {}};
-  double change = INFINITY;
-  for (int i = 0; i < rounds && change > settled * std::abs(s); ++i) {
+  RefinedMode refined{{s, {}, {}}};
+  ProjectedMode& mode = refined.mode;
+  for (int i = 0; i < rounds && !refined.is_settled; ++i) {
     mode = mode_of(small, mode.s);
     const ComplexVector inertia = M * mode.right, damping = C * mode.right;
     const Complex residual = mode.left.transpose() * (mode.s * (mode.s * inertia + damping) + K * mode.right);
     const Complex slope = mode.left.transpose() * (2.0 * mode.s * inertia + damping);
     const Complex correction = residual / slope;
-    change = std::abs(correction);
     mode.s -= correction;
-    if (!(std::abs(mode.s - s) < elsewhere * std::abs(s))) return {s, shape, mode_of(small, s).left};
+    if (!(std::abs(mode.s - s) < elsewhere * std::abs(s))) return {{s, shape, mode_of(small, s).left}};
+    refined.is_settled = std::abs(correction) <= settled * std::abs(s);
   }
-  return mode;
+  return refined;
 }
 
 ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis) {

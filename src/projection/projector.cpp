@@ -17,9 +17,11 @@
 namespace eigentrail {
 namespace {
 
-/// Vectors are kept to this share of the square root of the target: with a larger one what is left out, and
-/// not the distance from the samples, is most of the error, of which the indicator knows little.
-constexpr double share_of_vectors = 0.02;
+/// Vectors are kept to this share of the square root of the target. What is left out of right and left
+/// vectors together is then below a tenth of the target; measured, a hundredth. With 0.02 a projection has a
+/// quarter more coordinates, and all that is done with it takes twice as long; with 1, what is left out is
+/// most of the error.
+constexpr double share_of_vectors = 0.1;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
@@ -63,25 +65,27 @@ class Projector {
   std::unique_ptr<Model> along_the_lines() {
     first_samples(lines_.front());
     if (lines_.size() > 1) first_samples(lines_.back());
+    std::vector<ProjectedPlace> places;
     while (true) {
       const std::unique_ptr<Model> model = reduced();
-      std::vector<ProjectedPlace> places;
-      for (const ParameterValues& line : lines_) scout(*model, line, places);
-      const Worst worst = find_worst(*model, places);
+      const Worst worst = look_for_worst(*model, places);
       if (projection_.factorizations > options_.max_factorizations)
         return give_up(worst, worst.indicator * factor_,
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it was.
       const double error = error_at(*worst.place);
+      traces_hold_ = error <= scout_tolerance;
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->at.p;
-      const bool stuck = error > target_ && stays(*worst.place, error);
+      const Worst left = worst_of_visited(places);
+      visits_.back().error = error;
+      const bool stuck = left.indicator > target_;
       if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
       if (lines_.size() == 1) note_newcomers(*model, places);
       if (!stuck) return reduced();
-      return give_up(worst, error,
+      return give_up(left, left.indicator,
                      "also with the vectors of that place, probably by rounding of the large matrices");
     }
   }
@@ -193,6 +197,19 @@ class Projector {
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
 
+  /// The place with the largest indicator on all lines. Rough traces find the places and their modes. While
+  /// the space changes eigenvalues by less than these traces are accurate to, the modes at the same places
+  /// are corrected instead.
+  Worst look_for_worst(const Model& model, std::vector<ProjectedPlace>& places) {
+    if (traces_hold_) {
+      for (ProjectedPlace& place : places) place.is_old = true;
+      if (const auto worst = find_worst(model, places)) return *worst;
+    }
+    places.clear();
+    for (const ParameterValues& line : lines_) scout(model, line, places);
+    return find_worst(model, places).value();
+  }
+
   /// A rough trace of the projected model along a line; its points are added to `places`.
   void scout(const Model& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
     TraceOptions options = trace_;
@@ -211,11 +228,12 @@ class Projector {
       ProjectedPlace& place = places.emplace_back(
           ProjectedPlace{{point.node.p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)},
                          large_.small(model, point),
-                         {}});
+                         {},
+                         false});
       for (const ModeState& mode : point.modes) {
         const ComplexVector shape =
             mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
-        place.modes.push_back(refined_mode(place.small, mode.s, shape));
+        place.modes.push_back(refined_mode(place.small, mode.s, shape).mode);
       }
       return true;
     };
@@ -223,35 +241,54 @@ class Projector {
     if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
   }
 
+  /// Largest finite magnitude.
+  static double largest_of(const std::vector<ProjectedMode>& modes) {
+    double largest = 0.0;
+    for (const ProjectedMode& mode : modes) {
+      if (std::isfinite(std::abs(mode.s))) largest = std::max(largest, std::abs(mode.s));
+    }
+    return largest;
+  }
+
   /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
   static std::vector<ProjectedMode> moving_modes(const ProjectedPlace& place) {
-    double largest = 0.0;
-    std::vector<ProjectedMode> modes;
-    for (const ProjectedMode& mode : place.modes) {
-      if (!std::isfinite(std::abs(mode.s))) continue;
-      largest = std::max(largest, std::abs(mode.s));
-      modes.push_back(mode);
-    }
-    std::erase_if(modes, [&](const ProjectedMode& mode) { return std::abs(mode.s) <= rigid * largest; });
+    std::vector<ProjectedMode> modes = place.modes;
+    std::erase_if(modes, [largest = largest_of(modes)](const ProjectedMode& mode) {
+      return !std::isfinite(std::abs(mode.s)) || std::abs(mode.s) <= rigid * largest;
+    });
     return modes;
   }
 
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
-  Worst find_worst(const Model& model, const std::vector<ProjectedPlace>& places) const {
+  /// Empty if the modes of an old place are not found again. Every second place is looked at first: where one
+  /// of them needs vectors its neighbours are enough.
+  std::optional<Worst> find_worst(const Model& model, std::vector<ProjectedPlace>& places) const {
     Worst worst{&places.front(), -1.0};
-    for (const ProjectedPlace& place : places) {
-      const double indicator = indicator_at(model, place);
-      if (indicator > worst.indicator) worst = {&place, indicator};
+    const auto look_at = [&](std::size_t i) {
+      const std::optional<double> indicator = indicator_at(model, places[i]);
+      if (indicator && *indicator > worst.indicator) worst = {&places[i], *indicator};
+      return indicator.has_value();
+    };
+    for (std::size_t i = 0; i < places.size(); i += 2) {
+      if (!look_at(i)) return std::nullopt;
+    }
+    const bool is_enough = worst.indicator * factor_ > safety * target_;
+    const std::size_t middle = static_cast<std::size_t>(worst.place - places.data());
+    for (std::size_t i = 1; i < places.size(); i += 2) {
+      const bool is_beside = i + 1 == middle || i == middle + 1;
+      if ((is_beside || !is_enough) && !look_at(i)) return std::nullopt;
     }
     return worst;
   }
 
-  /// The largest indicator of the modes at a place.
-  double indicator_at(const Model& model, const ProjectedPlace& place) const {
+  /// The largest indicator of the modes at a place, which are corrected if they are of another space. Empty
+  /// if they are not found.
+  std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const {
     const SparsePencil pencil = large_.pencil(place.at);
     const auto basis = large_.basis(model, pencil);
-    if (!basis) return 0.0;
+    if (!basis) return place.is_old ? std::nullopt : std::optional(0.0);
+    if (place.is_old && !renew(place, large_.small(model, place.at, pencil, *basis))) return std::nullopt;
     std::vector<ProjectedMode> modes = moving_modes(place);
     for (ProjectedMode& mode : modes) mode = lifted(mode, *basis);
     const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
@@ -259,6 +296,20 @@ class Projector {
     for (std::size_t i = 0; i < modes.size(); ++i)
       largest = std::max(largest, errors[i].relative_to(size(modes[i].s)));
     return largest;
+  }
+
+  /// Replaces the modes of a place by those of another space. False if one is not found there.
+  static bool renew(ProjectedPlace& place, SmallPencil small) {
+    place.small = std::move(small);
+    const double largest = largest_of(place.modes);
+    for (ProjectedMode& mode : place.modes) {
+      if (std::abs(mode.s) <= rigid * largest) continue;  // nobody uses its vectors
+      RefinedMode refined = refined_mode(place.small, mode.s, {});
+      if (!refined.is_settled) return false;
+      mode = std::move(refined.mode);
+    }
+    place.is_old = false;
+    return true;
   }
 
   /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
@@ -279,10 +330,16 @@ class Projector {
     add(exact, place.at.p);
     std::vector<Complex> known(exact.s.begin(), exact.s.end());
     for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.at.p)) known.push_back(s);
+    visits_.push_back({place.at.parameters, std::move(known), 0.0});
+    return distance(place, visits_.back().exact);
+  }
+
+  /// Largest distance of the modes at a place from the nearest of some eigenvalues, relative to their size.
+  double distance(const ProjectedPlace& place, const std::vector<Complex>& exact) const {
     double largest = 0.0;
-    for (const ProjectedMode& mode : modes) {
+    for (const ProjectedMode& mode : moving_modes(place)) {
       EigenvalueError error{std::numeric_limits<double>::infinity()};
-      for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
+      for (const Complex other : exact) error.distance = std::min(error.distance, std::abs(other - mode.s));
       error.half_gap = half_gap(place.small, mode);
       largest = std::max(largest, error.relative_to(size(mode.s)));
     }
@@ -310,8 +367,7 @@ class Projector {
   }
 
   void note_newcomers(const Model& model, const std::vector<ProjectedPlace>& places) {
-    const Newcomers found =
-        find_newcomers(large_, model, places, usual_shift(trace_.modes).value(), reference_);
+    const Newcomers found = find_newcomers(large_, model, places, usual_shift(trace_.modes), reference_);
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -322,17 +378,21 @@ class Projector {
                                 " rad/s; to follow more, ask for more modes");
   }
 
-  /// Whether exact eigenvalues were computed at this place before, and the projected ones, with their vectors
-  /// in the space, are as far from them as before. Notes the place.
-  bool stays(const ProjectedPlace& place, double error) {
+  /// The largest error that the vectors of a place have left there, though they are in the space; those
+  /// that they have reduced to less than half are not counted.
+  Worst worst_of_visited(const std::vector<ProjectedPlace>& places) const {
     constexpr double same_place = 1e-9;  // of the range: where events are located again
     const double close = same_place * std::abs(trace_.to - trace_.from);
-    const auto before = std::find_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
-      return (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close;
-    });
-    const bool stayed = before != visits_.end() && error > 0.5 * before->error;
-    visits_.push_back({place.at.parameters, error});
-    return stayed;
+    Worst worst;
+    for (const ProjectedPlace& place : places) {
+      for (const Visit& visit : visits_) {
+        const bool is_there = (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close;
+        if (!is_there || place.is_old || visit.error == 0.0) continue;
+        const double error = distance(place, visit.exact);
+        if (error > worst.indicator && error > 0.5 * visit.error) worst = {&place, error};
+      }
+    }
+    return worst;
   }
 
   std::unique_ptr<Model> give_up(const Worst& worst, double error, const std::string& why) {
@@ -352,12 +412,15 @@ class Projector {
   double target_;  ///< error of the eigenvalues by the projection, relative to their size
   ModeFinder finder_;
   Projection projection_;
-  double frequency_ = 0.0;  ///< largest |s| that was found
-  double reference_ = 0.0;  ///< of the scout's eigenvalues
-  double factor_ = 1.0;     ///< error over indicator, the largest that was seen
-  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
+  double frequency_ = 0.0;    ///< largest |s| that was found
+  double reference_ = 0.0;    ///< of the scout's eigenvalues
+  double factor_ = 1.0;       ///< error over indicator, the largest that was seen
+  bool traces_hold_ = false;  ///< the last rough traces are as accurate in the space as it is now
+  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added; 0
+  /// until they are part of the model.
   struct Visit {
     Vector parameters;
+    std::vector<Complex> exact;
     double error = 0.0;
   };
   std::vector<Visit> visits_;

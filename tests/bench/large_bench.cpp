@@ -102,9 +102,9 @@ double seconds_per_point(const TraceSetup& setup) {
   return seconds_of([&] {
            for (int i = 0; i < places; ++i) {
              const double p = setup.options.from + (setup.options.to - setup.options.from) * i / (places - 1);
-             SparsePencil pencil = pencils.at(at(p));
-             pencil.one_sided = true;  // right vectors are enough for a grid
-             (void)finder.find(pencil, {{}, followed});
+             ModeRequest request{{}, followed};
+             request.only_right = true;  // they are enough for a grid
+             (void)finder.find(pencils.at(at(p)), request);
            }
          }) /
          places;
