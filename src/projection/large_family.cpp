@@ -20,11 +20,12 @@ class LargeFamily final : public LargeModel {
   ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return vectors; }
 
   std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
-                                 double frequency, Projection& projection) const override {
+                                 double frequency) const override {
     const SparsePencil there = pencils_.at(middle);
     const Matrix energy = projected(there.K + frequency * frequency * there.M, space.basis());
     const Matrix principal = space.principal(0.5 * (energy + energy.transpose()), accuracy);
     ModelDescription description = family_.description();
+    Projection projection;
     projection.freedoms = family_.n_coordinates();
     projection.names = std::move(description.coordinate_names);
     projection.basis = product(space.basis(), principal);
@@ -32,8 +33,12 @@ class LargeFamily final : public LargeModel {
     for (Eigen::Index i = 0; i < principal.cols(); ++i)
       description.coordinate_names.push_back("x" + std::to_string(i + 1));
     description.coordinate_units.assign(static_cast<std::size_t>(principal.cols()), "1");
-    return std::make_unique<ProjectedFamily>(std::move(description), pencils_.projected(projection.basis),
-                                             projection);
+    AffinePencil<Matrix> pencil = pencils_.projected(projection.basis);
+    return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
+                                             std::move(projection));
+  }
+  void settle(Model& reduced, Projection outcome) const override {
+    dynamic_cast<ProjectedFamily&>(reduced).settle(std::move(outcome));
   }
 
   SmallPencil small(const Model& reduced, const TracePoint& point) const override {
@@ -42,6 +47,10 @@ class LargeFamily final : public LargeModel {
   SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil&,
                     const Matrix&) const override {
     return small_at(reduced, place.parameters);
+  }
+  bool keeps_small() const override { return false; }
+  SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const override {
+    return small_at(reduced, place.at.parameters);
   }
   ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
 

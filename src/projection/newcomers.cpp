@@ -17,8 +17,8 @@ constexpr double closeness = 1e-3;
 std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& large, const Matrix& basis,
                                 const std::vector<Complex>& eigenvalues, double reference) {
   std::vector<ProjectedMode> modes;
-  for (const Complex s : eigenvalues) modes.push_back(lifted(mode_of(small, s), basis));
-  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, modes);
+  for (const Complex s : eigenvalues) modes.push_back(mode_of(small, s));
+  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, lifted(modes, basis));
   std::vector<Complex> exact;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Complex s = eigenvalues[i];
@@ -83,7 +83,7 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, c
 /// them last.
 std::vector<Complex> among_the_followed(const LargeModel& large, const Model& model,
                                         const ProjectedPlace& place, const Shift& shift, double reference) {
-  const SmallPencil& small = place.small;
+  const SmallPencil small = large.small_of(model, place);
   const Complex centre = shift.value();
   Others others = without_followed(small, place, shift);
   std::erase_if(others.s, [&](Complex s) {

@@ -12,14 +12,6 @@ namespace eigentrail {
 /// Eigenvalues below this share of the largest one beside them are rigid-body motions: nobody asks for them.
 inline constexpr double rigid = 1e-6;
 
-/// A place on the path of a projected family, with its followed modes in projected coordinates.
-struct ProjectedPlace {
-  LargePlace at;
-  SmallPencil small;
-  std::vector<ProjectedMode> modes;
-  bool is_old = false;  ///< `small` and `modes` are of a space that has changed
-};
-
 struct Newcomers {
   int count = 0;                ///< how often a mode comes among the followed ones
   double from = 0.0, to = 0.0;  ///< places between which the first one does

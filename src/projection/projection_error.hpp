@@ -32,8 +32,8 @@ struct RefinedMode {
 /// zero there are no vectors.
 RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape);
 
-/// The mode with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
-ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis);
+/// The modes with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
+std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& basis);
 
 /// How far an eigenvalue may be from one of the large pencil.
 struct EigenvalueError {

@@ -7,12 +7,11 @@
 #include <limits>
 #include <numbers>
 
-#include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "projection/large_model.hpp"
 #include "projection/newcomers.hpp"
-#include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
+#include "projection/scouted_places.hpp"
 
 namespace eigentrail {
 namespace {
@@ -29,23 +28,11 @@ constexpr double accuracy_of_samples = 0.01;
 /// Accuracy of vectors that are only put into the space, as a share of that to which they are kept.
 constexpr double accuracy_of_added_vectors = 0.1;
 
-/// Tolerance of the traces that only look for the worst place.
-constexpr double scout_tolerance = 1e-3;
-
-/// Such a trace has at least this many steps, so that places between the samples are seen.
-constexpr int scout_steps = 16;
-
 std::string digits(double value, int count) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*g", count, value);
   return text.data();
 }
-
-/// The mode with the largest indicator of all places.
-struct Worst {
-  const ProjectedPlace* place = nullptr;
-  double indicator = 0.0;  ///< relative to max(|s|, reference)
-};
 
 class Projector {
  public:
@@ -57,7 +44,8 @@ class Projector {
         options_(options),
         space_(large.model().n_coordinates()),
         target_(options.share_of_tolerance * trace.tolerance),
-        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver) {
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver),
+        places_(large, trace, lines_) {
     if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
@@ -65,28 +53,37 @@ class Projector {
   std::unique_ptr<Model> along_the_lines() {
     first_samples(lines_.front());
     if (lines_.size() > 1) first_samples(lines_.back());
-    std::vector<ProjectedPlace> places;
+    bool traces_hold = false;
     while (true) {
-      const std::unique_ptr<Model> model = reduced();
-      const Worst worst = look_for_worst(*model, places);
+      std::unique_ptr<Model> model = reduced();
+      const Worst worst = places_.worst(*model, traces_hold, safety * target_ / factor_);
       if (projection_.factorizations > options_.max_factorizations)
-        return give_up(worst, worst.indicator * factor_,
+        return give_up(std::move(model), worst, worst.indicator * factor_,
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
-      // Exact eigenvalues at the worst place show the true error of the space as it was.
-      const double error = error_at(*worst.place);
-      traces_hold_ = error <= scout_tolerance;
+      // Exact eigenvalues at the worst place show the true error of the space as it is.
+      Sample sample = sample_at(*worst.place);
+      const double error = places_.distance(*model, *worst.place, sample.exact);
+      traces_hold = error <= scout_tolerance;
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
       projection_.error = std::max(error, factor_ * worst.indicator);
       projection_.error_at = worst.place->at.p;
-      const Worst left = worst_of_visited(places);
-      visits_.back().error = error;
+      const Worst left = worst_of_visited(*model);
       const bool stuck = left.indicator > target_;
-      if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
-      if (lines_.size() == 1) note_newcomers(*model, places);
-      if (!stuck) return reduced();
-      return give_up(left, left.indicator,
-                     "also with the vectors of that place, probably by rounding of the large matrices");
+      if (!stuck && (error > target_ || projection_.error > safety * target_)) {
+        add_vectors(sample);
+        visits_.push_back({worst.place->at.parameters, std::move(sample.exact), error});
+        continue;
+      }
+      if (lines_.size() == 1) note_newcomers(*model);
+      if (stuck)
+        return give_up(std::move(model), left, left.indicator,
+                       "also with the vectors of that place, probably by rounding of the large matrices");
+      // Vectors that are at hand are not thrown away; left ones are not looked for only to be safer.
+      if (!sample.pencil.one_sided && !sample.is_added) return settled(std::move(model));
+      add_vectors(sample);
+      model.reset();
+      return settled(reduced());
     }
   }
 
@@ -96,7 +93,7 @@ class Projector {
       const auto place = large_.place_at(p, parameters_at(p, lines_.front()));
       if (place) add(find_chosen(large_.pencil(*place)), p);
     }
-    return reduced();
+    return settled(reduced());
   }
 
  private:
@@ -185,165 +182,65 @@ class Projector {
   }
 
   /// The model on the space of the vectors, without what these need less than the target.
-  std::unique_ptr<Model> reduced() {
+  std::unique_ptr<Model> reduced() const {
+    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
+    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_);
+  }
+
+  std::unique_ptr<Model> settled(std::unique_ptr<Model> model) {
+    projection_.factorizations = finder_.factorizations();
     projection_.solutions = finder_.solutions();
     projection_.peak_bytes = finder_.peak_bytes();
     projection_.method = finder_.method();
     projection_.target = target_;
-    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
-    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_, projection_);
+    large_.settle(*model, std::move(projection_));
+    return model;
   }
 
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
 
-  /// The place with the largest indicator on all lines. Rough traces find the places and their modes. While
-  /// the space changes eigenvalues by less than these traces are accurate to, the modes at the same places
-  /// are corrected instead.
-  Worst look_for_worst(const Model& model, std::vector<ProjectedPlace>& places) {
-    if (traces_hold_) {
-      for (ProjectedPlace& place : places) place.is_old = true;
-      if (const auto worst = find_worst(model, places)) return *worst;
-    }
-    places.clear();
-    for (const ParameterValues& line : lines_) scout(model, line, places);
-    return find_worst(model, places).value();
-  }
+  /// Exact eigenvalues at a place, and their vectors.
+  struct Sample {
+    std::vector<Complex> exact;
+    SparsePencil pencil;
+    NearestModes modes;  ///< without left vectors until they are added
+    double p = 0.0;
+    bool is_added = false;
+  };
 
-  /// A rough trace of the projected model along a line; its points are added to `places`.
-  void scout(const Model& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
-    TraceOptions options = trace_;
-    options.values = line;
-    options.tolerance = std::max(trace_.tolerance, scout_tolerance);
-    options.certify = false;
-    options.events = {};
-    options.events.extrema = false;
-    options.events.veerings = false;
-    options.order.reset();
-    options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
-    TraceObserver observer;
-    observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
-    observer.point = [&](const TracePoint& point) {
-      const Path& path = point.node.path;
-      ProjectedPlace& place = places.emplace_back(
-          ProjectedPlace{{point.node.p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)},
-                         large_.small(model, point),
-                         {},
-                         false});
-      for (const ModeState& mode : point.modes) {
-        const ComplexVector shape =
-            mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
-        place.modes.push_back(refined_mode(place.small, mode.s, shape).mode);
-      }
-      return true;
-    };
-    const TraceResult result = trace(model, options, observer);
-    if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
-  }
-
-  /// Largest finite magnitude.
-  static double largest_of(const std::vector<ProjectedMode>& modes) {
-    double largest = 0.0;
-    for (const ProjectedMode& mode : modes) {
-      if (std::isfinite(std::abs(mode.s))) largest = std::max(largest, std::abs(mode.s));
-    }
-    return largest;
-  }
-
-  /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
-  static std::vector<ProjectedMode> moving_modes(const ProjectedPlace& place) {
-    std::vector<ProjectedMode> modes = place.modes;
-    std::erase_if(modes, [largest = largest_of(modes)](const ProjectedMode& mode) {
-      return !std::isfinite(std::abs(mode.s)) || std::abs(mode.s) <= rigid * largest;
-    });
-    return modes;
-  }
-
-  double size(Complex s) const { return std::max(std::abs(s), reference_); }
-
-  /// Empty if the modes of an old place are not found again. Every second place is looked at first: where one
-  /// of them needs vectors its neighbours are enough.
-  std::optional<Worst> find_worst(const Model& model, std::vector<ProjectedPlace>& places) const {
-    Worst worst{&places.front(), -1.0};
-    const auto look_at = [&](std::size_t i) {
-      const std::optional<double> indicator = indicator_at(model, places[i]);
-      if (indicator && *indicator > worst.indicator) worst = {&places[i], *indicator};
-      return indicator.has_value();
-    };
-    for (std::size_t i = 0; i < places.size(); i += 2) {
-      if (!look_at(i)) return std::nullopt;
-    }
-    const bool is_enough = worst.indicator * factor_ > safety * target_;
-    const std::size_t middle = static_cast<std::size_t>(worst.place - places.data());
-    for (std::size_t i = 1; i < places.size(); i += 2) {
-      const bool is_beside = i + 1 == middle || i == middle + 1;
-      if ((is_beside || !is_enough) && !look_at(i)) return std::nullopt;
-    }
-    return worst;
-  }
-
-  /// The largest indicator of the modes at a place, which are corrected if they are of another space. Empty
-  /// if they are not found.
-  std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const {
-    const SparsePencil pencil = large_.pencil(place.at);
-    const auto basis = large_.basis(model, pencil);
-    if (!basis) return place.is_old ? std::nullopt : std::optional(0.0);
-    if (place.is_old && !renew(place, large_.small(model, place.at, pencil, *basis))) return std::nullopt;
-    std::vector<ProjectedMode> modes = moving_modes(place);
-    for (ProjectedMode& mode : modes) mode = lifted(mode, *basis);
-    const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      largest = std::max(largest, errors[i].relative_to(size(modes[i].s)));
-    return largest;
-  }
-
-  /// Replaces the modes of a place by those of another space. False if one is not found there.
-  static bool renew(ProjectedPlace& place, SmallPencil small) {
-    place.small = std::move(small);
-    const double largest = largest_of(place.modes);
-    for (ProjectedMode& mode : place.modes) {
-      if (std::abs(mode.s) <= rigid * largest) continue;  // nobody uses its vectors
-      RefinedMode refined = refined_mode(place.small, mode.s, {});
-      if (!refined.is_settled) return false;
-      mode = std::move(refined.mode);
-    }
-    place.is_old = false;
-    return true;
-  }
-
-  /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
-  /// size; the vectors of these are added to the space.
-  double error_at(const ProjectedPlace& place) {
-    const SparsePencil pencil = large_.pencil(place.at);
+  /// The modes at a place. Those of another shift are added to the space at once.
+  Sample sample_at(const ProjectedPlace& place) {
     const Complex centre = usual_shift(trace_.modes).value();
-    const std::vector<ProjectedMode> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ProjectedMode& mode : modes) {
+    for (const ProjectedMode& mode : ScoutedPlaces::moving_modes(place)) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
+    Sample sample{{}, large_.pencil(place.at), {}, place.at.p, false};
     // More modes cost less than a second shift with its factorization.
-    const NearestModes exact =
-        find(pencil, {usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2}, place.at.p);
-    add(exact, place.at.p);
-    std::vector<Complex> known(exact.s.begin(), exact.s.end());
-    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.at.p)) known.push_back(s);
-    visits_.push_back({place.at.parameters, std::move(known), 0.0});
-    return distance(place, visits_.back().exact);
+    ModeRequest request{usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2, std::nullopt};
+    request.only_right = true;
+    sample.modes = find(sample.pencil, request, sample.p);
+    sample.exact.assign(sample.modes.s.begin(), sample.modes.s.end());
+    const bool are_near = std::all_of(followed.begin(), followed.end(),
+                                      [&](Complex s) { return std::abs(s - centre) <= sample.modes.radius; });
+    if (are_near) return sample;
+    add_vectors(sample);
+    for (const Complex s : find_far_ones(sample.pencil, followed, sample.modes.radius, sample.p))
+      sample.exact.push_back(s);
+    return sample;
   }
 
-  /// Largest distance of the modes at a place from the nearest of some eigenvalues, relative to their size.
-  double distance(const ProjectedPlace& place, const std::vector<Complex>& exact) const {
-    double largest = 0.0;
-    for (const ProjectedMode& mode : moving_modes(place)) {
-      EigenvalueError error{std::numeric_limits<double>::infinity()};
-      for (const Complex other : exact) error.distance = std::min(error.distance, std::abs(other - mode.s));
-      error.half_gap = half_gap(place.small, mode);
-      largest = std::max(largest, error.relative_to(size(mode.s)));
-    }
-    return largest;
+  /// Adds the vectors of a sample to the space, unless they are there. Left vectors need only the accuracy of
+  /// vectors.
+  void add_vectors(Sample& sample) {
+    if (sample.is_added) return;
+    if (!finder_.add_left(sample.pencil, accuracy_of_added_vectors * accuracy_of_vectors(), sample.modes))
+      sample.modes = find(sample.pencil, {usual_shift(trace_.modes), count_}, sample.p);
+    add(sample.modes, sample.p);
+    sample.is_added = true;
   }
 
   /// Followed modes that have left the neighbourhood of the usual shift are looked for with one of their own.
@@ -366,8 +263,9 @@ class Projector {
     return modes.s;
   }
 
-  void note_newcomers(const Model& model, const std::vector<ProjectedPlace>& places) {
-    const Newcomers found = find_newcomers(large_, model, places, usual_shift(trace_.modes), reference_);
+  void note_newcomers(const Model& model) {
+    const Newcomers found =
+        find_newcomers(large_, model, places_.all(), usual_shift(trace_.modes), places_.reference());
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -380,28 +278,29 @@ class Projector {
 
   /// The largest error that the vectors of a place have left there, though they are in the space; those
   /// that they have reduced to less than half are not counted.
-  Worst worst_of_visited(const std::vector<ProjectedPlace>& places) const {
+  Worst worst_of_visited(const Model& model) const {
     constexpr double same_place = 1e-9;  // of the range: where events are located again
     const double close = same_place * std::abs(trace_.to - trace_.from);
     Worst worst;
-    for (const ProjectedPlace& place : places) {
+    for (const ProjectedPlace& place : places_.all()) {
+      if (place.is_old) continue;
       for (const Visit& visit : visits_) {
-        const bool is_there = (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close;
-        if (!is_there || place.is_old || visit.error == 0.0) continue;
-        const double error = distance(place, visit.exact);
+        if (!((visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close)) continue;
+        const double error = places_.distance(model, place, visit.exact);
         if (error > worst.indicator && error > 0.5 * visit.error) worst = {&place, error};
       }
     }
     return worst;
   }
 
-  std::unique_ptr<Model> give_up(const Worst& worst, double error, const std::string& why) {
+  std::unique_ptr<Model> give_up(std::unique_ptr<Model> model, const Worst& worst, double error,
+                                 const std::string& why) {
     projection_.error = error;
     projection_.error_at = worst.place->at.p;
     projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
                                 trace_.parameter + " = " + exact_text(worst.place->at.p) + " " + why +
                                 "; asked for were " + digits(target_, 2));
-    return reduced();
+    return settled(std::move(model));
   }
 
   LargeModel& large_;
@@ -412,12 +311,10 @@ class Projector {
   double target_;  ///< error of the eigenvalues by the projection, relative to their size
   ModeFinder finder_;
   Projection projection_;
-  double frequency_ = 0.0;    ///< largest |s| that was found
-  double reference_ = 0.0;    ///< of the scout's eigenvalues
-  double factor_ = 1.0;       ///< error over indicator, the largest that was seen
-  bool traces_hold_ = false;  ///< the last rough traces are as accurate in the space as it is now
-  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added; 0
-  /// until they are part of the model.
+  ScoutedPlaces places_;
+  double frequency_ = 0.0;  ///< largest |s| that was found
+  double factor_ = 1.0;     ///< error over indicator, the largest that was seen
+  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
   struct Visit {
     Vector parameters;
     std::vector<Complex> exact;
