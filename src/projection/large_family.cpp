@@ -19,20 +19,20 @@ class LargeFamily final : public LargeModel {
   SparsePencil pencil(const LargePlace& place) const override { return pencils_.at(place.parameters); }
   ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return vectors; }
 
-  std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
+  std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
                                  double frequency) const override {
     const SparsePencil there = pencils_.at(middle);
     const Matrix energy = projected(there.K + frequency * frequency * there.M, space.basis());
-    const Matrix principal = space.principal(0.5 * (energy + energy.transpose()), accuracy);
+    space.reduce(0.5 * (energy + energy.transpose()), accuracy);
     ModelDescription description = family_.description();
     Projection projection;
     projection.freedoms = family_.n_coordinates();
     projection.names = std::move(description.coordinate_names);
-    projection.basis = product(space.basis(), principal);
+    projection.basis = space.basis();
     description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < principal.cols(); ++i)
+    for (Eigen::Index i = 0; i < space.basis().cols(); ++i)
       description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.assign(static_cast<std::size_t>(principal.cols()), "1");
+    description.coordinate_units.assign(static_cast<std::size_t>(space.basis().cols()), "1");
     AffinePencil<Matrix> pencil = pencils_.projected(projection.basis);
     return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
                                              std::move(projection));

@@ -88,16 +88,16 @@ class LargeScene final : public LargeModel {
 
   ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return reference_.allowed(vectors); }
 
-  std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector&,
+  std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector&,
                                  double frequency) const override {
     const Matrix& Q = space.basis();
     const Matrix sum = transposed_product(Q, Matrix(reference_.K * Q)) +
                        frequency * frequency * transposed_product(Q, Matrix(reference_.M * Q));
-    const Matrix principal = space.principal(0.5 * (sum + sum.transpose()), accuracy);
+    space.reduce(0.5 * (sum + sum.transpose()), accuracy);
     Projection projection;
     projection.freedoms = scene_->n_coordinates() - scene_->n_constraints();
     projection.names = scene_->description().coordinate_names;
-    projection.motions = Motions{product(Q, principal), reference_.A};
+    projection.motions = Motions{Q, reference_.A};
     return std::make_unique<ProjectedScene>(scene_, std::move(projection),
                                             Path{first_.parameters, first_.x, first_.lambda});
   }

@@ -28,7 +28,7 @@ std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& la
 }
 
 /// Accuracy of eigenvalues that are counted and not used.
-constexpr double accuracy_of_count = 1e-8;
+constexpr double accuracy_of_count = 1e-6;
 
 /// Up to this size of the projected pencil all of its eigenvalues are computed: the QR algorithm takes as
 /// long as Arnoldi iterations for a few of them.

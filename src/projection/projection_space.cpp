@@ -53,6 +53,12 @@ void ProjectionSpace::add(const ComplexMatrix& vectors) {
   vectors_ = std::move(all);
 }
 
+void ProjectionSpace::reduce(const Matrix& energy, double accuracy) {
+  const Matrix parts = principal(energy, accuracy);
+  basis_ = product(basis_, parts);
+  vectors_ = transposed_product(parts, vectors_);
+}
+
 Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(energy);
   const Vector& squares = solver.eigenvalues();

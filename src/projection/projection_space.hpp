@@ -14,12 +14,15 @@ class ProjectionSpace {
   /// Adds the real and imaginary parts of unit vectors (columns), as far as they are not in the space.
   void add(const ComplexMatrix& vectors);
 
-  /// The part of the space that the vectors need up to a relative error `accuracy` in the norm of the
-  /// symmetric positive semidefinite `energy` (k x k, in this basis): by their principal components in this
-  /// norm. Returns its basis, k x r with orthonormal columns.
-  Matrix principal(const Matrix& energy, double accuracy) const;
+  /// Keeps the part of the space that the vectors need up to a relative error `accuracy` in the norm of the
+  /// symmetric positive semidefinite `energy` (k x k, in this basis): their principal components in this
+  /// norm. What is left out is forgotten.
+  void reduce(const Matrix& energy, double accuracy);
 
  private:
+  /// Basis of that part, k x r with orthonormal columns.
+  Matrix principal(const Matrix& energy, double accuracy) const;
+
   Matrix basis_;
   Matrix vectors_;  ///< k x N: the vectors that were added, in this basis
 };

@@ -17,10 +17,10 @@ namespace eigentrail {
 namespace {
 
 /// Vectors are kept to this share of the square root of the target. What is left out of right and left
-/// vectors together is then below a tenth of the target; measured, a hundredth. With 0.02 a projection has a
-/// quarter more coordinates, and all that is done with it takes twice as long; with 1, what is left out is
+/// vectors together is then below a tenth of the target; measured, two hundredths. With 0.02 a projection has
+/// a quarter more coordinates, and all that is done with it takes twice as long; with 1, what is left out is
 /// most of the error.
-constexpr double share_of_vectors = 0.1;
+constexpr double share_of_vectors = 0.3;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
@@ -182,7 +182,7 @@ class Projector {
   }
 
   /// The model on the space of the vectors, without what these need less than the target.
-  std::unique_ptr<Model> reduced() const {
+  std::unique_ptr<Model> reduced() {
     const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
     return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_);
   }
