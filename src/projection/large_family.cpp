@@ -28,14 +28,17 @@ class LargeFamily final : public LargeModel {
     Projection projection;
     projection.freedoms = family_.n_coordinates();
     projection.names = std::move(description.coordinate_names);
-    projection.basis = space.basis();
+    projection.basis = space.give_basis();
     description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < space.basis().cols(); ++i)
+    for (Eigen::Index i = 0; i < projection.basis.cols(); ++i)
       description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.assign(static_cast<std::size_t>(space.basis().cols()), "1");
+    description.coordinate_units.assign(static_cast<std::size_t>(projection.basis.cols()), "1");
     AffinePencil<Matrix> pencil = pencils_.projected(projection.basis);
     return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
                                              std::move(projection));
+  }
+  Matrix take_basis(Model& reduced) const override {
+    return dynamic_cast<ProjectedFamily&>(reduced).take_basis();
   }
   void settle(Model& reduced, Projection outcome) const override {
     dynamic_cast<ProjectedFamily&>(reduced).settle(std::move(outcome));

@@ -46,9 +46,11 @@ class LargeModel {
   virtual ComplexMatrix for_space(const ComplexMatrix& vectors) const = 0;
 
   /// The model on the part of the space that the vectors need up to the relative error `accuracy` in the norm
-  /// of the energy K + frequency^2 M; the space becomes this part.
+  /// of the energy K + frequency^2 M; the space becomes this part, and gives it away.
   virtual std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
                                          double frequency) const = 0;
+  /// The basis of a model that `reduced` gave, which is of no use then.
+  virtual Matrix take_basis(Model& reduced) const = 0;
   /// Notes what is known of the projection in a model that `reduced` gave.
   virtual void settle(Model& reduced, Projection outcome) const = 0;
 

@@ -97,9 +97,12 @@ class LargeScene final : public LargeModel {
     Projection projection;
     projection.freedoms = scene_->n_coordinates() - scene_->n_constraints();
     projection.names = scene_->description().coordinate_names;
-    projection.motions = Motions{Q, reference_.A};
+    projection.motions = Motions{space.give_basis(), reference_.A};
     return std::make_unique<ProjectedScene>(scene_, std::move(projection),
                                             Path{first_.parameters, first_.x, first_.lambda});
+  }
+  Matrix take_basis(Model& reduced) const override {
+    return dynamic_cast<ProjectedScene&>(reduced).take_basis();
   }
   void settle(Model& reduced, Projection outcome) const override {
     dynamic_cast<ProjectedScene&>(reduced).settle(std::move(outcome));

@@ -26,6 +26,14 @@ void ProjectedFamily::settle(Projection outcome) {
   replace_all_but_space(projection_, std::move(outcome));
 }
 
+Matrix ProjectedFamily::take_basis() {
+  return std::move(projection_.basis);
+}
+
+Matrix ProjectedScene::take_basis() {
+  return std::move(projection_.motions->basis);
+}
+
 void ProjectedScene::settle(Projection outcome) {
   replace_all_but_space(projection_, std::move(outcome));
 }

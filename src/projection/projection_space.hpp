@@ -1,6 +1,8 @@
 // The space onto which a large family is projected: an orthonormal basis of the vectors of its modes.
 #pragma once
 
+#include <utility>
+
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
@@ -10,6 +12,11 @@ class ProjectionSpace {
   explicit ProjectionSpace(Eigen::Index n) : basis_(n, 0), vectors_(0, 0) {}
 
   const Matrix& basis() const { return basis_; }  ///< n x k, orthonormal
+
+  /// Gives the basis away, and takes it back before more vectors are added: a projected model has it
+  /// meanwhile.
+  Matrix give_basis() { return std::move(basis_); }
+  void take_basis(Matrix basis) { basis_ = std::move(basis); }
 
   /// Adds the real and imaginary parts of unit vectors (columns), as far as they are not in the space.
   void add(const ComplexMatrix& vectors);

@@ -71,7 +71,7 @@ class Projector {
       const Worst left = worst_of_visited(*model);
       const bool stuck = left.indicator > target_;
       if (!stuck && (error > target_ || projection_.error > safety * target_)) {
-        add_vectors(sample);
+        add_vectors(sample, *model);
         visits_.push_back({worst.place->at.parameters, std::move(sample.exact), error});
         continue;
       }
@@ -80,8 +80,8 @@ class Projector {
         return give_up(std::move(model), left, left.indicator,
                        "also with the vectors of that place, probably by rounding of the large matrices");
       // Vectors that are at hand are not thrown away; left ones are not looked for only to be safer.
-      if (!sample.pencil.one_sided && !sample.is_added) return settled(std::move(model));
-      add_vectors(sample);
+      if (!is_complete(sample)) return settled(std::move(model));
+      add_vectors(sample, *model);
       model.reset();
       return settled(reduced());
     }
@@ -200,16 +200,18 @@ class Projector {
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
 
-  /// Exact eigenvalues at a place, and their vectors.
+  /// Exact eigenvalues at a place, and the modes near one shift or two.
   struct Sample {
     std::vector<Complex> exact;
     SparsePencil pencil;
-    NearestModes modes;  ///< without left vectors until they are added
     double p = 0.0;
-    bool is_added = false;
+    std::vector<NearestModes> modes;  ///< those near the usual shift, at first without left vectors
   };
 
-  /// The modes at a place. Those of another shift are added to the space at once.
+  static bool is_complete(const Sample& sample) {
+    return sample.pencil.one_sided || sample.modes.front().left.cols() > 0;
+  }
+
   Sample sample_at(const ProjectedPlace& place) {
     const Complex centre = usual_shift(trace_.modes).value();
     std::vector<Complex> followed;
@@ -218,49 +220,48 @@ class Projector {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
-    Sample sample{{}, large_.pencil(place.at), {}, place.at.p, false};
+    Sample sample{{}, large_.pencil(place.at), place.at.p, {}};
     // More modes cost less than a second shift with its factorization.
     ModeRequest request{usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2, std::nullopt};
     request.only_right = true;
-    sample.modes = find(sample.pencil, request, sample.p);
-    sample.exact.assign(sample.modes.s.begin(), sample.modes.s.end());
-    const bool are_near = std::all_of(followed.begin(), followed.end(),
-                                      [&](Complex s) { return std::abs(s - centre) <= sample.modes.radius; });
-    if (are_near) return sample;
-    add_vectors(sample);
-    for (const Complex s : find_far_ones(sample.pencil, followed, sample.modes.radius, sample.p))
-      sample.exact.push_back(s);
+    sample.modes.push_back(find(sample.pencil, request, sample.p));
+    const double radius = sample.modes.front().radius;
+    std::erase_if(followed, [&](Complex s) { return std::abs(s - centre) <= radius; });
+    if (!followed.empty()) {
+      complete(sample);  // while its factors are at hand
+      sample.modes.push_back(find_far_ones(sample.pencil, followed, sample.p));
+    }
+    for (const NearestModes& modes : sample.modes)
+      sample.exact.insert(sample.exact.end(), modes.s.begin(), modes.s.end());
     return sample;
   }
 
-  /// Adds the vectors of a sample to the space, unless they are there. Left vectors need only the accuracy of
-  /// vectors.
-  void add_vectors(Sample& sample) {
-    if (sample.is_added) return;
-    if (!finder_.add_left(sample.pencil, accuracy_of_added_vectors * accuracy_of_vectors(), sample.modes))
-      sample.modes = find(sample.pencil, {usual_shift(trace_.modes), count_}, sample.p);
-    add(sample.modes, sample.p);
-    sample.is_added = true;
+  /// Finds left vectors that are missing. They need only the accuracy of vectors.
+  void complete(Sample& sample) {
+    if (is_complete(sample)) return;
+    NearestModes& modes = sample.modes.front();
+    if (!finder_.add_left(sample.pencil, accuracy_of_added_vectors * accuracy_of_vectors(), modes))
+      modes = find(sample.pencil, {usual_shift(trace_.modes), count_}, sample.p);
+  }
+
+  /// Adds the vectors of a sample to the space, which it takes back from the model.
+  void add_vectors(Sample& sample, Model& model) {
+    complete(sample);
+    space_.take_basis(large_.take_basis(model));
+    for (const NearestModes& modes : sample.modes) add(modes, sample.p);
   }
 
   /// Followed modes that have left the neighbourhood of the usual shift are looked for with one of their own.
-  ComplexVector find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& followed, double radius,
-                              double p) {
+  NearestModes find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& far, double p) {
     double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
-    int count = 0;
-    for (const Complex s : followed) {
-      if (std::abs(s - usual_shift(trace_.modes).value()) <= radius) continue;
+    for (const Complex s : far) {
       lowest = std::min(lowest, s.imag());
       highest = std::max(highest, std::abs(s));
-      ++count;
     }
-    if (count == 0) return {};
     const double middle = 0.5 * (lowest + highest);
     const double cover = 1.01 * std::max(highest - middle, 1e-3 * highest);
-    const int most = 3 * (count + options_.spare_modes);
-    const NearestModes modes = find(pencil, {{0.0, middle}, count + options_.spare_modes, cover, most}, p);
-    add(modes, p);
-    return modes.s;
+    const int count = static_cast<int>(far.size()) + options_.spare_modes;
+    return find(pencil, {{0.0, middle}, count, cover, 3 * count}, p);
   }
 
   void note_newcomers(const Model& model) {

@@ -45,6 +45,8 @@ class ProjectedFamily final : public AffineFamily<Matrix> {
   const Projection* projection() const override { return &projection_; }
   /// Replaces all that is known of the projection, but for its space.
   void settle(Projection outcome);
+  /// Moves the basis of the space out of a model that is no longer needed.
+  Matrix take_basis();
 
  private:
   Projection projection_;
@@ -60,6 +62,8 @@ class ProjectedScene final : public Model {
   const Projection* projection() const override { return &projection_; }
   /// Replaces all that is known of the projection, but for its space.
   void settle(Projection outcome);
+  /// Moves the basis of the space out of a model that is no longer needed.
+  Matrix take_basis();
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override { return scene_->structure(traced_parameter); }
