@@ -56,23 +56,32 @@ class Projector {
     bool traces_hold = false;
     while (true) {
       std::unique_ptr<Model> model = reduced();
-      const Worst worst = places_.worst(*model, traces_hold, safety * target_ / factor_);
+      const Worst worst = places_.worst(*model, traces_hold, target_ / factor_);
       if (projection_.factorizations > options_.max_factorizations)
         return give_up(std::move(model), worst, worst.indicator * factor_,
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it is.
       Sample sample = sample_at(*worst.place);
       const double error = places_.distance(*model, *worst.place, sample.exact);
+      const Vector parameters = worst.place->at.parameters;
       traces_hold = error <= scout_tolerance;
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
-      projection_.error = std::max(error, factor_ * worst.indicator);
-      projection_.error_at = worst.place->at.p;
-      const Worst left = worst_of_visited(*model);
+      note_error(error, worst);
+      bool is_enough = error <= target_ && projection_.error <= safety * target_;
+      if (is_enough) {
+        note_error(error, places_.worst_of_all(*model));
+        is_enough = projection_.error <= safety * target_;
+      }
+      Worst left = worst_of_visited(*model);
+      if (left.indicator > target_) {
+        (void)places_.worst_of_all(*model);  // others may be worse
+        left = worst_of_visited(*model);
+      }
       const bool stuck = left.indicator > target_;
-      if (!stuck && (error > target_ || projection_.error > safety * target_)) {
+      if (!stuck && !is_enough) {
         add_vectors(sample, *model);
-        visits_.push_back({worst.place->at.parameters, std::move(sample.exact), error});
+        visits_.push_back({parameters, std::move(sample.exact), error});
         continue;
       }
       if (lines_.size() == 1) note_newcomers(*model);
@@ -262,6 +271,12 @@ class Projector {
     const double cover = 1.01 * std::max(highest - middle, 1e-3 * highest);
     const int count = static_cast<int>(far.size()) + options_.spare_modes;
     return find(pencil, {{0.0, middle}, count, cover, 3 * count}, p);
+  }
+
+  /// The error of the projection, from the true one at a place and an indicator.
+  void note_error(double error, const Worst& worst) {
+    projection_.error = std::max(error, factor_ * worst.indicator);
+    projection_.error_at = worst.place->at.p;
   }
 
   void note_newcomers(const Model& model) {

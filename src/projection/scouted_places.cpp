@@ -98,23 +98,33 @@ std::vector<ProjectedMode> ScoutedPlaces::moving_modes(const ProjectedPlace& pla
   return modes;
 }
 
-/// Empty if the modes of an old place are not found again. Every second place is looked at first: where one
-/// of them needs vectors its neighbours are enough.
+/// Compares a place with the worst one. False if the modes of an old place are not found again.
+bool ScoutedPlaces::look_at(const Model& model, std::size_t i, Worst& worst) {
+  if (!indicators_[i]) indicators_[i] = indicator_at(model, places_[i]);
+  if (indicators_[i] && *indicators_[i] > worst.indicator) worst = {&places_[i], *indicators_[i]};
+  return indicators_[i].has_value();
+}
+
+/// Empty if the modes of an old place are not found again.
 std::optional<Worst> ScoutedPlaces::find_worst(const Model& model, double enough) {
+  indicators_.assign(places_.size(), std::nullopt);
   Worst worst{&places_.front(), -1.0};
-  const auto look_at = [&](std::size_t i) {
-    const std::optional<double> indicator = indicator_at(model, places_[i]);
-    if (indicator && *indicator > worst.indicator) worst = {&places_[i], *indicator};
-    return indicator.has_value();
-  };
   for (std::size_t i = 0; i < places_.size(); i += 2) {
-    if (!look_at(i)) return std::nullopt;
+    if (!look_at(model, i, worst)) return std::nullopt;
   }
   const bool is_enough = worst.indicator > enough;
   const auto middle = static_cast<std::size_t>(worst.place - places_.data());
   for (std::size_t i = 1; i < places_.size(); i += 2) {
     const bool is_beside = i + 1 == middle || i == middle + 1;
-    if ((is_beside || !is_enough) && !look_at(i)) return std::nullopt;
+    if ((is_beside || !is_enough) && !look_at(model, i, worst)) return std::nullopt;
+  }
+  return worst;
+}
+
+Worst ScoutedPlaces::worst_of_all(const Model& model) {
+  Worst worst{&places_.front(), -1.0};
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!look_at(model, i, worst)) return this->worst(model, false, INFINITY);
   }
   return worst;
 }

@@ -27,10 +27,12 @@ class ScoutedPlaces {
   double reference() const { return reference_; }
   const std::vector<ProjectedPlace>& all() const { return places_; }
 
-  /// The place with the largest indicator on all lines. `traces_hold`: the model differs from the one before
-  /// by less than its rough traces were accurate to; then the modes at the same places are corrected. Where
-  /// an indicator of `enough` is found its neighbourhood is searched, but not every place.
+  /// A place with a large indicator: the largest one of every second place and of its neighbours, or, where
+  /// this is below `enough`, of all places on all lines. `traces_hold`: the model differs from the one before
+  /// by less than its rough traces were accurate to; then the modes at the same places are corrected.
   Worst worst(const Model& model, bool traces_hold, double enough);
+  /// The place with the largest indicator of all, for the model for which one was looked for.
+  Worst worst_of_all(const Model& model);
 
   /// Largest distance of the modes at a place from the nearest of some eigenvalues, relative to their size.
   double distance(const Model& model, const ProjectedPlace& place, const std::vector<Complex>& exact) const;
@@ -42,6 +44,7 @@ class ScoutedPlaces {
  private:
   void scout(const Model& model, const ParameterValues& line);
   std::optional<Worst> find_worst(const Model& model, double enough);
+  bool look_at(const Model& model, std::size_t i, Worst& worst);
   std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const;
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
@@ -49,6 +52,7 @@ class ScoutedPlaces {
   const TraceOptions& trace_;
   const std::vector<ParameterValues>& lines_;
   std::vector<ProjectedPlace> places_;
+  std::vector<std::optional<double>> indicators_;  ///< of the places, as far as they were computed
   double reference_ = 0.0;
 };
 

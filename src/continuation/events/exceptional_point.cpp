@@ -234,17 +234,14 @@ class Bordered {
   /// Sets v and G; returns w, the left counterpart of v.
   ComplexMatrix solve(const ComplexLu& lu) {
     const Eigen::Index n = b_.rows();
-    v_.resize(n, 2);
-    ComplexMatrix w(n, 2);
-    for (int k = 0; k < 2; ++k) {
-      ComplexVector right = ComplexVector::Unit(n + 2, n + k), left = right;
-      lu.solve_in_place(right);
-      lu.solve_adjoint_in_place(left);
-      v_.col(k) = right.head(n);
-      G_.col(k) = right.tail(2);
-      w.col(k) = left.head(n);
-    }
-    return w;
+    ComplexMatrix right = ComplexMatrix::Zero(n + 2, 2);
+    right.bottomRows(2).setIdentity();
+    ComplexMatrix left = right;
+    lu.solve_in_place(right);
+    lu.solve_adjoint_in_place(left);
+    v_ = right.topRows(n);
+    G_ = right.bottomRows(2);
+    return left.topRows(n);
   }
 
   /// The borders of the next place.
@@ -279,14 +276,10 @@ class Bordered {
 
   /// The derivative of v by x from P_x v.
   static ComplexMatrix change(const ComplexLu& lu, const ComplexMatrix& P_x) {
-    ComplexMatrix result(P_x.rows(), 2);
-    for (int k = 0; k < 2; ++k) {
-      ComplexVector x = ComplexVector::Zero(lu.size());
-      x.head(P_x.rows()) = -P_x.col(k);
-      lu.solve_in_place(x);
-      result.col(k) = x.head(P_x.rows());
-    }
-    return result;
+    ComplexMatrix x = ComplexMatrix::Zero(lu.size(), 2);
+    x.topRows(P_x.rows()) = -P_x;
+    lu.solve_in_place(x);
+    return x.topRows(P_x.rows());
   }
 
   ComplexMatrix b_, c_, v_;  ///< n x 2
