@@ -194,6 +194,20 @@ TEST(Projection, CirculatoryModelsNeedLeftVectors) {
   EXPECT_NE(right->projection()->notes.front().find("leaves an error"), std::string::npos);
 }
 
+/// What is cut off from the space, and what lies between the samples, leave no more than what is asked for.
+TEST(Projection, ErrorsBetweenTheSamplesStayBelowTheTarget) {
+  RotatingPlate plate;
+  plate.convection = 10.0;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 4, tolerance);
+    const auto model = project(family_of(setup), setup.options);
+    const Projection& projection = *model->projection();
+    EXPECT_LE(projection.factorizations, 6) << tolerance;
+    for (const double p : {0.13, 0.4, 0.71, 1.0, 1.27, 1.6, 1.9})
+      EXPECT_LT(error_at(setup, *model, p), projection.target) << tolerance << " at " << p;
+  }
+}
+
 TEST(Projection, SolidShaftLosesItsStabilityWhereTheLargeModelDoes) {
   SolidShaft shaft;
   shaft.length = 20;
