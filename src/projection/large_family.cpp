@@ -19,27 +19,41 @@ class LargeFamily final : public LargeModel {
   SparsePencil pencil(const LargePlace& place) const override { return pencils_.at(place.parameters); }
   ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return vectors; }
 
-  std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
-                                 double frequency, Projection& projection) const override {
+  std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
+                                 double frequency) const override {
     const SparsePencil there = pencils_.at(middle);
     const Matrix energy = projected(there.K + frequency * frequency * there.M, space.basis());
-    const Matrix principal = space.principal(0.5 * (energy + energy.transpose()), accuracy);
+    space.reduce(0.5 * (energy + energy.transpose()), accuracy);
     ModelDescription description = family_.description();
+    Projection projection;
     projection.freedoms = family_.n_coordinates();
     projection.names = std::move(description.coordinate_names);
-    projection.basis = product(space.basis(), principal);
+    projection.basis = space.give_basis();
     description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < principal.cols(); ++i)
+    for (Eigen::Index i = 0; i < projection.basis.cols(); ++i)
       description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.assign(static_cast<std::size_t>(principal.cols()), "1");
-    return std::make_unique<ProjectedFamily>(std::move(description), pencils_.projected(projection.basis),
-                                             projection);
+    description.coordinate_units.assign(static_cast<std::size_t>(projection.basis.cols()), "1");
+    AffinePencil<Matrix> pencil = pencils_.projected(projection.basis);
+    return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
+                                             std::move(projection));
+  }
+  Matrix take_basis(Model& reduced) const override {
+    return dynamic_cast<ProjectedFamily&>(reduced).take_basis();
+  }
+  void settle(Model& reduced, Projection outcome) const override {
+    dynamic_cast<ProjectedFamily&>(reduced).settle(std::move(outcome));
   }
 
   SmallPencil small(const Model& reduced, const TracePoint& point) const override {
-    const AffinePencil<Matrix> at =
-        dynamic_cast<const ProjectedFamily&>(reduced).at(point.node.path.parameters.col(0));
-    return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+    return small_at(reduced, point.node.path.parameters.col(0));
+  }
+  SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil&,
+                    const Matrix&) const override {
+    return small_at(reduced, place.parameters);
+  }
+  bool keeps_small() const override { return false; }
+  SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const override {
+    return small_at(reduced, place.at.parameters);
   }
   ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
 
@@ -48,6 +62,11 @@ class LargeFamily final : public LargeModel {
   }
 
  private:
+  static SmallPencil small_at(const Model& reduced, const Vector& parameters) {
+    const AffinePencil<Matrix> at = dynamic_cast<const ProjectedFamily&>(reduced).at(parameters);
+    return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
+  }
+
   const SparseFamily& family_;
   FamilyPencils pencils_;
 };

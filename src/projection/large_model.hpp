@@ -15,6 +15,14 @@ struct LargePlace {
   Vector x, lambda;   ///< the equilibrium of a scene; empty for a family
 };
 
+/// A place on the path of a projected model, with its followed modes in projected coordinates.
+struct ProjectedPlace {
+  LargePlace at;
+  SmallPencil small;  ///< only where the model keeps it
+  std::vector<ProjectedMode> modes;
+  bool is_old = false;  ///< `small` and `modes` are of a space that has changed
+};
+
 class LargeModel {
  public:
   LargeModel() = default;
@@ -38,13 +46,25 @@ class LargeModel {
   virtual ComplexMatrix for_space(const ComplexMatrix& vectors) const = 0;
 
   /// The model on the part of the space that the vectors need up to the relative error `accuracy` in the norm
-  /// of the energy K + frequency^2 M. Completes the projection by what it knows of the space.
-  virtual std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector& middle,
-                                         double frequency, Projection& projection) const = 0;
+  /// of the energy K + frequency^2 M; the space becomes this part, and gives it away.
+  virtual std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
+                                         double frequency) const = 0;
+  /// The basis of a model that `reduced` gave, which is of no use then.
+  virtual Matrix take_basis(Model& reduced) const = 0;
+  /// Notes what is known of the projection in a model that `reduced` gave.
+  virtual void settle(Model& reduced, Projection outcome) const = 0;
 
   /// The projected matrices at a traced point, and the reduced coordinates of one of its shapes.
   virtual SmallPencil small(const Model& reduced, const TracePoint& point) const = 0;
+  /// The same at a place with its pencil and the basis of its motions.
+  virtual SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil& pencil,
+                            const Matrix& basis) const = 0;
   virtual ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const = 0;
+
+  /// Whether places keep their projected matrices, because computing them again costs much.
+  virtual bool keeps_small() const = 0;
+  /// The projected matrices at a place, kept or computed again.
+  virtual SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const = 0;
 
   /// Basis of the motions of the reduced model at the place of a pencil, n x k; it lives as long as `reduced`
   /// and the result do. Null if the motions have turned too far.

@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/reduction/restricted_basis.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
+#include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
 
 namespace eigentrail {
@@ -87,23 +88,36 @@ class LargeScene final : public LargeModel {
 
   ComplexMatrix for_space(const ComplexMatrix& vectors) const override { return reference_.allowed(vectors); }
 
-  std::unique_ptr<Model> reduced(const ProjectionSpace& space, double accuracy, const Vector&,
-                                 double frequency, Projection& projection) const override {
+  std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector&,
+                                 double frequency) const override {
     const Matrix& Q = space.basis();
     const Matrix sum = transposed_product(Q, Matrix(reference_.K * Q)) +
                        frequency * frequency * transposed_product(Q, Matrix(reference_.M * Q));
-    const Matrix principal = space.principal(0.5 * (sum + sum.transpose()), accuracy);
+    space.reduce(0.5 * (sum + sum.transpose()), accuracy);
+    Projection projection;
     projection.freedoms = scene_->n_coordinates() - scene_->n_constraints();
     projection.names = scene_->description().coordinate_names;
-    projection.motions = Motions{product(Q, principal), reference_.A};
-    return std::make_unique<ProjectedScene>(scene_, projection,
+    projection.motions = Motions{space.give_basis(), reference_.A};
+    return std::make_unique<ProjectedScene>(scene_, std::move(projection),
                                             Path{first_.parameters, first_.x, first_.lambda});
+  }
+  Matrix take_basis(Model& reduced) const override {
+    return dynamic_cast<ProjectedScene&>(reduced).take_basis();
+  }
+  void settle(Model& reduced, Projection outcome) const override {
+    dynamic_cast<ProjectedScene&>(reduced).settle(std::move(outcome));
   }
 
   SmallPencil small(const Model&, const TracePoint& point) const override {
     const ReducedPencil& pencil = point.node.pencil;
     return {pencil.M[0], pencil.C[0], pencil.K[0]};
   }
+  SmallPencil small(const Model&, const LargePlace&, const SparsePencil& pencil,
+                    const Matrix& basis) const override {
+    return {projected(pencil.M, basis), projected(pencil.C, basis), projected(pencil.K, basis)};
+  }
+  bool keeps_small() const override { return true; }
+  SmallPencil small_of(const Model&, const ProjectedPlace& place) const override { return place.small; }
   ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const override {
     return point.node.basis.T[0].transpose() * shape;
   }

@@ -411,13 +411,19 @@ std::optional<NearestModes> ModeFinder::find(const SparsePencil& pencil, const M
     }
     NearestModes modes = sorted(*right, shift, pencil.size());
     modes.radius = complete_radius(shift, form, right->least);
-    if (pencil.one_sided) return modes;
-    Inverse transposed(pencil, solver, shift, true, scale, solutions_);
-    const std::optional<Found> left = arnoldi(transposed, pencil, shift, per_mode * count, tolerance);
-    if (!left) return std::nullopt;
-    modes.left = columns(left->vectors, pencil.size());
+    last_ = {shift, per_mode * count, scale};
+    if (!request.only_right && !add_left(pencil, tolerance, modes)) return std::nullopt;
     return modes;
   }
+}
+
+bool ModeFinder::add_left(const SparsePencil& pencil, double tolerance, NearestModes& modes) {
+  if (pencil.one_sided) return true;
+  const PencilSolver solver(*factors_, pencil);
+  Inverse transposed(pencil, solver, last_.shift, true, last_.scale, solutions_);
+  const std::optional<Found> left = arnoldi(transposed, pencil, last_.shift, last_.wanted, tolerance);
+  if (left) modes.left = columns(left->vectors, pencil.size());
+  return left.has_value();
 }
 
 }  // namespace eigentrail

@@ -45,6 +45,7 @@ struct ModeRequest {
   double cover = 0.0;  ///< all within this distance of the shift, as far as `most` modes reach
   int most = 0;        ///< a limit for `cover`
   std::optional<double> tolerance = std::nullopt;  ///< in place of that of the finder
+  bool only_right = false;                         ///< left vectors are left out
 };
 
 /// The matrix that is factored for a real shift, and whether it is symmetric: P = M s^2 + C s + K, or with
@@ -73,6 +74,11 @@ class ModeFinder {
   /// eigenvalue is moved, which takes a second factorization. Empty if the iteration does not converge.
   std::optional<NearestModes> find(const SparsePencil& pencil, const ModeRequest& request);
 
+  /// Adds the left vectors of the modes that were found last, of the same pencil, with the factors that are
+  /// at hand. Does nothing if the pencil is one-sided. False if the iteration does not converge. `tolerance`:
+  /// relative accuracy of the eigenvalues of the inverse.
+  bool add_left(const SparsePencil& pencil, double tolerance, NearestModes& modes);
+
   int factorizations() const { return factorizations_; }
   long solutions() const { return solutions_; }
   std::size_t peak_bytes() const { return peak_bytes_; }  ///< of the factors
@@ -88,8 +94,16 @@ class ModeFinder {
     bool beside_singular = false;  ///< the matrix could not be factored at the requested shift
   };
 
+  /// How modes were found last.
+  struct LastSearch {
+    Shift shift;
+    int wanted = 0;  ///< eigenvalues of the inverse
+    double scale = 1.0;
+  };
+
   double tolerance_;
   std::optional<MovedShift> moved_;
+  LastSearch last_;
   std::unique_ptr<SparseSolver> factors_;
   int factorizations_ = 0;
   long solutions_ = 0;

@@ -17,8 +17,8 @@ constexpr double closeness = 1e-3;
 std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& large, const Matrix& basis,
                                 const std::vector<Complex>& eigenvalues, double reference) {
   std::vector<ProjectedMode> modes;
-  for (const Complex s : eigenvalues) modes.push_back(lifted(mode_of(small, s), basis));
-  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, modes);
+  for (const Complex s : eigenvalues) modes.push_back(mode_of(small, s));
+  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, lifted(modes, basis));
   std::vector<Complex> exact;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Complex s = eigenvalues[i];
@@ -27,20 +27,51 @@ std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& la
   return exact;
 }
 
-/// The spectrum of the projected pencil without the followed modes, and how far these reach from the centre.
+/// Accuracy of eigenvalues that are counted and not used.
+constexpr double accuracy_of_count = 1e-6;
+
+/// Up to this size of the projected pencil all of its eigenvalues are computed: the QR algorithm takes as
+/// long as Arnoldi iterations for a few of them.
+constexpr Eigen::Index all_at_once = 32;
+
+std::vector<Complex> all_eigenvalues(const SmallPencil& small) {
+  std::vector<Complex> all;
+  for (const StartingMode& mode : compute_eigenvalues(small.M, small.C, small.K).modes) all.push_back(mode.s);
+  return all;
+}
+
+/// The eigenvalues of the projected pencil within `reach` of the centre, and others; about `count` are
+/// expected.
+std::vector<Complex> eigenvalues_within(double reach, const SmallPencil& small, const Shift& centre,
+                                        int count) {
+  const Eigen::Index k = small.K.rows();
+  if (k <= all_at_once) return all_eigenvalues(small);
+  ModeFinder finder(accuracy_of_count);
+  ModeRequest request{centre, count, reach, static_cast<int>(k) / 2, std::nullopt};
+  request.only_right = true;
+  const auto found = finder.find({small.M.sparseView(), small.C.sparseView(), small.K.sparseView()}, request);
+  if (!found || found->radius < reach) return all_eigenvalues(small);
+  return {found->s.begin(), found->s.end()};
+}
+
+/// The spectrum of the projected pencil near the centre without the followed modes, and how far these reach.
 struct Others {
   std::vector<Complex> s;
   double farthest = 0.0, largest = 0.0;
 };
 
-Others without_followed(const SmallPencil& small, const ProjectedPlace& place, Complex centre) {
+Others without_followed(const SmallPencil& small, const ProjectedPlace& place, const Shift& shift) {
+  constexpr int spare = 3;  // so that one more is seldom needed
+  const Complex centre = shift.value();
   Others others;
-  for (const StartingMode& mode : compute_eigenvalues(small.M, small.C, small.K).modes)
-    others.s.push_back(mode.s);
   for (const ProjectedMode& mode : place.modes) {
-    if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
+    if (!std::isfinite(std::abs(mode.s))) continue;
     others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
     others.largest = std::max(others.largest, std::abs(mode.s));
+  }
+  others.s = eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + spare);
+  for (const ProjectedMode& mode : place.modes) {
+    if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
     others.s.erase(std::min_element(others.s.begin(), others.s.end(), [&](Complex a, Complex b) {
       return std::abs(a - mode.s) < std::abs(b - mode.s);
     }));
@@ -51,9 +82,10 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, C
 /// Eigenvalues that are not followed and nearer to the centre than the farthest followed one, the farthest of
 /// them last.
 std::vector<Complex> among_the_followed(const LargeModel& large, const Model& model,
-                                        const ProjectedPlace& place, Complex centre, double reference) {
-  const SmallPencil& small = place.small;
-  Others others = without_followed(small, place, centre);
+                                        const ProjectedPlace& place, const Shift& shift, double reference) {
+  const SmallPencil small = large.small_of(model, place);
+  const Complex centre = shift.value();
+  Others others = without_followed(small, place, shift);
   std::erase_if(others.s, [&](Complex s) {
     return std::abs(s - centre) >= others.farthest || std::abs(s) <= rigid * others.largest;
   });
@@ -70,7 +102,7 @@ std::vector<Complex> among_the_followed(const LargeModel& large, const Model& mo
 }  // namespace
 
 Newcomers find_newcomers(const LargeModel& large, const Model& model,
-                         const std::vector<ProjectedPlace>& places, Complex centre, double reference) {
+                         const std::vector<ProjectedPlace>& places, const Shift& centre, double reference) {
   Newcomers found;
   std::size_t known = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -12,13 +12,6 @@ namespace eigentrail {
 /// Eigenvalues below this share of the largest one beside them are rigid-body motions: nobody asks for them.
 inline constexpr double rigid = 1e-6;
 
-/// A place on the path of a projected family, with its followed modes in projected coordinates.
-struct ProjectedPlace {
-  LargePlace at;
-  SmallPencil small;
-  std::vector<ProjectedMode> modes;
-};
-
 struct Newcomers {
   int count = 0;                ///< how often a mode comes among the followed ones
   double from = 0.0, to = 0.0;  ///< places between which the first one does
@@ -28,6 +21,6 @@ struct Newcomers {
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
 Newcomers find_newcomers(const LargeModel& large, const Model& model,
-                         const std::vector<ProjectedPlace>& places, Complex centre, double reference);
+                         const std::vector<ProjectedPlace>& places, const Shift& centre, double reference);
 
 }  // namespace eigentrail

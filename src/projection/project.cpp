@@ -10,6 +10,34 @@ ProjectedFamily::ProjectedFamily(ModelDescription description, AffinePencil<Matr
                                  Projection projection)
     : AffineFamily<Matrix>(std::move(description), std::move(pencil)), projection_(std::move(projection)) {}
 
+namespace {
+
+void replace_all_but_space(Projection& projection, Projection outcome) {
+  outcome.basis = std::move(projection.basis);
+  outcome.motions = std::move(projection.motions);
+  outcome.freedoms = projection.freedoms;
+  outcome.names = std::move(projection.names);
+  projection = std::move(outcome);
+}
+
+}  // namespace
+
+void ProjectedFamily::settle(Projection outcome) {
+  replace_all_but_space(projection_, std::move(outcome));
+}
+
+Matrix ProjectedFamily::take_basis() {
+  return std::move(projection_.basis);
+}
+
+Matrix ProjectedScene::take_basis() {
+  return std::move(projection_.motions->basis);
+}
+
+void ProjectedScene::settle(Projection outcome) {
+  replace_all_but_space(projection_, std::move(outcome));
+}
+
 ProjectedScene::ProjectedScene(std::shared_ptr<const Model> scene, Projection projection, Path first)
     : Model(scene->description()),
       scene_(std::move(scene)),

@@ -27,33 +27,48 @@ ProjectedMode mode_of(const SmallPencil& small, Complex s) {
   return mode;
 }
 
-ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
+RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape) {
   constexpr double elsewhere = 0.05;  // of |s|: far above the tolerance of the trace
   constexpr int rounds = 3;           // each doubles the digits
   constexpr double settled = 1e-8;    // of |s|: what is left is the square of the last correction
-  if (!std::isfinite(std::abs(s)) || s == 0.0) return {s, {}, {}};
+  if (!std::isfinite(std::abs(s)) || s == 0.0) return {{s, {}, {}}, true};
   const auto& [M, C, K] = small;
-  ProjectedMode mode{s, {}, {}};
-  double change = INFINITY;
-  for (int i = 0; i < rounds && change > settled * std::abs(s); ++i) {
+  RefinedMode refined{{s, {}, {}}};
+  ProjectedMode& mode = refined.mode;
+  for (int i = 0; i < rounds && !refined.is_settled; ++i) {
     mode = mode_of(small, mode.s);
     const ComplexVector inertia = M * mode.right, damping = C * mode.right;
     const Complex residual = mode.left.transpose() * (mode.s * (mode.s * inertia + damping) + K * mode.right);
     const Complex slope = mode.left.transpose() * (2.0 * mode.s * inertia + damping);
     const Complex correction = residual / slope;
-    change = std::abs(correction);
     mode.s -= correction;
-    if (!(std::abs(mode.s - s) < elsewhere * std::abs(s))) return {s, shape, mode_of(small, s).left};
+    if (!(std::abs(mode.s - s) < elsewhere * std::abs(s))) return {{s, shape, mode_of(small, s).left}};
+    refined.is_settled = std::abs(correction) <= settled * std::abs(s);
   }
-  return mode;
+  return refined;
 }
 
-ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis) {
-  Matrix parts(basis.cols(), 4);
-  parts << mode.right.real(), mode.right.imag(), mode.left.real(), mode.left.imag();
+std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& basis) {
+  Matrix parts(basis.cols(), 4 * static_cast<Eigen::Index>(modes.size()));
+  Eigen::Index j = 0;
+  for (const ProjectedMode& mode : modes) {
+    parts.middleCols(j, 4) << mode.right.real(), mode.right.imag(), mode.left.real(), mode.left.imag();
+    j += 4;
+  }
   const Matrix all = product(basis, parts);
-  const Complex i(0.0, 1.0);
-  return {mode.s, (all.col(0) + i * all.col(1)).normalized(), (all.col(2) + i * all.col(3)).normalized()};
+  std::vector<ProjectedMode> result;
+  j = 0;
+  const auto next = [&] {
+    ComplexVector vector(all.rows());
+    vector.real() = all.col(j++);
+    vector.imag() = all.col(j++);
+    return ComplexVector(vector.normalized());
+  };
+  for (const ProjectedMode& mode : modes) {
+    ComplexVector right = next();
+    result.push_back({mode.s, std::move(right), next()});
+  }
+  return result;
 }
 
 double EigenvalueError::relative_to(double size) const {
@@ -92,20 +107,35 @@ struct TermProducts {
 
   Eigen::Index count() const { return M.cols() / 2; }
   ComplexVector of(const RowBlock& products, Eigen::Index j) const {
-    return products.col(j).cast<Complex>() + Complex(0.0, 1.0) * products.col(count() + j).cast<Complex>();
+    ComplexVector column(products.rows());
+    column.real() = products.col(j);
+    column.imag() = products.col(count() + j);
+    return column;
   }
-  /// (M s^2 + C s + K) times vector j, real and imaginary part.
-  Matrix residual(Complex s, Eigen::Index j) const {
-    const Complex square = s * s;
-    const Eigen::Index i = count() + j;
-    Matrix parts(M.rows(), 2);
-    parts.col(0) = square.real() * M.col(j) - square.imag() * M.col(i) + s.real() * C.col(j) -
-                   s.imag() * C.col(i) + K.col(j);
-    parts.col(1) = square.real() * M.col(i) + square.imag() * M.col(j) + s.real() * C.col(i) +
-                   s.imag() * C.col(j) + K.col(i);
-    return parts;
+  /// (M s^2 + C s + K) times each vector, with its own s.
+  RowBlock residuals(const ComplexVector& s) const {
+    const Vector a = s.real(), b = s.imag(), p = s.cwiseAbs2().real() - 2.0 * b.cwiseAbs2(),
+                 q = 2.0 * a.cwiseProduct(b);  // s^2 = p + i q
+    const Eigen::Index k = count();
+    RowBlock R(M.rows(), 2 * k);
+    R.leftCols(k) = M.leftCols(k) * p.asDiagonal();
+    R.leftCols(k) -= M.rightCols(k) * q.asDiagonal();
+    R.leftCols(k) += C.leftCols(k) * a.asDiagonal();
+    R.leftCols(k) -= C.rightCols(k) * b.asDiagonal();
+    R.rightCols(k) = M.leftCols(k) * q.asDiagonal();
+    R.rightCols(k) += M.rightCols(k) * p.asDiagonal();
+    R.rightCols(k) += C.leftCols(k) * b.asDiagonal();
+    R.rightCols(k) += C.rightCols(k) * a.asDiagonal();
+    return R + K;
   }
 };
+
+/// Real and imaginary part of the force j of a block, n x 2.
+Matrix force(const RowBlock& block, Eigen::Index j) {
+  Matrix parts(block.rows(), 2);
+  parts << block.col(j), block.col(block.cols() / 2 + j);
+  return parts;
+}
 
 RowBlock side_by_side(const std::vector<ProjectedMode>& modes, ComplexVector ProjectedMode::*vector) {
   const auto k = static_cast<Eigen::Index>(modes.size());
@@ -131,6 +161,10 @@ std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
     const RowBlock left = side_by_side(modes, &ProjectedMode::left);
     transposed = {pencil.M.transpose() * left, pencil.C.transpose() * left, pencil.K.transpose() * left};
   }
+  ComplexVector s_of(static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) s_of[static_cast<Eigen::Index>(i)] = modes[i].s;
+  const RowBlock residuals = products.residuals(s_of);
+  const RowBlock of_left = pencil.symmetric ? RowBlock() : transposed.residuals(s_of);
   std::vector<EigenvalueError> errors;
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
@@ -138,8 +172,8 @@ std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
     const ComplexVector& y = pencil.symmetric ? modes[i].right : modes[i].left;
     const Vector scale = std::norm(s) * M + std::abs(s) * C + K;
     const DualNorm size(pencil.A, (scale.array() + 1e-12 * scale.maxCoeff()).matrix());
-    const double right_size = size(products.residual(s, j));
-    const double residual = right_size * (pencil.symmetric ? right_size : size(transposed.residual(s, j)));
+    const double right_size = size(force(residuals, j));
+    const double residual = right_size * (pencil.symmetric ? right_size : size(force(of_left, j)));
     const ComplexVector inertia = 2.0 * products.of(products.M, j);
     const double slope = std::abs(y.cwiseProduct(s * inertia + products.of(products.C, j)).sum());
     const double curvature = std::abs(y.cwiseProduct(inertia).sum());

@@ -22,13 +22,18 @@ struct ProjectedMode {
 /// The mode of an eigenvalue s of the small pencil, by inverse iteration.
 ProjectedMode mode_of(const SmallPencil& small, Complex s);
 
-/// The mode of an eigenvalue that a rough trace knows to few digits, corrected by inverse iteration and
-/// two-sided Rayleigh quotients. Where these lead elsewhere s and the shape stay as they are; where s is not
-/// finite or zero there are no vectors.
-ProjectedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape);
+struct RefinedMode {
+  ProjectedMode mode;
+  bool is_settled = false;  ///< the eigenvalue is known to about 1e-16; not so where two of them meet
+};
 
-/// The mode with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
-ProjectedMode lifted(const ProjectedMode& mode, const Matrix& basis);
+/// The mode of an eigenvalue that is known to few digits, corrected by inverse iteration and two-sided
+/// Rayleigh quotients. Where these lead elsewhere s and the shape stay as they are; where s is not finite or
+/// zero there are no vectors.
+RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape);
+
+/// The modes with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
+std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& basis);
 
 /// How far an eigenvalue may be from one of the large pencil.
 struct EigenvalueError {

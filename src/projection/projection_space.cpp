@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <limits>
 
+#include "core/products.hpp"
 #include "core/singular_vectors.hpp"
 
 namespace eigentrail {
@@ -15,37 +16,47 @@ constexpr double negligible = 1e-10;
 
 /// Removes from the columns of B their components in the space of Q; twice, because one pass leaves rounding.
 void orthogonalize(const Matrix& Q, Matrix& B) {
-  for (int pass = 0; pass < 2 && Q.cols() > 0; ++pass) B -= Q * (Q.transpose() * B);
+  for (int pass = 0; pass < 2 && Q.cols() > 0; ++pass) B -= product(Q, transposed_product(Q, B));
+}
+
+/// An orthonormal basis of the columns of B, without those that are negligible beside the ones before.
+Matrix orthonormal(Matrix B) {
+  Eigen::Index count = 0;
+  for (Eigen::Index j = 0; j < B.cols(); ++j) {
+    Vector column = B.col(j);
+    for (int pass = 0; pass < 2; ++pass)
+      column -= B.leftCols(count) * (B.leftCols(count).transpose() * column);
+    const double norm = column.norm();
+    if (norm > negligible) B.col(count++) = column / norm;
+  }
+  return B.leftCols(count);
 }
 
 }  // namespace
 
 void ProjectionSpace::add(const ComplexMatrix& vectors) {
   const Eigen::Index k = vectors.cols();
-  Matrix B(vectors.rows(), 2 * k);
-  B << vectors.real(), vectors.imag();
-  const Matrix added = B;
-  orthogonalize(basis_, B);
-  Matrix fresh(B.rows(), 2 * k);
-  Eigen::Index count = 0;
-  for (Eigen::Index j = 0; j < 2 * k; ++j) {
-    Matrix column = B.col(j);
-    orthogonalize(fresh.leftCols(count), column);
-    orthogonalize(basis_, column);
-    const double norm = column.norm();
-    if (!(norm > negligible)) continue;
-    column /= norm;
-    orthogonalize(basis_, column);
-    orthogonalize(fresh.leftCols(count), column);
-    fresh.col(count++) = column.normalized();
+  Matrix added(vectors.rows(), 2 * k);
+  added << vectors.real(), vectors.imag();
+  Matrix fresh = added;
+  // What is left of a vector that nearly lies in the space is known to few digits until it is long again.
+  for (int pass = 0; pass < 2; ++pass) {
+    orthogonalize(basis_, fresh);
+    fresh = orthonormal(std::move(fresh));
   }
-  const Eigen::Index before = basis_.cols();
+  const Eigen::Index before = basis_.cols(), count = fresh.cols();
   basis_.conservativeResize(Eigen::NoChange, before + count);
-  basis_.rightCols(count) = fresh.leftCols(count);
+  basis_.rightCols(count) = fresh;
   Matrix all = Matrix::Zero(before + count, vectors_.cols() + 2 * k);
   all.topLeftCorner(before, vectors_.cols()) = vectors_;
-  all.rightCols(2 * k) = basis_.transpose() * added;
+  all.rightCols(2 * k) = transposed_product(basis_, added);
   vectors_ = std::move(all);
+}
+
+void ProjectionSpace::reduce(const Matrix& energy, double accuracy) {
+  const Matrix parts = principal(energy, accuracy);
+  basis_ = product(basis_, parts);
+  vectors_ = transposed_product(parts, vectors_);
 }
 
 Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {

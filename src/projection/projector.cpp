@@ -7,19 +7,20 @@
 #include <limits>
 #include <numbers>
 
-#include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "projection/large_model.hpp"
 #include "projection/newcomers.hpp"
-#include "projection/projection_error.hpp"
 #include "projection/projection_space.hpp"
+#include "projection/scouted_places.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// Vectors are kept to this share of the square root of the target: with a larger one what is left out, and
-/// not the distance from the samples, is most of the error, of which the indicator knows little.
-constexpr double share_of_vectors = 0.02;
+/// Vectors are kept to this share of the square root of the target. What is left out of right and left
+/// vectors together is then below a tenth of the target; measured, two hundredths. With 0.02 a projection has
+/// a quarter more coordinates, and all that is done with it takes twice as long; with 1, what is left out is
+/// most of the error.
+constexpr double share_of_vectors = 0.3;
 
 /// Accuracy of the exact eigenvalues, as a share of the error that they are to show.
 constexpr double accuracy_of_samples = 0.01;
@@ -27,23 +28,11 @@ constexpr double accuracy_of_samples = 0.01;
 /// Accuracy of vectors that are only put into the space, as a share of that to which they are kept.
 constexpr double accuracy_of_added_vectors = 0.1;
 
-/// Tolerance of the traces that only look for the worst place.
-constexpr double scout_tolerance = 1e-3;
-
-/// Such a trace has at least this many steps, so that places between the samples are seen.
-constexpr int scout_steps = 16;
-
 std::string digits(double value, int count) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*g", count, value);
   return text.data();
 }
-
-/// The mode with the largest indicator of all places.
-struct Worst {
-  const ProjectedPlace* place = nullptr;
-  double indicator = 0.0;  ///< relative to max(|s|, reference)
-};
 
 class Projector {
  public:
@@ -55,7 +44,8 @@ class Projector {
         options_(options),
         space_(large.model().n_coordinates()),
         target_(options.share_of_tolerance * trace.tolerance),
-        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver) {
+        finder_(std::clamp(accuracy_of_samples * target_, 1e-13, 1e-9), options.solver),
+        places_(large, trace, lines_) {
     if (lines_.empty()) lines_.push_back(trace.values);
     check_choice();
   }
@@ -63,26 +53,46 @@ class Projector {
   std::unique_ptr<Model> along_the_lines() {
     first_samples(lines_.front());
     if (lines_.size() > 1) first_samples(lines_.back());
+    bool traces_hold = false;
     while (true) {
-      const std::unique_ptr<Model> model = reduced();
-      std::vector<ProjectedPlace> places;
-      for (const ParameterValues& line : lines_) scout(*model, line, places);
-      const Worst worst = find_worst(*model, places);
+      std::unique_ptr<Model> model = reduced();
+      const Worst worst = places_.worst(*model, traces_hold, target_ / factor_);
       if (projection_.factorizations > options_.max_factorizations)
-        return give_up(worst, worst.indicator * factor_,
+        return give_up(std::move(model), worst, worst.indicator * factor_,
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
-      // Exact eigenvalues at the worst place show the true error of the space as it was.
-      const double error = error_at(*worst.place);
+      // Exact eigenvalues at the worst place show the true error of the space as it is.
+      Sample sample = sample_at(*worst.place);
+      const double error = places_.distance(*model, *worst.place, sample.exact);
+      const Vector parameters = worst.place->at.parameters;
+      traces_hold = error <= scout_tolerance;
       if (worst.indicator > 0.0 && error > rounding_of_samples)
         factor_ = std::max(factor_, error / worst.indicator);
-      projection_.error = std::max(error, factor_ * worst.indicator);
-      projection_.error_at = worst.place->at.p;
-      const bool stuck = error > target_ && stays(*worst.place, error);
-      if (!stuck && (error > target_ || projection_.error > safety * target_)) continue;
-      if (lines_.size() == 1) note_newcomers(*model, places);
-      if (!stuck) return reduced();
-      return give_up(worst, error,
-                     "also with the vectors of that place, probably by rounding of the large matrices");
+      note_error(error, worst);
+      bool is_enough = error <= target_ && projection_.error <= safety * target_;
+      if (is_enough) {
+        note_error(error, places_.worst_of_all(*model));
+        is_enough = projection_.error <= safety * target_;
+      }
+      Worst left = worst_of_visited(*model);
+      if (left.indicator > target_) {
+        (void)places_.worst_of_all(*model);  // others may be worse
+        left = worst_of_visited(*model);
+      }
+      const bool stuck = left.indicator > target_;
+      if (!stuck && !is_enough) {
+        add_vectors(sample, *model);
+        visits_.push_back({parameters, std::move(sample.exact), error});
+        continue;
+      }
+      if (lines_.size() == 1) note_newcomers(*model);
+      if (stuck)
+        return give_up(std::move(model), left, left.indicator,
+                       "also with the vectors of that place, probably by rounding of the large matrices");
+      // Vectors that are at hand are not thrown away; left ones are not looked for only to be safer.
+      if (!is_complete(sample)) return settled(std::move(model));
+      add_vectors(sample, *model);
+      model.reset();
+      return settled(reduced());
     }
   }
 
@@ -92,7 +102,7 @@ class Projector {
       const auto place = large_.place_at(p, parameters_at(p, lines_.front()));
       if (place) add(find_chosen(large_.pencil(*place)), p);
     }
-    return reduced();
+    return settled(reduced());
   }
 
  private:
@@ -182,136 +192,96 @@ class Projector {
 
   /// The model on the space of the vectors, without what these need less than the target.
   std::unique_ptr<Model> reduced() {
+    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
+    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_);
+  }
+
+  std::unique_ptr<Model> settled(std::unique_ptr<Model> model) {
+    projection_.factorizations = finder_.factorizations();
     projection_.solutions = finder_.solutions();
     projection_.peak_bytes = finder_.peak_bytes();
     projection_.method = finder_.method();
     projection_.target = target_;
-    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
-    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_, projection_);
+    large_.settle(*model, std::move(projection_));
+    return model;
   }
 
   /// Relative accuracy of the vectors in the space, right and left: their product is the target.
   double accuracy_of_vectors() const { return share_of_vectors * std::sqrt(target_); }
 
-  /// A rough trace of the projected model along a line; its points are added to `places`.
-  void scout(const Model& model, const ParameterValues& line, std::vector<ProjectedPlace>& places) {
-    TraceOptions options = trace_;
-    options.values = line;
-    options.tolerance = std::max(trace_.tolerance, scout_tolerance);
-    options.certify = false;
-    options.events = {};
-    options.events.extrema = false;
-    options.events.veerings = false;
-    options.order.reset();
-    options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
-    TraceObserver observer;
-    observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
-    observer.point = [&](const TracePoint& point) {
-      const Path& path = point.node.path;
-      ProjectedPlace& place = places.emplace_back(
-          ProjectedPlace{{point.node.p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)},
-                         large_.small(model, point),
-                         {}});
-      for (const ModeState& mode : point.modes) {
-        const ComplexVector shape =
-            mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
-        place.modes.push_back(refined_mode(place.small, mode.s, shape));
-      }
-      return true;
-    };
-    const TraceResult result = trace(model, options, observer);
-    if (places.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
+  /// Exact eigenvalues at a place, and the modes near one shift or two.
+  struct Sample {
+    std::vector<Complex> exact;
+    SparsePencil pencil;
+    double p = 0.0;
+    std::vector<NearestModes> modes;  ///< those near the usual shift, at first without left vectors
+  };
+
+  static bool is_complete(const Sample& sample) {
+    return sample.pencil.one_sided || sample.modes.front().left.cols() > 0;
   }
 
-  /// Without infinite eigenvalues and rigid-body motions: zeros are known to the root of rounding only.
-  static std::vector<ProjectedMode> moving_modes(const ProjectedPlace& place) {
-    double largest = 0.0;
-    std::vector<ProjectedMode> modes;
-    for (const ProjectedMode& mode : place.modes) {
-      if (!std::isfinite(std::abs(mode.s))) continue;
-      largest = std::max(largest, std::abs(mode.s));
-      modes.push_back(mode);
-    }
-    std::erase_if(modes, [&](const ProjectedMode& mode) { return std::abs(mode.s) <= rigid * largest; });
-    return modes;
-  }
-
-  double size(Complex s) const { return std::max(std::abs(s), reference_); }
-
-  Worst find_worst(const Model& model, const std::vector<ProjectedPlace>& places) const {
-    Worst worst{&places.front(), -1.0};
-    for (const ProjectedPlace& place : places) {
-      const double indicator = indicator_at(model, place);
-      if (indicator > worst.indicator) worst = {&place, indicator};
-    }
-    return worst;
-  }
-
-  /// The largest indicator of the modes at a place.
-  double indicator_at(const Model& model, const ProjectedPlace& place) const {
-    const SparsePencil pencil = large_.pencil(place.at);
-    const auto basis = large_.basis(model, pencil);
-    if (!basis) return 0.0;
-    std::vector<ProjectedMode> modes = moving_modes(place);
-    for (ProjectedMode& mode : modes) mode = lifted(mode, *basis);
-    const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      largest = std::max(largest, errors[i].relative_to(size(modes[i].s)));
-    return largest;
-  }
-
-  /// Largest distance of the modes at a place from exact eigenvalues of the large pencil, relative to their
-  /// size; the vectors of these are added to the space.
-  double error_at(const ProjectedPlace& place) {
-    const SparsePencil pencil = large_.pencil(place.at);
+  Sample sample_at(const ProjectedPlace& place) {
     const Complex centre = usual_shift(trace_.modes).value();
-    const std::vector<ProjectedMode> modes = moving_modes(place);
     std::vector<Complex> followed;
     double farthest = 0.0;
-    for (const ProjectedMode& mode : modes) {
+    for (const ProjectedMode& mode : ScoutedPlaces::moving_modes(place)) {
       followed.push_back(mode.s);
       farthest = std::max(farthest, std::abs(mode.s - centre));
     }
+    Sample sample{{}, large_.pencil(place.at), place.at.p, {}};
     // More modes cost less than a second shift with its factorization.
-    const NearestModes exact =
-        find(pencil, {usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2}, place.at.p);
-    add(exact, place.at.p);
-    std::vector<Complex> known(exact.s.begin(), exact.s.end());
-    for (const Complex s : find_far_ones(pencil, followed, exact.radius, place.at.p)) known.push_back(s);
-    double largest = 0.0;
-    for (const ProjectedMode& mode : modes) {
-      EigenvalueError error{std::numeric_limits<double>::infinity()};
-      for (const Complex other : known) error.distance = std::min(error.distance, std::abs(other - mode.s));
-      error.half_gap = half_gap(place.small, mode);
-      largest = std::max(largest, error.relative_to(size(mode.s)));
+    ModeRequest request{usual_shift(trace_.modes), count_, 1.01 * farthest, 3 * count_ / 2, std::nullopt};
+    request.only_right = true;
+    sample.modes.push_back(find(sample.pencil, request, sample.p));
+    const double radius = sample.modes.front().radius;
+    std::erase_if(followed, [&](Complex s) { return std::abs(s - centre) <= radius; });
+    if (!followed.empty()) {
+      complete(sample);  // while its factors are at hand
+      sample.modes.push_back(find_far_ones(sample.pencil, followed, sample.p));
     }
-    return largest;
+    for (const NearestModes& modes : sample.modes)
+      sample.exact.insert(sample.exact.end(), modes.s.begin(), modes.s.end());
+    return sample;
+  }
+
+  /// Finds left vectors that are missing. They need only the accuracy of vectors.
+  void complete(Sample& sample) {
+    if (is_complete(sample)) return;
+    NearestModes& modes = sample.modes.front();
+    if (!finder_.add_left(sample.pencil, accuracy_of_added_vectors * accuracy_of_vectors(), modes))
+      modes = find(sample.pencil, {usual_shift(trace_.modes), count_}, sample.p);
+  }
+
+  /// Adds the vectors of a sample to the space, which it takes back from the model.
+  void add_vectors(Sample& sample, Model& model) {
+    complete(sample);
+    space_.take_basis(large_.take_basis(model));
+    for (const NearestModes& modes : sample.modes) add(modes, sample.p);
   }
 
   /// Followed modes that have left the neighbourhood of the usual shift are looked for with one of their own.
-  ComplexVector find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& followed, double radius,
-                              double p) {
+  NearestModes find_far_ones(const SparsePencil& pencil, const std::vector<Complex>& far, double p) {
     double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
-    int count = 0;
-    for (const Complex s : followed) {
-      if (std::abs(s - usual_shift(trace_.modes).value()) <= radius) continue;
+    for (const Complex s : far) {
       lowest = std::min(lowest, s.imag());
       highest = std::max(highest, std::abs(s));
-      ++count;
     }
-    if (count == 0) return {};
     const double middle = 0.5 * (lowest + highest);
     const double cover = 1.01 * std::max(highest - middle, 1e-3 * highest);
-    const int most = 3 * (count + options_.spare_modes);
-    const NearestModes modes = find(pencil, {{0.0, middle}, count + options_.spare_modes, cover, most}, p);
-    add(modes, p);
-    return modes.s;
+    const int count = static_cast<int>(far.size()) + options_.spare_modes;
+    return find(pencil, {{0.0, middle}, count, cover, 3 * count}, p);
   }
 
-  void note_newcomers(const Model& model, const std::vector<ProjectedPlace>& places) {
+  /// The error of the projection, from the true one at a place and an indicator.
+  void note_error(double error, const Worst& worst) {
+    projection_.error = std::max(error, factor_ * worst.indicator);
+    projection_.error_at = worst.place->at.p;
+  }
+
+  void note_newcomers(const Model& model) {
     const Newcomers found =
-        find_newcomers(large_, model, places, usual_shift(trace_.modes).value(), reference_);
+        find_newcomers(large_, model, places_.all(), usual_shift(trace_.modes), places_.reference());
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -322,26 +292,31 @@ class Projector {
                                 " rad/s; to follow more, ask for more modes");
   }
 
-  /// Whether exact eigenvalues were computed at this place before, and the projected ones, with their vectors
-  /// in the space, are as far from them as before. Notes the place.
-  bool stays(const ProjectedPlace& place, double error) {
+  /// The largest error that the vectors of a place have left there, though they are in the space; those
+  /// that they have reduced to less than half are not counted.
+  Worst worst_of_visited(const Model& model) const {
     constexpr double same_place = 1e-9;  // of the range: where events are located again
     const double close = same_place * std::abs(trace_.to - trace_.from);
-    const auto before = std::find_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
-      return (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close;
-    });
-    const bool stayed = before != visits_.end() && error > 0.5 * before->error;
-    visits_.push_back({place.at.parameters, error});
-    return stayed;
+    Worst worst;
+    for (const ProjectedPlace& place : places_.all()) {
+      if (place.is_old) continue;
+      for (const Visit& visit : visits_) {
+        if (!((visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close)) continue;
+        const double error = places_.distance(model, place, visit.exact);
+        if (error > worst.indicator && error > 0.5 * visit.error) worst = {&place, error};
+      }
+    }
+    return worst;
   }
 
-  std::unique_ptr<Model> give_up(const Worst& worst, double error, const std::string& why) {
+  std::unique_ptr<Model> give_up(std::unique_ptr<Model> model, const Worst& worst, double error,
+                                 const std::string& why) {
     projection_.error = error;
     projection_.error_at = worst.place->at.p;
     projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
                                 trace_.parameter + " = " + exact_text(worst.place->at.p) + " " + why +
                                 "; asked for were " + digits(target_, 2));
-    return reduced();
+    return settled(std::move(model));
   }
 
   LargeModel& large_;
@@ -352,12 +327,13 @@ class Projector {
   double target_;  ///< error of the eigenvalues by the projection, relative to their size
   ModeFinder finder_;
   Projection projection_;
+  ScoutedPlaces places_;
   double frequency_ = 0.0;  ///< largest |s| that was found
-  double reference_ = 0.0;  ///< of the scout's eigenvalues
   double factor_ = 1.0;     ///< error over indicator, the largest that was seen
   /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
   struct Visit {
     Vector parameters;
+    std::vector<Complex> exact;
     double error = 0.0;
   };
   std::vector<Visit> visits_;

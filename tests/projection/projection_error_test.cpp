@@ -30,8 +30,10 @@ TEST(SmallPencils, RoughEigenvaluesAreRefinedWithBothVectors) {
   for (const Complex exact :
        {Complex(-0.123150382544776, 1.410931326948329), Complex(-0.025062113596449, 2.277517169724337),
         Complex(-0.151787503858775, 2.990154160713652)}) {
-    const ProjectedMode mode =
+    const RefinedMode refined =
         refined_mode(small, exact * Complex(1.0 + 1e-3, -1e-3), ComplexVector::Ones(3));
+    EXPECT_TRUE(refined.is_settled);
+    const ProjectedMode& mode = refined.mode;
     EXPECT_LT(std::abs(mode.s - exact), 1e-13 * std::abs(exact));
     EXPECT_LT((at(small, mode.s) * mode.right).norm(), 1e-9);
     EXPECT_LT((mode.left.transpose() * at(small, mode.s)).norm(), 1e-9);
@@ -43,9 +45,19 @@ TEST(SmallPencils, RoughEigenvaluesAreRefinedWithBothVectors) {
 TEST(SmallPencils, AValueFarFromAllEigenvaluesStaysWithItsShape) {
   const ComplexVector shape = ComplexVector::Unit(3, 1);
   const Complex far(0.0, 1.9);
-  const ProjectedMode mode = refined_mode(circulatory_pencil(), far, shape);
-  EXPECT_EQ(mode.s, far);
-  EXPECT_EQ(mode.right, shape);
+  const RefinedMode refined = refined_mode(circulatory_pencil(), far, shape);
+  EXPECT_EQ(refined.mode.s, far);
+  EXPECT_EQ(refined.mode.right, shape);
+  EXPECT_FALSE(refined.is_settled);
+}
+
+TEST(SmallPencils, ADoubleEigenvalueDoesNotSettle) {
+  // Two masses, the first with critical damping: s = -1 twice.
+  SmallPencil small{Matrix::Identity(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2)};
+  small.C(0, 0) = 2.0;
+  small.K(1, 1) = 9.0;
+  EXPECT_FALSE(refined_mode(small, -1.001, {}).is_settled);
+  EXPECT_TRUE(refined_mode(small, Complex(0.01, 3.001), {}).is_settled);
 }
 
 const SparseFamily& family_of(const TraceSetup& setup) {

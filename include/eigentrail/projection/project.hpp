@@ -43,6 +43,10 @@ class ProjectedFamily final : public AffineFamily<Matrix> {
   ProjectedFamily(ModelDescription description, AffinePencil<Matrix> pencil, Projection projection);
 
   const Projection* projection() const override { return &projection_; }
+  /// Replaces all that is known of the projection, but for its space.
+  void settle(Projection outcome);
+  /// Moves the basis of the space out of a model that is no longer needed.
+  Matrix take_basis();
 
  private:
   Projection projection_;
@@ -56,6 +60,10 @@ class ProjectedScene final : public Model {
   ProjectedScene(std::shared_ptr<const Model> scene, Projection projection, Path first);
 
   const Projection* projection() const override { return &projection_; }
+  /// Replaces all that is known of the projection, but for its space.
+  void settle(Projection outcome);
+  /// Moves the basis of the space out of a model that is no longer needed.
+  Matrix take_basis();
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override { return scene_->structure(traced_parameter); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/products.hpp"
 #include "eigentrail/core/complex_lu.hpp"
 
 namespace eigentrail {
@@ -25,6 +26,9 @@ constexpr double growth = 1.6;
 /// An eigenvalue counts as followed if its correction is at most this share of its distance from the other
 /// one, and of what it moved.
 constexpr double certain = 0.2;
+/// As a share of the distance of the other one: the last move of an eigenvalue on that way, which only leads
+/// to the next place. With a smaller one the way takes up to twice as many factorizations.
+constexpr double on_the_way = 1e-2;
 
 /// A matrix series at a complex place. Its derivatives are formed only of the vectors that they are applied
 /// to.
@@ -108,6 +112,38 @@ class PencilAt {
   SeriesAt second_, first_, zeroth_;
 };
 
+/// The same at one h, for many mu: its matrices are computed once, and only the derivative by mu is known.
+class FixedPencil {
+ public:
+  FixedPencil(const ReducedPencil& pencil, Chart chart, Complex h) : n_(pencil.size()), terms_(n_ * n_, 3) {
+    set(0, chart == Chart::finite ? pencil.M : pencil.K, h);
+    set(1, pencil.C, h);
+    set(2, chart == Chart::finite ? pencil.K : pencil.M, h);
+  }
+
+  void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const { block = sum(mu * mu, mu, 1.0); }
+  /// The derivative of P by mu times vectors.
+  ComplexMatrix by_mu(Complex mu, const ComplexMatrix& v) const {
+    return product(sum(2.0 * mu, 1.0, 0.0), v);
+  }
+
+ private:
+  void set(Eigen::Index term, const MatrixSeries& series, Complex h) {
+    Matrix real = Matrix::Zero(n_, n_), imag = real;
+    SeriesAt(series, h).add_to(1.0, real, imag);
+    terms_.col(term).real() = real.reshaped();
+    terms_.col(term).imag() = imag.reshaped();
+  }
+
+  /// A sum of the matrices, by BLAS: Eigen's takes as long as the factorization.
+  ComplexMatrix sum(Complex second, Complex first, Complex zeroth) const {
+    return product(terms_, ComplexVector(Eigen::Vector3cd(second, first, zeroth))).reshaped(n_, n_);
+  }
+
+  Eigen::Index n_;
+  ComplexMatrix terms_;  ///< n^2 x 3: the matrices of mu^2, mu and 1, column by column
+};
+
 using TwoByTwo = Eigen::Matrix2cd;
 
 /// The derivative of det G by x and y, from those of G.
@@ -143,30 +179,26 @@ class Bordered {
   enum class Derivatives { none, first, second_by_mu, second };
 
   Values at(const PencilAt& pencil, Complex mu, Derivatives wanted = Derivatives::second) {
-    const Eigen::Index n = b_.rows();
-    if (n == 1) return of_one_freedom(pencil, mu);
-    ComplexMatrix B(n + 2, n + 2);
-    pencil.write(mu, B.topLeftCorner(n, n));
-    B.topRightCorner(n, 2) = b_;
-    B.bottomLeftCorner(2, n) = c_.adjoint();
-    B.bottomRightCorner(2, 2).setZero();
-    const ComplexLu lu(std::move(B));
-    v_.resize(n, 2);
-    ComplexMatrix w(n, 2);
-    for (int k = 0; k < 2; ++k) {
-      ComplexVector right = ComplexVector::Unit(n + 2, n + k), left = right;
-      lu.solve_in_place(right);
-      lu.solve_adjoint_in_place(left);
-      v_.col(k) = right.head(n);
-      G_.col(k) = right.tail(2);
-      w.col(k) = left.head(n);
-    }
+    if (b_.rows() == 1) return of_one_freedom(pencil, mu);
+    const ComplexLu lu = factor(pencil, mu);
+    const ComplexMatrix w = solve(lu);
     Values values{G_.determinant(), 0.0, 0.0, 0.0, 0.0, 0.0};
     if (wanted != Derivatives::none) differentiate(pencil, mu, lu, w, wanted, values);
-    if (v_.allFinite() && w.allFinite()) {
-      c_ = orthonormal(v_);
-      b_ = orthonormal(w);
+    renew(w);
+    return values;
+  }
+
+  /// f and f_mu.
+  Values at(const FixedPencil& pencil, Complex mu) {
+    if (b_.rows() == 1) {
+      ComplexMatrix value(1, 1);
+      pencil.write(mu, value);
+      return {value(0, 0), pencil.by_mu(mu, ComplexMatrix::Ones(1, 1))(0, 0), 0.0, 0.0, 0.0, 0.0};
     }
+    const ComplexMatrix w = solve(factor(pencil, mu));
+    const TwoByTwo G_mu = -w.adjoint() * pencil.by_mu(mu, v_);
+    const Values values{G_.determinant(), slope_of(G_, G_mu), 0.0, 0.0, 0.0, 0.0};
+    renew(w);
     return values;
   }
 
@@ -186,6 +218,37 @@ class Bordered {
     const PencilAt::Products P(pencil, mu, one);
     return {value(0, 0),           P.by_mu()(0, 0),   P.by_h()(0, 0),
             P.by_mu_twice()(0, 0), P.by_both()(0, 0), P.by_h_twice()(0, 0)};
+  }
+
+  template <class Pencil>
+  ComplexLu factor(const Pencil& pencil, Complex mu) const {
+    const Eigen::Index n = b_.rows();
+    ComplexMatrix B(n + 2, n + 2);
+    pencil.write(mu, B.topLeftCorner(n, n));
+    B.topRightCorner(n, 2) = b_;
+    B.bottomLeftCorner(2, n) = c_.adjoint();
+    B.bottomRightCorner(2, 2).setZero();
+    return ComplexLu(std::move(B));
+  }
+
+  /// Sets v and G; returns w, the left counterpart of v.
+  ComplexMatrix solve(const ComplexLu& lu) {
+    const Eigen::Index n = b_.rows();
+    ComplexMatrix right = ComplexMatrix::Zero(n + 2, 2);
+    right.bottomRows(2).setIdentity();
+    ComplexMatrix left = right;
+    lu.solve_in_place(right);
+    lu.solve_adjoint_in_place(left);
+    v_ = right.topRows(n);
+    G_ = right.bottomRows(2);
+    return left.topRows(n);
+  }
+
+  /// The borders of the next place.
+  void renew(const ComplexMatrix& w) {
+    if (!v_.allFinite() || !w.allFinite()) return;
+    c_ = orthonormal(v_);
+    b_ = orthonormal(w);
   }
 
   static ComplexMatrix orthonormal(const ComplexMatrix& columns) {
@@ -213,14 +276,10 @@ class Bordered {
 
   /// The derivative of v by x from P_x v.
   static ComplexMatrix change(const ComplexLu& lu, const ComplexMatrix& P_x) {
-    ComplexMatrix result(P_x.rows(), 2);
-    for (int k = 0; k < 2; ++k) {
-      ComplexVector x = ComplexVector::Zero(lu.size());
-      x.head(P_x.rows()) = -P_x.col(k);
-      lu.solve_in_place(x);
-      result.col(k) = x.head(P_x.rows());
-    }
-    return result;
+    ComplexMatrix x = ComplexMatrix::Zero(lu.size(), 2);
+    x.topRows(P_x.rows()) = -P_x;
+    lu.solve_in_place(x);
+    return x.topRows(P_x.rows());
   }
 
   ComplexMatrix b_, c_, v_;  ///< n x 2
@@ -232,15 +291,19 @@ bool is_finite(Complex z) {
 }
 
 /// A root mu of f at fixed h by Newton's method; empty if it does not settle. `moved`: largest allowed way.
-std::optional<Complex> root_at(const PencilAt& pencil, Complex mu, double moved, Bordered& bordered) {
+/// `last_move`: how short the last move is to be; what is left is about its square over the distance of other
+/// roots. `has_borders`: they belong to the root already.
+std::optional<Complex> root_at(const FixedPencil& pencil, Complex mu, double moved, double last_move,
+                               bool has_borders, Bordered& bordered) {
   const Complex start = mu;
+  if (!has_borders) bordered.at(pencil, mu);
   for (int i = 0; i < most_iterations; ++i) {
-    const auto values = bordered.at(pencil, mu, Bordered::Derivatives::first);
+    const auto values = bordered.at(pencil, mu);
     const Complex move = -values.f / values.mu;
     if (!is_finite(move)) return std::nullopt;
     mu += move;
     if (std::abs(mu - start) > moved) return std::nullopt;
-    if (std::abs(move) <= settled * std::abs(mu)) return mu;
+    if (std::abs(move) <= std::max(settled * std::abs(mu), last_move)) return mu;
   }
   return std::nullopt;
 }
@@ -311,17 +374,20 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
   const Complex way = h - from;
   std::array<Complex, 2> slope{};
   double share = 0.0, step = 0.0;
+  bool has_borders = false;
   const auto go_to = [&](double next) {
     const PencilAt here(pencil, chart, from + next * way);
+    const FixedPencil fixed(pencil, chart, from + next * way);
     const std::array<Complex, 2> before = mu;
     std::array<Complex, 2> slope_there{};
     for (std::size_t k = 0; k < 2; ++k) {
       const Complex predicted = before[k] + (next - share) * slope[k];
-      bordered[k].at(here, predicted, Bordered::Derivatives::none);
-      const auto root = root_at(here, predicted, certain * std::abs(before[0] - before[1]), bordered[k]);
+      const double apart = std::abs(before[0] - before[1]);
+      const auto root =
+          root_at(fixed, predicted, certain * apart, on_the_way * apart, has_borders, bordered[k]);
       if (!root) {
         mu = before;
-        return false;
+        return has_borders = false;
       }
       mu[k] = *root;
       const auto f = bordered[k].at(here, mu[k], Bordered::Derivatives::first);
@@ -329,7 +395,7 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
     }
     slope = slope_there;
     share = next;
-    return true;
+    return has_borders = true;
   };
   if (!go_to(0.0)) return std::nullopt;
   step = first_way;
@@ -351,18 +417,20 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
   double share = first_share, step = first_share;
   std::array<Complex, 2> mu{point.mu + apart(share), point.mu - apart(share)}, before{point.mu, point.mu};
   double before_share = 0.0;
-  bool at_start = true;
+  bool at_start = true, has_borders = false;
   while (true) {
-    const PencilAt here(pencil, chart, point.h + share * down);
+    const FixedPencil here(pencil, chart, point.h + share * down);
     std::array<Complex, 2> found{};
     bool followed = true;
     for (std::size_t k = 0; k < 2 && followed; ++k) {
       const double other = std::abs(mu[0] - mu[1]);
-      bordered[k].at(here, mu[k], Bordered::Derivatives::none);
-      const auto root = root_at(here, mu[k], (at_start ? 0.5 : certain) * other, bordered[k]);
+      const double last_move = share < 1.0 ? on_the_way * other : 0.0;
+      const auto root =
+          root_at(here, mu[k], (at_start ? 0.5 : certain) * other, last_move, has_borders, bordered[k]);
       followed = root.has_value();
       if (followed) found[k] = *root;
     }
+    has_borders = followed;
     if (!followed) {
       if (at_start && share > least_share * first_share) {
         share *= 0.25;

@@ -1,0 +1,164 @@
+#include "projection/scouted_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "eigentrail/continuation/trace.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A rough trace has at least this many steps, so that places between the samples are seen.
+constexpr int scout_steps = 16;
+
+/// Places that are closer than this share of the longest step to the one before are left out: the indicator
+/// changes with the distance from the samples, and not where eigenvalues bend. Where some of them meet it is
+/// another one, and such places stay.
+constexpr double least_distance = 0.5;
+
+/// Largest finite magnitude.
+double largest_of(const std::vector<ProjectedMode>& modes) {
+  double largest = 0.0;
+  for (const ProjectedMode& mode : modes) {
+    if (std::isfinite(std::abs(mode.s))) largest = std::max(largest, std::abs(mode.s));
+  }
+  return largest;
+}
+
+/// Replaces the modes of a place by those of another space. False if one is not found there.
+bool renew(ProjectedPlace& place, const SmallPencil& small) {
+  const double largest = largest_of(place.modes);
+  for (ProjectedMode& mode : place.modes) {
+    if (std::abs(mode.s) <= rigid * largest) continue;  // nobody uses its vectors
+    RefinedMode refined = refined_mode(small, mode.s, {});
+    if (!refined.is_settled) return false;
+    mode = std::move(refined.mode);
+  }
+  place.is_old = false;
+  return true;
+}
+
+bool has_meeting(const TracePoint& point) {
+  return std::any_of(point.node.tracks.begin(), point.node.tracks.end(),
+                     [](const Track& track) { return track.departure.has_value(); });
+}
+
+}  // namespace
+
+Worst ScoutedPlaces::worst(const Model& model, bool traces_hold, double enough) {
+  if (traces_hold) {
+    for (ProjectedPlace& place : places_) place.is_old = true;
+    if (const auto found = find_worst(model, enough)) return *found;
+  }
+  places_.clear();
+  for (const ParameterValues& line : lines_) scout(model, line);
+  return find_worst(model, enough).value();
+}
+
+void ScoutedPlaces::scout(const Model& model, const ParameterValues& line) {
+  TraceOptions options = trace_;
+  options.values = line;
+  options.tolerance = std::max(trace_.tolerance, scout_tolerance);
+  options.certify = false;
+  options.events = {};
+  options.events.extrema = false;
+  options.events.veerings = false;
+  options.order.reset();
+  options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
+  const double close = least_distance * *options.max_step;
+  const std::size_t before = places_.size();
+  TraceObserver observer;
+  observer.started = [this](const TraceStart& start) { reference_ = start.s_ref; };
+  observer.point = [&](const TracePoint& point) {
+    const double p = point.node.p;
+    const bool is_close = places_.size() > before && std::abs(p - places_.back().at.p) < close;
+    if (is_close && p != trace_.to && !has_meeting(point)) return true;
+    const Path& path = point.node.path;
+    const SmallPencil small = large_.small(model, point);
+    ProjectedPlace& place = places_.emplace_back();
+    place.at = {p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)};
+    if (large_.keeps_small()) place.small = small;
+    for (const ModeState& mode : point.modes) {
+      const ComplexVector shape =
+          mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
+      place.modes.push_back(refined_mode(small, mode.s, shape).mode);
+    }
+    return true;
+  };
+  const TraceResult result = trace(model, options, observer);
+  if (places_.empty()) throw NotProjected("the projected model cannot be traced: " + result.message);
+}
+
+std::vector<ProjectedMode> ScoutedPlaces::moving_modes(const ProjectedPlace& place) {
+  std::vector<ProjectedMode> modes = place.modes;
+  std::erase_if(modes, [largest = largest_of(modes)](const ProjectedMode& mode) {
+    return !std::isfinite(std::abs(mode.s)) || std::abs(mode.s) <= rigid * largest;
+  });
+  return modes;
+}
+
+/// Compares a place with the worst one. False if the modes of an old place are not found again.
+bool ScoutedPlaces::look_at(const Model& model, std::size_t i, Worst& worst) {
+  if (!indicators_[i]) indicators_[i] = indicator_at(model, places_[i]);
+  if (indicators_[i] && *indicators_[i] > worst.indicator) worst = {&places_[i], *indicators_[i]};
+  return indicators_[i].has_value();
+}
+
+/// Empty if the modes of an old place are not found again.
+std::optional<Worst> ScoutedPlaces::find_worst(const Model& model, double enough) {
+  indicators_.assign(places_.size(), std::nullopt);
+  Worst worst{&places_.front(), -1.0};
+  for (std::size_t i = 0; i < places_.size(); i += 2) {
+    if (!look_at(model, i, worst)) return std::nullopt;
+  }
+  const bool is_enough = worst.indicator > enough;
+  const auto middle = static_cast<std::size_t>(worst.place - places_.data());
+  for (std::size_t i = 1; i < places_.size(); i += 2) {
+    const bool is_beside = i + 1 == middle || i == middle + 1;
+    if ((is_beside || !is_enough) && !look_at(model, i, worst)) return std::nullopt;
+  }
+  return worst;
+}
+
+Worst ScoutedPlaces::worst_of_all(const Model& model) {
+  Worst worst{&places_.front(), -1.0};
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!look_at(model, i, worst)) return this->worst(model, false, INFINITY);
+  }
+  return worst;
+}
+
+/// The largest indicator of the modes at a place, which are corrected if they are of another space. Empty if
+/// they are not found.
+std::optional<double> ScoutedPlaces::indicator_at(const Model& model, ProjectedPlace& place) const {
+  const SparsePencil pencil = large_.pencil(place.at);
+  const auto basis = large_.basis(model, pencil);
+  if (!basis) return place.is_old ? std::nullopt : std::optional(0.0);
+  if (place.is_old) {
+    SmallPencil small = large_.small(model, place.at, pencil, *basis);
+    if (!renew(place, small)) return std::nullopt;
+    if (large_.keeps_small()) place.small = std::move(small);
+  }
+  const std::vector<ProjectedMode> modes = lifted(moving_modes(place), *basis);
+  const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    largest = std::max(largest, errors[i].relative_to(size(modes[i].s)));
+  return largest;
+}
+
+double ScoutedPlaces::distance(const Model& model, const ProjectedPlace& place,
+                               const std::vector<Complex>& exact) const {
+  const SmallPencil small = large_.small_of(model, place);
+  double largest = 0.0;
+  for (const ProjectedMode& mode : moving_modes(place)) {
+    EigenvalueError error{std::numeric_limits<double>::infinity()};
+    for (const Complex other : exact) error.distance = std::min(error.distance, std::abs(other - mode.s));
+    error.half_gap = half_gap(small, mode);
+    largest = std::max(largest, error.relative_to(size(mode.s)));
+  }
+  return largest;
+}
+
+}  // namespace eigentrail
