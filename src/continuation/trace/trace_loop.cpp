@@ -139,6 +139,28 @@ double distance_to_next(const std::vector<double>& places, const PathFrame& fram
   return INFINITY;
 }
 
+/// Whether a step is too inaccurate, or just not so, because of rounding that was not known yet. Then it is
+/// known now; otherwise steps would not grow again. The first time that it keeps an eigenvalue from the
+/// tolerance, a note says so.
+bool notices_rounding(const PathProblem& problem, const TraceOptions& options, const Step& step,
+                      const Verdict& verdict, TraceState& state) {
+  constexpr double just_accurate = 0.25;  // of the accepted error: below the one that steps aim at
+  const bool may_be = verdict.kind == Verdict::Kind::inaccurate || verdict.accepted();
+  if (!may_be || verdict.track < 0 || !(verdict.error > just_accurate)) return false;
+  const auto index = static_cast<std::size_t>(verdict.track);
+  const Track& track = step.left->tracks[index];
+  const double before = known_rounding(state.frame, track);
+  const double seen = observed_rounding(problem, options.tolerance, step, index);
+  if (seen <= before) return false;
+  note_rounding(track, seen, state.frame);
+  if (known_rounding(state.frame, track) < seen) return false;  // of guests only
+  // The accepted error, and twice the error that was seen.
+  const double known = accepted_share * (1.0 + 2.0 * verdict.error) * options.tolerance;
+  if (before == 0.0 && known > options.tolerance && state.result.notes.size() < most_notes)
+    state.result.notes.push_back(rounding_note(options, *step.left, track, known));
+  return true;
+}
+
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -276,7 +298,7 @@ bool TraceLoop::advance() {
                                   if_uncertified(of_length) != Uncertified::is_rejected);
   };
   Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
-  while (attempted.step && notices_rounding(*attempted.step, verdict))
+  while (attempted.step && notices_rounding(problem_, options_, *attempted.step, verdict, state_))
     verdict = judge(*attempted.step, if_uncertified(h));
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
@@ -312,27 +334,6 @@ Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
   for (const Track& track : step.right.tracks)
     tests_.push_back(state_.steps.patience.test_of(track.lineage, budget, costly));
   return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
-}
-
-/// Whether a step is too inaccurate, or just not so, because of rounding that was not known yet. Then it is
-/// known now; otherwise steps would not grow again. The first time that it keeps an eigenvalue from the
-/// tolerance, a note says so.
-bool TraceLoop::notices_rounding(const Step& step, const Verdict& verdict) {
-  constexpr double just_accurate = 0.25;  // of the accepted error: below the one that steps aim at
-  const bool may_be = verdict.kind == Verdict::Kind::inaccurate || verdict.accepted();
-  if (!may_be || verdict.track < 0 || !(verdict.error > just_accurate)) return false;
-  const auto index = static_cast<std::size_t>(verdict.track);
-  const Track& track = step.left->tracks[index];
-  const double before = known_rounding(state_.frame, track);
-  const double seen = observed_rounding(problem_, options_.tolerance, step, index);
-  if (seen <= before) return false;
-  note_rounding(track, seen, state_.frame);
-  if (known_rounding(state_.frame, track) < seen) return false;  // of guests only
-  // The accepted error, and twice the error that was seen.
-  const double known = accepted_share * (1.0 + 2.0 * verdict.error) * options_.tolerance;
-  if (before == 0.0 && known > options_.tolerance && state_.result.notes.size() < most_notes)
-    state_.result.notes.push_back(rounding_note(options_, *step.left, track, known));
-  return true;
 }
 
 bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {

@@ -34,7 +34,6 @@ class TraceLoop final : private Checkpoint {
   bool advance();
 
   Verdict judge(const Step& step, Uncertified uncertified);
-  bool notices_rounding(const Step& step, const Verdict& verdict);
   /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if
   /// they were solved. Returns whether something was changed, so that the step shall be tried again.
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
