@@ -149,11 +149,11 @@ Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, c
   return Vector::Constant(2, errors[0] + (apart > of_root ? errors[1] / apart : of_root));
 }
 
-double root_resolution(const ComplexVector& functions, const ComplexVector& roots) {
+Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roots) {
   // relative, of the corrector and of the basis that both ends of a step share
   constexpr double rounding = 1e-13;
   const Eigen::Index k = roots.size();
-  if (k <= 2) return 0.0;
+  if (k <= 2) return Vector::Zero(k);
   const ComplexMatrix Lambda = functions.reshaped(k, k);
   // Departure from normality (Henrici 1962).
   const double departure = std::sqrt((Lambda * Lambda.adjoint() - Lambda.adjoint() * Lambda).norm());
@@ -162,11 +162,11 @@ double root_resolution(const ComplexVector& functions, const ComplexVector& root
   constexpr Eigen::Index few = 6;
   const double order = k <= few ? 0.5 : 1.0 / static_cast<double>(k);
   const double resolution = std::pow(rounding * Lambda.norm(), order) * std::pow(departure, 1.0 - order);
-  if ((roots.array() - roots.mean()).abs().maxCoeff() > resolution) return 0.0;
+  if ((roots.array() - roots.mean()).abs().maxCoeff() > resolution) return Vector::Zero(k);
+  if (k <= few) return Vector::Constant(k, resolution);
   // Eigenvalues of a large block that come close without being defective are known one by one.
-  const bool is_known =
-      k > few && first_order_errors(Lambda, roots, rounding * Lambda.norm()).minCoeff() < INFINITY;
-  return is_known ? 0.0 : resolution;
+  const Vector errors = first_order_errors(Lambda, roots, rounding * Lambda.norm());
+  return (errors.array() < INFINITY).select(Vector::Zero(k), Vector::Constant(k, resolution));
 }
 
 namespace {

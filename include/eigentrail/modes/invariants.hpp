@@ -40,12 +40,13 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
 /// (first order where it holds; Henrici, Numer. Math. 4, 1962, where it does not).
 Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
 
-/// Distance (1/s) below which the eigenvalues of a block cannot be distinguished. Nonzero only for blocks of
-/// three and more whose `roots` all coincide within rounding, for example several rigid-body modes or an
-/// exceptional point of that order. A matrix of size k that is far from normal determines its eigenvalues
-/// only to the k-th root of its rounding error (Henrici, Numer. Math. 4, 1962); up to six are taken to meet
-/// two at a time, with the square root. Zero, too, for larger ones of which one is known by itself.
-double root_resolution(const ComplexVector& functions, const ComplexVector& roots);
+/// Distances (1/s) below which the eigenvalues of a block cannot be distinguished, in the order of `roots`:
+/// two of them below the lesser one. Nonzero only for blocks of three and more whose `roots` all coincide
+/// within rounding, for example several rigid-body modes or an exceptional point of that order. A matrix of
+/// size k that is far from normal determines its eigenvalues only to the k-th root of its rounding error
+/// (Henrici, Numer. Math. 4, 1962); up to six are taken to meet two at a time, with the square root. In
+/// larger blocks zero for those that are known by themselves.
+Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roots);
 
 /// The values `to` in the order of `from`: the assignment with the least total distance.
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to);

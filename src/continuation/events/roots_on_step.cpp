@@ -118,7 +118,8 @@ void RootsOnStep::search(double begin, double end) {
     return 0.25 * d * d;
   };
   const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
-  if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length)) return;
+  if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length, a_, b_))
+    return;
   if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {
     const double middle = begin + 0.5 * length;
     search(begin, middle);

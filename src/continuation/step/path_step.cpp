@@ -93,7 +93,7 @@ class Differences {
   bool are_resolved(const std::array<const ComplexVector*, 3>& sets) {
     return all_pairs([&](Eigen::Index i, Eigen::Index j) {
       const auto vanishes = [&](const ComplexVector* roots) {
-        return std::abs((*roots)[i] - (*roots)[j]) <= resolution();
+        return std::abs((*roots)[i] - (*roots)[j]) <= resolution_of(i, j);
       };
       return change(sets, i, j) <= 1.0 || std::all_of(sets.begin(), sets.end(), vanishes);
     });
@@ -122,9 +122,9 @@ class Differences {
   static constexpr double coinciding = 1e-12;
 
   /// Computed when it is asked for: most pieces are resolved without it.
-  double resolution() {
-    if (!resolution_) resolution_ = std::max(scale_, root_resolution(functions_(from_), start_));
-    return *resolution_;
+  double resolution_of(Eigen::Index i, Eigen::Index j) {
+    if (resolutions_.size() == 0) resolutions_ = root_resolutions(functions_(from_), start_);
+    return std::max(scale_, std::min(resolutions_[i], resolutions_[j]));
   }
   std::size_t at(Eigen::Index i, Eigen::Index j) const {
     return static_cast<std::size_t>(i * start_.size() + j);
@@ -152,7 +152,7 @@ class Differences {
   const HermiteInterpolant& functions_;
   double from_;
   double scale_;
-  std::optional<double> resolution_;
+  Vector resolutions_;  ///< empty until they are asked for
   ComplexVector start_;
   std::vector<bool> unclear_;
 };
@@ -269,9 +269,9 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     work += 2 * static_cast<std::size_t>(roots.size());
     const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
     const auto coincide = [&](double place, const ComplexVector& there) {
-      return root_resolution(functions(place), there) > 0.0;
+      return root_resolutions(functions(place), there).maxCoeff() > 0.0;
     };
-    // Where all coincide within rounding, shorter pieces distinguish nothing.
+    // Where they coincide within rounding, shorter pieces distinguish nothing.
     const auto may_halve = [&] {
       return std::abs(piece) > shortest && !coincide(t + 0.5 * piece, middle) && !coincide(t + piece, ahead);
     };

@@ -43,7 +43,8 @@ StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::s
   double position = 0.0;
   const Track& track = left.tracks[index];
   ComplexVector roots = departing_roots(track, length, position);
-  resolution_ = std::max(coinciding * track.pair.Lambda.norm(), root_resolution(functions_(position), roots));
+  rounding_ = coinciding * track.pair.Lambda.norm();
+  resolutions_ = root_resolutions(functions_(position), roots);
   known_.emplace(position, std::move(roots));
 }
 
@@ -55,17 +56,18 @@ const ComplexVector& StrandSampler::operator()(double t) {
   return known_.emplace(t, follow_roots(functions_, nearest->second, nearest->first, t)).first->second;
 }
 
-double StrandSampler::resolution_at(double t) {
-  if (functions_.size() <= 4) return resolution_;  // blocks of one and two
+double StrandSampler::resolution_at(double t, Eigen::Index i, Eigen::Index j) {
+  if (functions_.size() <= 4) return resolution(i, j);  // blocks of one and two
   const ComplexVector& roots = (*this)(t);
-  return std::max(resolution_, root_resolution(functions_(t), roots));
+  const Vector there = root_resolutions(functions_(t), roots);
+  return std::max(resolution(i, j), std::min(there[i], there[j]));
 }
 
 std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);
-      return std::abs(roots[i] - roots[j]) <= sampler.resolution();
+      return std::abs(roots[i] - roots[j]) <= sampler.resolution(i, j);
     });
   };
   std::vector<Strand> strands;

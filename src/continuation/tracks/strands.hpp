@@ -1,6 +1,7 @@
 // Strands: the eigenvalues of a track on a step one by one, each followed continuously from the left end.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -26,18 +27,21 @@ class StrandSampler {
   /// Smooth functions of the track on the step (modes/invariants.hpp).
   const HermiteInterpolant& functions() const { return functions_; }
 
-  /// Distance within which two eigenvalues cannot be distinguished at the left end.
-  double resolution() const { return resolution_; }
+  /// Distance within which the eigenvalues i and j cannot be distinguished at the left end.
+  double resolution(Eigen::Index i, Eigen::Index j) const {
+    return std::max(rounding_, std::min(resolutions_[i], resolutions_[j]));
+  }
 
   /// The same at t, where more of them may coincide.
-  double resolution_at(double t);
+  double resolution_at(double t, Eigen::Index i, Eigen::Index j);
 
   /// Eigenvalues at t. The reference is valid until the next call.
   const ComplexVector& operator()(double t);
 
  private:
   HermiteInterpolant functions_;
-  double resolution_ = 0.0;
+  double rounding_ = 0.0;                  ///< distance within which any two coincide
+  Vector resolutions_;                     ///< of the eigenvalues at the left end (root_resolutions)
   std::map<double, ComplexVector> known_;  ///< by t
   ComplexVector single_;                   ///< the root of a track that has one, at the last t
 };
