@@ -124,6 +124,27 @@ TEST(ExpectedInBlocks, DoubtCoversWhatTheDenseOutputMisplaces) {
   EXPECT_LT(found[0].doubt, 1e4 * miss);
 }
 
+/// 2 +- sqrt(p - 0.1) and a third frequency of 2.5, which meets one of the two at 0.35: its gaps have kinks
+/// at 0.1.
+TEST(ExpectedInBlocks, TheFirstIsEnoughWhereGapsHaveKinks) {
+  const std::vector<Matrix> W{Matrix{{2.0, 1.0, 0.0}, {-0.1, 2.0, 0.0}, {0.0, 0.0, 2.5}},
+                              Matrix{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
+  const auto roots = [](double p) {
+    const Complex root = std::sqrt(Complex(p - 0.1));
+    return std::vector<Complex>{j * (2.0 + root), j * (2.0 - root), 2.5 * j};
+  };
+  const PlantedStep step(Planted::frequencies(W), roots, -0.1, 0.5, true);
+  const MeetingsOnStep all = expected_in_blocks(step.left, step.right, step.length);
+  ASSERT_FALSE(all.meetings.empty());
+  EXPECT_EQ(all.complete_to, INFINITY);
+  EXPECT_NEAR(step.places(all.meetings).back().real(), 0.35, 1e-3);
+  const MeetingsOnStep first = expected_in_blocks(step.left, step.right, step.length, false);
+  ASSERT_FALSE(first.meetings.empty());
+  EXPECT_EQ(first.meetings.front().position, all.meetings.front().position);
+  EXPECT_NEAR(step.places(first.meetings).back().real(), 0.1, 1e-3);
+  EXPECT_NEAR(first.complete_to, 0.2 / 0.6 + 0.01, 1e-4);
+}
+
 TEST(ExpectedInBlocks, SeveralComeInTheOrderInWhichTheStepPassesThem) {
   // Exceptional points at -0.1, 0.05 and 0.2.
   const std::vector<double> product{0.001, -0.015, -0.15, 1.0};

@@ -3,6 +3,8 @@
 // the real axis. Therefore roots close to the axis and to the ends of an interval are accepted, too.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "continuation/tracks/strands.hpp"
