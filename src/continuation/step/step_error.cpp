@@ -119,7 +119,7 @@ double observed_rounding(const PathProblem& problem, double tolerance, const Ste
     const Vector terms = dense.series(end, last).rightCols(2).cwiseAbs().rowwise().sum();
     if (!(worst_ratio(problem, tolerance, step, i, dense, terms, 0.0) <= negligible)) return 0.0;
   }
-  // Relative to the accepted error of the smallest eigenvalue on the step.
+  // The ratio is to what is accepted of one eigenvalue of the track; the largest bounds it.
   const double ratio = worst_ratio(problem, tolerance, step, i, dense, estimated_errors(dense, track), 0.0);
   const double scale = std::max(track.roots.cwiseAbs().maxCoeff(), problem.reference(track.pair.chart));
   const double seen = margin * ratio * accepted_share * tolerance * scale / sensitivity_to_rounding(track);
