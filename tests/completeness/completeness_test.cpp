@@ -37,5 +37,12 @@ TEST(RandomFamilies, HaveNoCollisionOfAllOverdampedModes) {
   }
 }
 
+/// A pair meets the real axis while it is followed together with another one. Rounding tells which of the
+/// other two eigenvalues, conjugates of each other, is close to it: they stay, or go, together.
+TEST(RandomFamilies, HaveAPairOnTheAxisBesideAnotherPair) {
+  const CompletenessReport report = check_completeness(random_family(184));
+  EXPECT_TRUE(report.passed()) << report.problems();
+}
+
 }  // namespace
 }  // namespace eigentrail::test

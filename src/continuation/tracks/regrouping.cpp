@@ -349,6 +349,15 @@ namespace {
 /// eigenvalue.
 constexpr double told_apart = 1e-5;
 
+/// Indices with the same label, below their number, as lists.
+std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
+  std::vector<std::vector<int>> result(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    result[static_cast<std::size_t>(labels[i])].push_back(static_cast<int>(i));
+  std::erase_if(result, [](const std::vector<int>& members) { return members.empty(); });
+  return result;
+}
+
 /// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
 /// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
 /// eigenvalues count as zero. It is the scale where a pair passes through the origin and the block itself is
@@ -377,15 +386,7 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
       std::replace(group.begin(), group.end(), from, to);
     }
   }
-  std::vector<std::vector<int>> result;
-  for (int label = 0; label < k; ++label) {
-    std::vector<int> members;
-    for (int i = 0; i < k; ++i) {
-      if (group[static_cast<std::size_t>(i)] == label) members.push_back(i);
-    }
-    if (!members.empty()) result.push_back(std::move(members));
-  }
-  return result;
+  return by_label(group);
 }
 
 /// Unites groups whose eigenvalues are inseparable.
@@ -409,6 +410,26 @@ std::vector<std::vector<int>> with_inseparable(const Track& track, std::vector<s
     }
   }
   return groups;
+}
+
+/// Unites the groups of a real block that rounding alone tells from their mirror images: what is together
+/// with an eigenvalue is together with its conjugate as well where the conjugates are together.
+std::vector<std::vector<int>> with_mirrored(const Track& track, const std::vector<std::vector<int>>& groups) {
+  if (!track.pair.is_real || groups.size() < 2) return groups;
+  std::vector<int> label(static_cast<std::size_t>(track.size()));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const int i : groups[g]) label[static_cast<std::size_t>(i)] = static_cast<int>(g);
+  }
+  const auto label_of_conjugate = [&](int i) {
+    Eigen::Index j = 0;
+    (track.roots.array() - std::conj(track.roots[i])).abs().minCoeff(&j);
+    return label[static_cast<std::size_t>(j)];
+  };
+  for (const std::vector<int>& members : groups) {
+    for (const int i : members)
+      std::replace(label.begin(), label.end(), label_of_conjugate(i), label_of_conjugate(members.front()));
+  }
+  return by_label(label);
 }
 
 /// Groups of the eigenvalues of a block by their errors as single modes: each with less than the accepted
@@ -538,7 +559,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
                                      share * rules.accepted);
       }
-      members = with_inseparable(track, std::move(members));
+      members = with_mirrored(track, with_inseparable(track, std::move(members)));
       if (members.size() > 1 && are_told_apart(track, members))
         parts = parts_of(problem, node, track, members, counts);
     }
