@@ -38,17 +38,34 @@ double distance_from(const Track& track, Complex s, double reference) {
   return least;
 }
 
-/// The eigenvalues about those of a track, by inverse iteration.
+/// The eigenvalues of a subspace, Im s >= 0 or < 0, with their vectors in the columns of Z. Those of a real
+/// subspace are exactly real, or conjugates of each other, however inaccurate it is.
+struct RitzPairs {
+  ComplexVector s;
+  ComplexMatrix Z;
+};
+
+RitzPairs ritz_pairs(const InvariantPair& pair) {
+  if (pair.is_real) {
+    const Eigen::EigenSolver<Matrix> solver(pair.Lambda.real());
+    return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
+  }
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
+  return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
+}
+
+/// The eigenvalues about those of a track, by inverse iteration: with a real subspace about a real one.
 Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track) {
   const Complex centre = chart_value(track.roots[0], track.pair.chart);
   const Eigen::Index size = std::min(track.size() + beside, 2 * pencil.size());
-  const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, false);
+  const InvariantPair pair =
+      invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, centre.imag() == 0.0);
   Spectrum spectrum;
   if (!pair.Z.allFinite() || !pair.Lambda.allFinite()) return spectrum;
-  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
+  const RitzPairs ritz = ritz_pairs(pair);
   for (Eigen::Index i = 0; i < size; ++i) {
-    Complex s = solver.eigenvalues()[i];
-    ComplexVector z = (pair.Z * solver.eigenvectors().col(i)).normalized();
+    Complex s = ritz.s[i];
+    ComplexVector z = ritz.Z.col(i).normalized();
     if (s.imag() < 0.0) {
       s = std::conj(s);
       z = z.conjugate();
