@@ -5,6 +5,7 @@
 
 #include "continuation/step/step_error.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
+#include "continuation/tracks/silent_partners.hpp"
 
 namespace eigentrail {
 namespace {
@@ -19,11 +20,10 @@ constexpr double worthwhile = 0.05;
 constexpr double limiting_error = 0.1;
 /// As `worthwhile`, for the change to the other chart, which has no extra cost.
 constexpr double better_chart = 0.3;
-/// Blocks of more than two, to six, are formed only if the step is shorter than this share of the longest one
-/// of the last steps. In large blocks the eigenvalues are harder to identify, and more events are close to
-/// each other.
-constexpr double shrinking = 0.25;
-/// The same for blocks of more than six: at exceptional points of a higher order steps shrink towards zero.
+/// Blocks of more than six are formed only if the step is shorter than this share of the longest one of the
+/// last steps: at exceptional points of a higher order steps shrink towards zero. Blocks of more than two, to
+/// six, only if it has shrunk at all. In large blocks the eigenvalues are harder to identify, and more events
+/// are close to each other.
 constexpr double much_shrinking = 0.1;
 /// Meetings farther away than this many times the distance of the nearest one have little influence on the
 /// error.
@@ -67,7 +67,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   const double accepted = accepted_share * rules.tolerance * scale;
   const double length = std::abs(step.h);
   const Eigen::Index largest = length < much_shrinking * rules.longest_step ? most_together
-                               : length < shrinking * rules.longest_step    ? 6
+                               : rules.has_shrunk(length)                   ? 6
                                                                             : 2;
   std::vector<Partner> chosen;
   Eigen::Index size = distinct_eigenvalues(there);
@@ -89,6 +89,8 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   Regroupings done;
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
+  std::size_t worst = tracks.size();
+  double largest = limiting_error;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
     // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
     // Tracks that were added or taken apart at the end of the step have no error on it.
@@ -97,6 +99,10 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
       continue;
     const double error = track_error(problem, rules.tolerance, 0.0, step, i);
     if (error < limiting_error) continue;
+    if (error >= largest) {
+      largest = error;
+      worst = i;
+    }
     const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
     if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
       if (change_chart(problem, step.right, i, counts)) ++done.charts;
@@ -112,6 +118,10 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   for (Choice& choice : choices) {
     if (join_choice(problem, choice, step.right, counts)) ++done.joined;
   }
+  const bool looks_beyond = choices.empty() && worst < tracks.size() && !rules.follows_all;
+  if (looks_beyond && rules.has_shrunk(next_step) &&
+      join_unfollowed(problem, step.right, worst, next_step, rules.parting_reach, counts))
+    ++done.joined;
   return done;
 }
 

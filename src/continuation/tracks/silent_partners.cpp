@@ -6,6 +6,7 @@
 
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/recognition.hpp"
+#include "continuation/tracks/regrouping.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
@@ -127,6 +128,27 @@ void remove_guests(PathNode& node) {
   std::erase_if(node.tracks, [](const Track& track) {
     return std::all_of(track.modes.begin(), track.modes.end(), [](int mode) { return mode < 0; });
   });
+}
+
+bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t track, double h, double reach,
+                     RunCounts& counts) {
+  const std::size_t followed = node.tracks.size();
+  add_neighbours(problem, node, track, counts);
+  std::vector<Partner> partners = find_partners(node, track, h, reach);
+  std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
+  double kept = 0.0;
+  if (partners.empty()) {
+    const std::optional<Partner> nearest = nearest_partner(node, track);
+    if (nearest && !nearest->conjugate && nearest->track >= followed) {
+      partners.push_back(*nearest);
+      kept = kept_together * nearest->distance;
+    }
+  }
+  if (!partners.empty()) partners.resize(1);
+  const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
+  if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
+  remove_guests(node);
+  return joined;
 }
 
 }  // namespace eigentrail
