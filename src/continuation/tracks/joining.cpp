@@ -89,20 +89,23 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   Regroupings done;
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
+  const bool may_look_beyond = !rules.follows_all && rules.has_shrunk(next_step);
   std::size_t worst = tracks.size();
   double largest = limiting_error;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
-    // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
     // Tracks that were added or taken apart at the end of the step have no error on it.
-    if (tracks[i].lineage != step.left->tracks[i].lineage ||
-        tracks[i].size() != step.left->tracks[i].size() || distinct_eigenvalues(tracks[i]) > 1)
+    if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
       continue;
+    // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
+    const bool is_joined = distinct_eigenvalues(tracks[i]) > 1;
+    if (is_joined && !may_look_beyond) continue;
     const double error = track_error(problem, rules.tolerance, 0.0, step, i);
     if (error < limiting_error) continue;
     if (error >= largest) {
       largest = error;
       worst = i;
     }
+    if (is_joined) continue;
     const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
     if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
       if (change_chart(problem, step.right, i, counts)) ++done.charts;
@@ -118,8 +121,7 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   for (Choice& choice : choices) {
     if (join_choice(problem, choice, step.right, counts)) ++done.joined;
   }
-  const bool looks_beyond = choices.empty() && worst < tracks.size() && !rules.follows_all;
-  if (looks_beyond && rules.has_shrunk(next_step) &&
+  if (may_look_beyond && choices.empty() && worst < tracks.size() &&
       join_unfollowed(problem, step.right, worst, next_step, rules.parting_reach, counts))
     ++done.joined;
   return done;

@@ -23,6 +23,16 @@ ComplexVector roots_beside(const Track& track, double distance) {
   return block_roots(evaluate_series(track.functions, distance));
 }
 
+/// Forgets with which mode another one was a pair: it has become one with an eigenvalue that nobody follows,
+/// and the former partner may go on elsewhere.
+void forget_partner(int mode, ModeNumbers& numbers) {
+  const auto found = numbers.partners.find(mode);
+  if (found == numbers.partners.end()) return;
+  const auto back = numbers.partners.find(found->second);
+  if (back != numbers.partners.end() && back->second == mode) numbers.partners.erase(back);
+  numbers.partners.erase(mode);
+}
+
 /// Assigns the mode of every complex pair of a real block to the member with Im s > 0. Two modes that have
 /// become a pair keep the smaller number and are noted as partners.
 void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
@@ -38,6 +48,8 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
     if (a >= 0 && b >= 0) {
       numbers.partners[a] = b;
       numbers.partners[b] = a;
+    } else if (followed && std::min(a, b) == Track::guest) {
+      forget_partner(upper, numbers);
     }
     a = upper;
     b = followed ? Track::no_mode : Track::guest;
