@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "continuation/tracks/grouping_errors.hpp"
@@ -324,7 +325,11 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     append(track.roots, other_chart, with_conjugates, known);
     if (departure) append(roots_at_departure(track, *departure), other_chart, with_conjugates, departing);
     modes.insert(modes.end(), track.modes.begin(), track.modes.end());
-    if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
+    // The conjugate of a guest is one, too.
+    if (with_conjugates) {
+      std::transform(track.modes.begin(), track.modes.end(), std::back_inserter(modes),
+                     [](int mode) { return mode >= 0 ? Track::no_mode : Track::guest; });
+    }
   }
   if (static_cast<Eigen::Index>(known.size()) > largest_block_of(node.pencil.of(pairs[0].part).size()))
     return false;
