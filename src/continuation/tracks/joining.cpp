@@ -97,6 +97,7 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
     if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
       continue;
     // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
+    // With one that nobody follows a mode may have been joined for nothing.
     const bool is_joined = distinct_eigenvalues(tracks[i]) > 1;
     if (is_joined && !may_look_beyond) continue;
     const double error = track_error(problem, rules.tolerance, 0.0, step, i);
@@ -105,8 +106,8 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
       largest = error;
       worst = i;
     }
-    if (is_joined) continue;
-    const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
+    const double in_other_chart =
+        is_joined ? INFINITY : error_in_other_chart(problem, *step.left, step.right, i, step.h);
     if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
       if (change_chart(problem, step.right, i, counts)) ++done.charts;
       return done;
