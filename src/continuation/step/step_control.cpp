@@ -22,8 +22,8 @@ constexpr double least_error = 1e-10;
 /// A step may be longer by this factor to reach the end of the range: a very short last step is avoided.
 /// The error grows by 1.02^(2q+2), at most 22 %, which the distance between `aim` and one allows for.
 constexpr double stretch_to_end = 1.02;
-/// The same for a step of the largest length, which is longer by rounding only: places that are solved for are
-/// not exact, and rounding should not decide between one step and two.
+/// The same for a step of the largest length, which is longer by rounding only: places that are solved for
+/// are not exact, and rounding should not decide between one step and two.
 constexpr double stretch_of_largest = 1.0 + 1e-9;
 
 }  // namespace
