@@ -14,6 +14,9 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_corrections = 30;
+/// In lengths: corrections that grow beyond this lead nowhere. Constraints of bodies that lie so far apart
+/// depend on each other in rounding, and every further factorization of a large model would be a dense one.
+constexpr double far_away = 1e3;
 
 /// Derivative of the steady equations with respect to the traced parameter, at fixed x and lambda.
 EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vector& lambda,
@@ -134,7 +137,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     // Small corrections that grow show divergence; large ones may grow far from the solution.
-    if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
+    const bool diverges = size > 2.0 * last && size < 1e-3, is_lost = size > last && size > far_away;
+    if (!std::isfinite(size) || diverges || is_lost || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
       ++result.report.factorizations;
