@@ -57,6 +57,13 @@ class Lu {
 
   bool is_complex() const { return complex_; }
 
+  /// Whether A + A^T is ordered, and not A^T A, which one full row fills. By default UMFPACK chooses.
+  void order_symmetrically(bool symmetrically) {
+    const double strategy = symmetrically ? UMFPACK_STRATEGY_SYMMETRIC : UMFPACK_STRATEGY_AUTO;
+    if (control_[UMFPACK_STRATEGY] != strategy) free_symbolic();
+    control_[UMFPACK_STRATEGY] = strategy;
+  }
+
   /// Symbolic analysis; upper bounds, for all choices of pivots, of the bytes of the factors and of the
   /// operations.
   std::pair<double, double> analyze(const Pattern& pattern, const double* values) {
@@ -246,9 +253,11 @@ struct SparseFactors::Implementation {
     return false;
   }
 
-  bool factor_lu(bool same, bool is_complex, std::vector<double> values) {
+  bool factor_lu(bool same, bool is_complex, std::vector<double> values,
+                 SparseKind kind = SparseKind::general) {
     cholesky.reset();
     if (!lu || lu->is_complex() != is_complex) lu = std::make_unique<Lu>(is_complex);
+    lu->order_symmetrically(kind == SparseKind::near_symmetric);
     return lu->factor(pattern, same, std::move(values));
   }
 };
@@ -268,7 +277,7 @@ bool SparseFactors::factor(const SparseMatrix& A, SparseKind kind) {
     if (!i.cholesky) i.cholesky = std::make_unique<Cholesky>();
     if (i.cholesky->factor(i.pattern, same, A)) return true;
   }
-  return i.factor_lu(same, false, {A.valuePtr(), A.valuePtr() + A.nonZeros()});
+  return i.factor_lu(same, false, {A.valuePtr(), A.valuePtr() + A.nonZeros()}, kind);
 }
 
 bool SparseFactors::factor(const ComplexSparseMatrix& A) {

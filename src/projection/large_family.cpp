@@ -1,6 +1,7 @@
 #include "core/products.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
+#include "projection/two_spaces.hpp"
 
 namespace eigentrail {
 namespace {
@@ -24,18 +25,23 @@ class LargeFamily final : public LargeModel {
     const SparsePencil there = pencils_.at(middle);
     const Matrix energy = projected(there.K + frequency * frequency * there.M, space.basis());
     space.reduce(0.5 * (energy + energy.transpose()), accuracy);
-    ModelDescription description = family_.description();
-    Projection projection;
-    projection.freedoms = family_.n_coordinates();
-    projection.names = std::move(description.coordinate_names);
-    projection.basis = space.give_basis();
-    description.coordinate_names.clear();
-    for (Eigen::Index i = 0; i < projection.basis.cols(); ++i)
-      description.coordinate_names.push_back("x" + std::to_string(i + 1));
-    description.coordinate_units.assign(static_cast<std::size_t>(projection.basis.cols()), "1");
-    AffinePencil<Matrix> pencil = pencils_.projected(projection.basis);
-    return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
-                                             std::move(projection));
+    Matrix basis = space.give_basis();
+    AffinePencil<Matrix> pencil = pencils_.projected(basis);
+    return model_of(std::move(pencil), std::move(basis), {});
+  }
+  std::unique_ptr<Model> on_two_spaces(const Model& reduced, const ProjectionSpace& space, double accuracy,
+                                       const Vector& middle, double frequency) const override {
+    constexpr double much = 0.9;  // of the coordinates: what is left of them is worth the work
+    const SmallPencil there = small_at(reduced, middle);
+    const TwoSpaces spaces = two_spaces(space, there.K + frequency * frequency * there.M, accuracy);
+    const Matrix& basis = reduced.projection()->basis;
+    if (static_cast<double>(spaces.right.cols()) > much * static_cast<double>(basis.cols())) return nullptr;
+    AffinePencil<Matrix> pencil = dynamic_cast<const ProjectedFamily&>(reduced).pencil();
+    for (auto* terms : {&pencil.M, &pencil.C, &pencil.K}) {
+      for (AffineTerm<Matrix>& term : *terms)
+        term.matrix = congruence(spaces.left, term.matrix, spaces.right);
+    }
+    return model_of(std::move(pencil), product(basis, spaces.right), product(basis, spaces.left));
   }
   Matrix take_basis(Model& reduced) const override {
     return dynamic_cast<ProjectedFamily&>(reduced).take_basis();
@@ -57,11 +63,30 @@ class LargeFamily final : public LargeModel {
   }
   ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
 
-  std::shared_ptr<const Matrix> basis(const Model& reduced, const SparsePencil&) const override {
-    return {std::shared_ptr<const Matrix>(), &reduced.projection()->basis};
+  std::optional<Bases> bases(const Model& reduced, const SparsePencil&) const override {
+    const Matrix& right = reduced.projection()->basis;
+    const Matrix& left = reduced.projection()->left_basis;
+    const std::shared_ptr<const Matrix> none;
+    return Bases{{none, &right}, {none, left.size() > 0 ? &left : &right}};
   }
 
  private:
+  std::unique_ptr<ProjectedFamily> model_of(AffinePencil<Matrix> pencil, Matrix basis,
+                                            Matrix left_basis) const {
+    ModelDescription description = family_.description();
+    Projection projection;
+    projection.freedoms = family_.n_coordinates();
+    projection.names = std::move(description.coordinate_names);
+    projection.basis = std::move(basis);
+    projection.left_basis = std::move(left_basis);
+    description.coordinate_names.clear();
+    for (Eigen::Index i = 0; i < projection.basis.cols(); ++i)
+      description.coordinate_names.push_back("x" + std::to_string(i + 1));
+    description.coordinate_units.assign(static_cast<std::size_t>(projection.basis.cols()), "1");
+    return std::make_unique<ProjectedFamily>(std::move(description), std::move(pencil),
+                                             std::move(projection));
+  }
+
   static SmallPencil small_at(const Model& reduced, const Vector& parameters) {
     const AffinePencil<Matrix> at = dynamic_cast<const ProjectedFamily&>(reduced).at(parameters);
     return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};

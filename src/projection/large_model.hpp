@@ -23,6 +23,11 @@ struct ProjectedPlace {
   bool is_old = false;  ///< `small` and `modes` are of a space that has changed
 };
 
+/// Bases of right and of left vectors, n x k; mostly one for both.
+struct Bases {
+  std::shared_ptr<const Matrix> right, left;
+};
+
 class LargeModel {
  public:
   LargeModel() = default;
@@ -49,6 +54,11 @@ class LargeModel {
   /// of the energy K + frequency^2 M; the space becomes this part, and gives it away.
   virtual std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
                                          double frequency) const = 0;
+  /// A smaller model on two spaces, of right and of left vectors, from one that `reduced` gave, whose space has
+  /// both; arguments as there. Null where little is gained.
+  virtual std::unique_ptr<Model> on_two_spaces(const Model& reduced, const ProjectionSpace& space,
+                                               double accuracy, const Vector& middle,
+                                               double frequency) const = 0;
   /// The basis of a model that `reduced` gave, which is of no use then.
   virtual Matrix take_basis(Model& reduced) const = 0;
   /// Notes what is known of the projection in a model that `reduced` gave.
@@ -66,9 +76,9 @@ class LargeModel {
   /// The projected matrices at a place, kept or computed again.
   virtual SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const = 0;
 
-  /// Basis of the motions of the reduced model at the place of a pencil, n x k; it lives as long as `reduced`
-  /// and the result do. Null if the motions have turned too far.
-  virtual std::shared_ptr<const Matrix> basis(const Model& reduced, const SparsePencil& pencil) const = 0;
+  /// Bases of the motions of the reduced model at the place of a pencil; they live as long as `reduced` and
+  /// the result do. Empty if the motions have turned too far.
+  virtual std::optional<Bases> bases(const Model& reduced, const SparsePencil& pencil) const = 0;
 };
 
 /// The shift for a choice of modes: the middle of those that are wanted, or zero.

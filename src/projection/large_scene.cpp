@@ -101,6 +101,11 @@ class LargeScene final : public LargeModel {
     return std::make_unique<ProjectedScene>(scene_, std::move(projection),
                                             Path{first_.parameters, first_.x, first_.lambda});
   }
+  /// Null: the motions of a scene are those of both.
+  std::unique_ptr<Model> on_two_spaces(const Model&, const ProjectionSpace&, double, const Vector&,
+                                       double) const override {
+    return nullptr;
+  }
   Matrix take_basis(Model& reduced) const override {
     return dynamic_cast<ProjectedScene&>(reduced).take_basis();
   }
@@ -122,12 +127,14 @@ class LargeScene final : public LargeModel {
     return point.node.basis.T[0].transpose() * shape;
   }
 
-  std::shared_ptr<const Matrix> basis(const Model& reduced, const SparsePencil& pencil) const override {
+  std::optional<Bases> bases(const Model& reduced, const SparsePencil& pencil) const override {
     const SystemMatrix A(pencil.A);
     const ConstraintFactorization none;
     auto at =
         restricted_basis(*reduced.projection()->motions, A, pencil.constraints ? *pencil.constraints : none);
-    return at ? std::make_shared<const Matrix>(std::move(at->T[0])) : nullptr;
+    if (!at) return std::nullopt;
+    const auto basis = std::make_shared<const Matrix>(std::move(at->T[0]));
+    return Bases{basis, basis};
   }
 
  private:

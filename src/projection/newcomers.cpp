@@ -14,11 +14,11 @@ constexpr double closeness = 1e-3;
 
 /// Those eigenvalues of the projected pencil that are close to one of the large pencil, as those of the kept
 /// modes are.
-std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& large, const Matrix& basis,
+std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& large, const Bases& bases,
                                 const std::vector<Complex>& eigenvalues, double reference) {
   std::vector<ProjectedMode> modes;
   for (const Complex s : eigenvalues) modes.push_back(mode_of(small, s));
-  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, lifted(modes, basis));
+  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, lifted(modes, *bases.right, *bases.left));
   std::vector<Complex> exact;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Complex s = eigenvalues[i];
@@ -91,9 +91,9 @@ std::vector<Complex> among_the_followed(const LargeModel& large, const Model& mo
   });
   if (others.s.empty()) return {};
   const SparsePencil pencil = large.pencil(place.at);
-  const auto basis = large.basis(model, pencil);
-  if (!basis) return {};
-  others.s = exact_ones(small, pencil, *basis, others.s, reference);
+  const auto bases = large.bases(model, pencil);
+  if (!bases) return {};
+  others.s = exact_ones(small, pencil, *bases, others.s, reference);
   std::sort(others.s.begin(), others.s.end(),
             [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
   return others.s;

@@ -48,26 +48,37 @@ RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVecto
   return refined;
 }
 
-std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& basis) {
-  Matrix parts(basis.cols(), 4 * static_cast<Eigen::Index>(modes.size()));
+namespace {
+
+/// The vectors of the modes, of length one, in the coordinates of the large pencil.
+std::vector<ComplexVector> lifted(const std::vector<ProjectedMode>& modes,
+                                  ComplexVector ProjectedMode::*vector, const Matrix& basis) {
+  Matrix parts(basis.cols(), 2 * static_cast<Eigen::Index>(modes.size()));
   Eigen::Index j = 0;
   for (const ProjectedMode& mode : modes) {
-    parts.middleCols(j, 4) << mode.right.real(), mode.right.imag(), mode.left.real(), mode.left.imag();
-    j += 4;
+    parts.col(j++) = (mode.*vector).real();
+    parts.col(j++) = (mode.*vector).imag();
   }
   const Matrix all = product(basis, parts);
-  std::vector<ProjectedMode> result;
-  j = 0;
-  const auto next = [&] {
-    ComplexVector vector(all.rows());
-    vector.real() = all.col(j++);
-    vector.imag() = all.col(j++);
-    return ComplexVector(vector.normalized());
-  };
-  for (const ProjectedMode& mode : modes) {
-    ComplexVector right = next();
-    result.push_back({mode.s, std::move(right), next()});
+  std::vector<ComplexVector> vectors;
+  for (j = 0; j < all.cols(); j += 2) {
+    vectors.emplace_back(all.rows());
+    vectors.back().real() = all.col(j);
+    vectors.back().imag() = all.col(j + 1);
+    vectors.back().normalize();
   }
+  return vectors;
+}
+
+}  // namespace
+
+std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& right_basis,
+                                  const Matrix& left_basis) {
+  std::vector<ComplexVector> right = lifted(modes, &ProjectedMode::right, right_basis);
+  std::vector<ComplexVector> left = lifted(modes, &ProjectedMode::left, left_basis);
+  std::vector<ProjectedMode> result;
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    result.push_back({modes[i].s, std::move(right[i]), std::move(left[i])});
   return result;
 }
 

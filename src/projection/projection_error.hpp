@@ -32,8 +32,10 @@ struct RefinedMode {
 /// zero there are no vectors.
 RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVector& shape);
 
-/// The modes with vectors in the coordinates of the large pencil, for an orthonormal basis, n x k.
-std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& basis);
+/// The modes with vectors in the coordinates of the large pencil, for orthonormal bases of right and of left
+/// ones, n x k.
+std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& right_basis,
+                                  const Matrix& left_basis);
 
 /// How far an eigenvalue may be from one of the large pencil.
 struct EigenvalueError {

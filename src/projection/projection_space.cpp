@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <cmath>
 #include <limits>
 
 #include "core/products.hpp"
@@ -34,7 +35,7 @@ Matrix orthonormal(Matrix B) {
 
 }  // namespace
 
-void ProjectionSpace::add(const ComplexMatrix& vectors) {
+void ProjectionSpace::add(const ComplexMatrix& vectors, Side side) {
   const Eigen::Index k = vectors.cols();
   Matrix added(vectors.rows(), 2 * k);
   added << vectors.real(), vectors.imag();
@@ -51,30 +52,34 @@ void ProjectionSpace::add(const ComplexMatrix& vectors) {
   all.topLeftCorner(before, vectors_.cols()) = vectors_;
   all.rightCols(2 * k) = transposed_product(basis_, added);
   vectors_ = std::move(all);
+  sides_.insert(sides_.end(), static_cast<std::size_t>(2 * k), side);
 }
 
 void ProjectionSpace::reduce(const Matrix& energy, double accuracy) {
-  const Matrix parts = principal(energy, accuracy);
+  const Components all = components(energy, Side::both);
+  const Eigen::Index rank = all.needed(accuracy);
+  const Matrix parts = Eigen::HouseholderQR<Matrix>(all.parts.leftCols(rank)).householderQ() *
+                       Matrix::Identity(all.parts.rows(), rank);
   basis_ = product(basis_, parts);
   vectors_ = transposed_product(parts, vectors_);
 }
 
-Matrix ProjectionSpace::principal(const Matrix& energy, double accuracy) const {
+ProjectionSpace::Components ProjectionSpace::components(const Matrix& energy, Side side) const {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(energy);
   const Vector& squares = solver.eigenvalues();
   const double floor = std::numeric_limits<double>::epsilon() * squares.cwiseAbs().maxCoeff();
   const Vector weights = squares.cwiseAbs().cwiseMax(floor).cwiseSqrt();
   Matrix weighted = weights.asDiagonal() * (solver.eigenvectors().transpose() * vectors_);
   for (Eigen::Index j = 0; j < weighted.cols(); ++j) {
-    const double norm = weighted.col(j).norm();
+    const Side of_this = sides_[static_cast<std::size_t>(j)];
+    const bool counts = side == Side::both || of_this == Side::both || of_this == side;
+    const double norm = counts ? weighted.col(j).norm() : INFINITY;
     if (norm > 0.0) weighted.col(j) /= norm;
   }
-  const SingularVectors<Matrix> components = right_singular_vectors(Matrix(weighted.transpose()));
-  if (!components.values.allFinite()) return Matrix::Identity(energy.rows(), energy.cols());
-  const Eigen::Index rank = (components.values.array() > accuracy).count();
-  const Matrix parts =
-      solver.eigenvectors() * (weights.cwiseInverse().asDiagonal() * components.V.leftCols(rank));
-  return Eigen::HouseholderQR<Matrix>(parts).householderQ() * Matrix::Identity(parts.rows(), rank);
+  const SingularVectors<Matrix> found = right_singular_vectors(Matrix(weighted.transpose()));
+  if (!found.values.allFinite())
+    return {Matrix::Identity(energy.rows(), energy.cols()), Vector::Ones(energy.rows())};
+  return {solver.eigenvectors() * (weights.cwiseInverse().asDiagonal() * found.V), found.values};
 }
 
 }  // namespace eigentrail

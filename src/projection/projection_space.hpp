@@ -2,10 +2,14 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
+
+/// Which vectors of a pencil are meant. With `both`, right ones that span the same space as left ones.
+enum class Side { right, left, both };
 
 class ProjectionSpace {
  public:
@@ -19,19 +23,29 @@ class ProjectionSpace {
   void take_basis(Matrix basis) { basis_ = std::move(basis); }
 
   /// Adds the real and imaginary parts of unit vectors (columns), as far as they are not in the space.
-  void add(const ComplexMatrix& vectors);
+  void add(const ComplexMatrix& vectors, Side side);
 
   /// Keeps the part of the space that the vectors need up to a relative error `accuracy` in the norm of the
   /// symmetric positive semidefinite `energy` (k x k, in this basis): their principal components in this
   /// norm. What is left out is forgotten.
   void reduce(const Matrix& energy, double accuracy);
 
- private:
-  /// Basis of that part, k x r with orthonormal columns.
-  Matrix principal(const Matrix& energy, double accuracy) const;
+  /// Principal components of vectors in the norm of an energy.
+  struct Components {
+    Matrix parts;   ///< k x k, in this basis, by descending size
+    Vector values;  ///< of the first ones: what each contributes to unit vectors
 
+    /// How many the vectors need up to a relative error `accuracy`.
+    Eigen::Index needed(double accuracy) const { return (values.array() > accuracy).count(); }
+  };
+
+  /// Those of all vectors (`both`), or of those of one side. `energy` as in `reduce`.
+  Components components(const Matrix& energy, Side side) const;
+
+ private:
   Matrix basis_;
-  Matrix vectors_;  ///< k x N: the vectors that were added, in this basis
+  Matrix vectors_;           ///< k x N: the vectors that were added, in this basis
+  std::vector<Side> sides_;  ///< N
 };
 
 }  // namespace eigentrail

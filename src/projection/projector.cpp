@@ -84,12 +84,17 @@ class Projector {
         visits_.push_back({parameters, std::move(sample.exact), error});
         continue;
       }
-      if (lines_.size() == 1) note_newcomers(*model);
-      if (stuck)
+      if (stuck) {
+        if (lines_.size() == 1) note_newcomers(*model, places_);
         return give_up(std::move(model), left, left.indicator,
                        "also with the vectors of that place, probably by rounding of the large matrices");
+      }
+      if (!is_complete(sample)) {
+        visits_.push_back({parameters, std::move(sample.exact), error});
+        return settled(smallest(std::move(model)));
+      }
+      if (lines_.size() == 1) note_newcomers(*model, places_);
       // Vectors that are at hand are not thrown away; left ones are not looked for only to be safer.
-      if (!is_complete(sample)) return settled(std::move(model));
       add_vectors(sample, *model);
       model.reset();
       return settled(reduced());
@@ -168,8 +173,9 @@ class Projector {
 
   void add(const NearestModes& modes, double p) {
     frequency_ = std::max(frequency_, modes.s.cwiseAbs().maxCoeff());
-    space_.add(large_.for_space(modes.right));
-    if (options_.left_vectors && modes.left.cols() > 0) space_.add(large_.for_space(modes.left));
+    const bool has_left = options_.left_vectors && modes.left.cols() > 0;
+    space_.add(large_.for_space(modes.right), has_left ? Side::right : Side::both);
+    if (has_left) space_.add(large_.for_space(modes.left), Side::left);
     projection_.sampled_at.push_back(p);
   }
 
@@ -192,9 +198,10 @@ class Projector {
 
   /// The model on the space of the vectors, without what these need less than the target.
   std::unique_ptr<Model> reduced() {
-    const Vector middle = parameters_at(0.5 * (trace_.from + trace_.to), lines_.front());
-    return large_.reduced(space_, accuracy_of_vectors(), middle, frequency_);
+    return large_.reduced(space_, accuracy_of_vectors(), middle(), frequency_);
   }
+
+  Vector middle() const { return parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()); }
 
   std::unique_ptr<Model> settled(std::unique_ptr<Model> model) {
     projection_.factorizations = finder_.factorizations();
@@ -279,9 +286,9 @@ class Projector {
     projection_.error_at = worst.place->at.p;
   }
 
-  void note_newcomers(const Model& model) {
+  void note_newcomers(const Model& model, const ScoutedPlaces& places) {
     const Newcomers found =
-        find_newcomers(large_, model, places_.all(), usual_shift(trace_.modes), places_.reference());
+        find_newcomers(large_, model, places.all(), usual_shift(trace_.modes), places.reference());
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -292,21 +299,63 @@ class Projector {
                                 " rad/s; to follow more, ask for more modes");
   }
 
+  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
+  struct Visit {
+    Vector parameters;
+    std::vector<Complex> exact;
+    double error = 0.0;
+  };
+
+  /// The place of a visit among others; null if it is not there, or if its modes are of another space.
+  const ProjectedPlace* place_of(const Visit& visit, const ScoutedPlaces& places) const {
+    constexpr double same_place = 1e-9;  // of the range: where events are located again
+    const double close = same_place * std::abs(trace_.to - trace_.from);
+    for (const ProjectedPlace& place : places.all()) {
+      if (!place.is_old && (visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close)
+        return &place;
+    }
+    return nullptr;
+  }
+
   /// The largest error that the vectors of a place have left there, though they are in the space; those
   /// that they have reduced to less than half are not counted.
   Worst worst_of_visited(const Model& model) const {
-    constexpr double same_place = 1e-9;  // of the range: where events are located again
-    const double close = same_place * std::abs(trace_.to - trace_.from);
     Worst worst;
-    for (const ProjectedPlace& place : places_.all()) {
-      if (place.is_old) continue;
-      for (const Visit& visit : visits_) {
-        if (!((visit.parameters - place.at.parameters).cwiseAbs().maxCoeff() <= close)) continue;
-        const double error = places_.distance(model, place, visit.exact);
-        if (error > worst.indicator && error > 0.5 * visit.error) worst = {&place, error};
-      }
+    for (const Visit& visit : visits_) {
+      const ProjectedPlace* place = place_of(visit, places_);
+      if (place == nullptr) continue;
+      const double error = places_.distance(model, *place, visit.exact);
+      if (error > worst.indicator && error > 0.5 * visit.error) worst = {place, error};
     }
     return worst;
+  }
+
+  /// A model that is accurate enough, or one on two spaces if that is so as well where exact eigenvalues are
+  /// known, and by the indicator everywhere.
+  std::unique_ptr<Model> smallest(std::unique_ptr<Model> model) {
+    ScoutedPlaces places(places_);
+    std::unique_ptr<Model> smaller =
+        large_.on_two_spaces(*model, space_, accuracy_of_vectors(), middle(), frequency_);
+    const bool is_enough = smaller && holds(*smaller, places);
+    if (is_enough) model = std::move(smaller);
+    if (lines_.size() == 1) note_newcomers(*model, is_enough ? places : places_);
+    return model;
+  }
+
+  /// Whether a model of the same vectors is accurate enough; corrects the places to it, and notes its error if
+  /// it is.
+  bool holds(const Model& model, ScoutedPlaces& places) {
+    const std::optional<Worst> worst = places.correct_for(model);
+    if (!worst || factor_ * worst->indicator > safety * target_) return false;
+    double error = 0.0;
+    for (const Visit& visit : visits_) {
+      const ProjectedPlace* place = place_of(visit, places);
+      if (place == nullptr && &visit == &visits_.back()) return false;
+      if (place != nullptr) error = std::max(error, places.distance(model, *place, visit.exact));
+    }
+    if (error > target_) return false;
+    note_error(error, *worst);
+    return true;
   }
 
   std::unique_ptr<Model> give_up(std::unique_ptr<Model> model, const Worst& worst, double error,
@@ -330,12 +379,6 @@ class Projector {
   ScoutedPlaces places_;
   double frequency_ = 0.0;  ///< largest |s| that was found
   double factor_ = 1.0;     ///< error over indicator, the largest that was seen
-  /// A place where exact eigenvalues were computed, and what the error was before their vectors were added.
-  struct Visit {
-    Vector parameters;
-    std::vector<Complex> exact;
-    double error = 0.0;
-  };
   std::vector<Visit> visits_;
   int count_ = 0;  ///< modes that are looked for at a place
 };

@@ -48,7 +48,7 @@ bool has_meeting(const TracePoint& point) {
 
 Worst ScoutedPlaces::worst(const Model& model, bool traces_hold, double enough) {
   if (traces_hold) {
-    for (ProjectedPlace& place : places_) place.is_old = true;
+    forget_modes();
     if (const auto found = find_worst(model, enough)) return *found;
   }
   places_.clear();
@@ -129,18 +129,32 @@ Worst ScoutedPlaces::worst_of_all(const Model& model) {
   return worst;
 }
 
+std::optional<Worst> ScoutedPlaces::correct_for(const Model& model) {
+  forget_modes();
+  Worst worst{&places_.front(), -1.0};
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!look_at(model, i, worst)) return std::nullopt;
+  }
+  return worst;
+}
+
+void ScoutedPlaces::forget_modes() {
+  for (ProjectedPlace& place : places_) place.is_old = true;
+  indicators_.assign(places_.size(), std::nullopt);
+}
+
 /// The largest indicator of the modes at a place, which are corrected if they are of another space. Empty if
 /// they are not found.
 std::optional<double> ScoutedPlaces::indicator_at(const Model& model, ProjectedPlace& place) const {
   const SparsePencil pencil = large_.pencil(place.at);
-  const auto basis = large_.basis(model, pencil);
-  if (!basis) return place.is_old ? std::nullopt : std::optional(0.0);
+  const auto bases = large_.bases(model, pencil);
+  if (!bases) return place.is_old ? std::nullopt : std::optional(0.0);
   if (place.is_old) {
-    SmallPencil small = large_.small(model, place.at, pencil, *basis);
+    SmallPencil small = large_.small(model, place.at, pencil, *bases->right);
     if (!renew(place, small)) return std::nullopt;
     if (large_.keeps_small()) place.small = std::move(small);
   }
-  const std::vector<ProjectedMode> modes = lifted(moving_modes(place), *basis);
+  const std::vector<ProjectedMode> modes = lifted(moving_modes(place), *bases->right, *bases->left);
   const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
   double largest = 0.0;
   for (std::size_t i = 0; i < modes.size(); ++i)

@@ -34,6 +34,10 @@ class ScoutedPlaces {
   /// The place with the largest indicator of all, for the model for which one was looked for.
   Worst worst_of_all(const Model& model);
 
+  /// Corrects the modes at all places to those of another model. The place with the largest indicator; empty
+  /// if one of the modes is not found.
+  std::optional<Worst> correct_for(const Model& model);
+
   /// Largest distance of the modes at a place from the nearest of some eigenvalues, relative to their size.
   double distance(const Model& model, const ProjectedPlace& place, const std::vector<Complex>& exact) const;
 
@@ -43,6 +47,8 @@ class ScoutedPlaces {
 
  private:
   void scout(const Model& model, const ParameterValues& line);
+  /// Notes that the modes are of a space that has changed.
+  void forget_modes();
   std::optional<Worst> find_worst(const Model& model, double enough);
   bool look_at(const Model& model, std::size_t i, Worst& worst);
   std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const;

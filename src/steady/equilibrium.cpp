@@ -9,6 +9,7 @@
 #include "core/positive_or_one.hpp"
 #include "eigentrail/steady/relaxation.hpp"
 #include "steady/error_oriented_newton.hpp"
+#include "steady/load_steps.hpp"
 #include "steady/rounding.hpp"
 
 namespace eigentrail {
@@ -166,8 +167,21 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
   const bool large = n >= many_coordinates;
   NonlinearResult result;
   if (large) {
-    result = solve_error_oriented(problem, n, {.least_damping = options.relax ? 1e-6 : 1.0}, u);
+    // Damped steps from a far guess become shorter and shorter; few of them are tried before the load is
+    // added in steps.
+    result = options.relax ? solve_error_oriented(problem, n, {.max_iterations = patience}, u)
+                           : solve_error_oriented(problem, n, {.least_damping = 1.0}, u);
     if (result.converged || !options.relax) return result;
+    Vector loaded = guess;
+    NonlinearResult in_steps = solve_in_load_steps(problem, n, {}, loaded);
+    in_steps.iterations += result.iterations;
+    if (in_steps.converged) {
+      u = std::move(loaded);
+      return in_steps;
+    }
+    result = solve_error_oriented(problem, n, {}, u);
+    result.iterations += in_steps.iterations;
+    if (result.converged) return result;
     u = guess;
   }
   const int first = options.relax ? std::min(patience, options.max_iterations) : options.max_iterations;

@@ -14,6 +14,9 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_corrections = 30;
+/// In lengths: corrections that grow beyond this lead nowhere. Constraints of bodies that lie so far apart
+/// depend on each other in rounding, and every further factorization of a large model would be a dense one.
+constexpr double far_away = 1e3;
 
 /// Derivative of the steady equations with respect to the traced parameter, at fixed x and lambda.
 EvaluationFault parameter_slope(const Model& model, const Vector& x, const Vector& lambda,
@@ -134,7 +137,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     // Small corrections that grow show divergence; large ones may grow far from the solution.
-    if (!std::isfinite(size) || (size > 2.0 * last && size < 1e-3) || i > most_corrections) return result;
+    const bool diverges = size > 2.0 * last && size < 1e-3, is_lost = size > last && size > far_away;
+    if (!std::isfinite(size) || diverges || is_lost || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
       ++result.report.factorizations;
@@ -220,6 +224,37 @@ double kernel_share_of_parameter(const Model& model, const Path& point, int trac
   return load.total > 0.0 ? std::abs(load.along_kernel) / load.total : 0.0;
 }
 
+namespace {
+
+/// As directions_at_branch_point, of a large scene whose tangent basis spans few of its motions: they tell the
+/// kernel to few digits, and nothing of how the whole follows the parameter. `right`, `left`: unit vectors
+/// near the kernel and that of the transpose, which border the equations of the whole scene. `next`: the
+/// second smallest singular value in the basis. Empty also if the whole is not singular: the motion that
+/// nothing holds is none of the followed modes then, and the basis knows little of it.
+Matrix directions_of_the_whole(const Model& model, const Path& point, int traced,
+                               const Linearization& linearization, const Vector& right, const Vector& left,
+                               double next, EvaluationCounts& counts) {
+  constexpr double singular = 1e-3;  // of `next`
+
+  const Eigen::Index n = right.size(), m = model.n_constraints();
+  Vector force, constraint;
+  if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
+                      constraint, counts))
+    return {};
+  const KktBorder border{left, Matrix::Zero(m, 1), right.transpose(), {}, Matrix::Zero(1, 1)};
+  const SparseBorderedKkt system(linearization.K[0].sparse(), linearization.A[0].sparse(), border);
+  Vector kernel, followed, multipliers, rest;
+  system.solve(Vector::Zero(n), Vector::Zero(m), Vector::Ones(1), kernel, multipliers, rest);
+  if (!(std::abs(rest[0]) <= singular * next)) return {};
+  system.solve(-force, -constraint, Vector::Zero(1), followed, multipliers, rest);
+  Matrix directions(n + 1, 2);
+  directions.col(0) << kernel, 0.0;
+  directions.col(1) << followed, 1.0;
+  return directions;
+}
+
+}  // namespace
+
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
                                   const Linearization& linearization, const Matrix& tangent_basis,
                                   EvaluationCounts& counts) {
@@ -228,6 +263,10 @@ Matrix directions_at_branch_point(const Model& model, const Path& point, int tra
   const SingularVectors<Matrix> svd =
       singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
   const Eigen::Index regular = tangent_basis.cols() - 1;
+  const bool is_part = tangent_basis.cols() < model.n_coordinates() - model.n_constraints();
+  if (is_part && regular > 0 && linearization.K[0].is_sparse() && linearization.A[0].is_sparse())
+    return directions_of_the_whole(model, point, traced, linearization, tangent_basis * svd.V.col(regular),
+                                   tangent_basis * svd.U.col(regular), svd.values[regular - 1], counts);
   const Vector loads = svd.U.leftCols(regular).transpose() * (tangent_basis.transpose() * load);
   const Vector y = svd.V.leftCols(regular) * loads.cwiseQuotient(svd.values.head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);

@@ -45,7 +45,7 @@ SparseBorderedKkt::SparseBorderedKkt(const SparseMatrix& K, const SparseMatrix& 
   }
   matrix_.resize(rows_.size(), rows_.size());
   matrix_.setFromTriplets(entries.begin(), entries.end());
-  is_regular_ = matrix_.coeffs().allFinite() && lu_.factor(matrix_, SparseKind::general);
+  is_regular_ = matrix_.coeffs().allFinite() && lu_.factor(matrix_, SparseKind::near_symmetric);
 }
 
 void SparseBorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vector& dx, Vector& dl,

@@ -22,6 +22,9 @@ struct Projection {
   /// n x k, orthonormal columns: x = basis times reduced coordinates. Empty for a scene: its shapes are those
   /// of all its coordinates.
   Matrix basis;
+  /// n x k, orthonormal columns: the equations are multiplied with its transpose. Known while the projection
+  /// is made; empty where it is `basis`, and afterwards.
+  Matrix left_basis = {};
   std::optional<Motions> motions = {};  ///< only of a scene
   Eigen::Index freedoms = 0;            ///< of the large model
   std::vector<std::string> names;       ///< n, of the coordinates of the large model

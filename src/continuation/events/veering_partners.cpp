@@ -31,8 +31,8 @@ constexpr double narrowest = 1e-10;
 class PencilSearch {
  public:
   PencilSearch(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-               const std::vector<int>& modes, double widest)
-      : search_(search), step_(step), expected_(expected), modes_(modes), widest_(widest) {}
+               const std::vector<int>& modes, double widest, BelowExceptionalPoints& known)
+      : search_(search), step_(step), expected_(expected), modes_(modes), widest_(widest), known_(known) {}
 
   VeeringsOfPencil run() {
     if (!go_to(expected_.position.real())) return {};
@@ -186,8 +186,10 @@ class PencilSearch {
     const bool counts = std::abs(point.h.imag()) <= widest_ && event.half_width >= narrowest * range &&
                         0.5 * std::abs(point.next - point.h) > double_root * std::abs(point.h.imag());
     if (!here || !counts) return std::nullopt;
+    if (is_recorded(event, point, t)) return std::nullopt;
     const auto below = eigenvalues_below(pencil(), chart(), point);
     if (!below) return std::nullopt;
+    known_.entries.push_back({position_ + point.h, point.mu, *below});
     event.modes = modes_of(*below, t);
     if (event.modes.size() != 2) {
       event.modes = modes_;
@@ -203,6 +205,17 @@ class PencilSearch {
     return search_.log.has_veering({event.p, event.half_width}, event.modes)
                ? std::nullopt
                : std::optional(std::move(event));
+  }
+
+  /// Whether the log has the veering of an exceptional point from which eigenvalues were followed down before.
+  bool is_recorded(const Event& event, const ExceptionalPoint& point, double t) const {
+    constexpr double same = 1e-7;  // of the distance from the axis, and of the eigenvalue
+    return std::any_of(known_.entries.begin(), known_.entries.end(), [&](const auto& entry) {
+      if (std::abs(position_ + point.h - entry.place) > same * std::abs(point.h.imag())) return false;
+      if (std::abs(point.mu - entry.mu) > same * std::abs(point.mu)) return false;
+      const std::vector<int> modes = modes_of(entry.below, t);
+      return modes.size() == 2 && search_.log.has_veering({event.p, event.half_width}, modes);
+    });
   }
 
   /// The modes of two eigenvalues at a place of the step or beside it, by the dense output. Where that is not
@@ -269,6 +282,7 @@ class PencilSearch {
   const ExpectedMeeting& expected_;
   const std::vector<int>& modes_;
   double widest_;
+  BelowExceptionalPoints& known_;
   double position_ = 0.0;  ///< of the point, as a distance from the left end
   std::optional<PathNode> node_;
   std::vector<Event> untold_;
@@ -278,13 +292,14 @@ class PencilSearch {
 
 VeeringsOfPencil find_from_pencil(const EventSearch& search, const Step& step,
                                   const ExpectedMeeting& expected, const std::vector<int>& modes,
-                                  double widest) {
-  return PencilSearch(search, step, expected, modes, widest).run();
+                                  double widest, BelowExceptionalPoints& known) {
+  return PencilSearch(search, step, expected, modes, widest, known).run();
 }
 
 bool settle_by_pencil(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
                       const std::vector<int>& modes, double widest, Event& veering) {
-  return PencilSearch(search, step, expected, modes, widest).settle(veering);
+  BelowExceptionalPoints none;
+  return PencilSearch(search, step, expected, modes, widest, none).settle(veering);
 }
 
 }  // namespace eigentrail

@@ -328,6 +328,7 @@ FoundEvents find_veerings(const EventSearch& search, const Step& step) {
   FoundEvents found;
   EventLog log = search.log;
   log.found = &found;
+  BelowExceptionalPoints known;
   const EventSearch own{search.solver, search.options, search.criteria, log, search.node};
   for (const ExpectedMeeting& expected :
        expected_beside(*step.left, step.right, step.h, search_width(search, *step.left))) {
@@ -344,7 +345,7 @@ FoundEvents find_veerings(const EventSearch& search, const Step& step) {
       dismissed = std::exchange(located.dismissed, {});
       append(std::move(located), found);
     }
-    VeeringsOfPencil of_pencil = find_from_pencil(own, step, expected, modes, widest);
+    VeeringsOfPencil of_pencil = find_from_pencil(own, step, expected, modes, widest, known);
     append(std::move(of_pencil.found), found);
     // What the series do not confirm may still be a veering, whose modes another step tells.
     const std::vector<Event> none;
