@@ -194,5 +194,35 @@ TEST(SensitiveSpectra, APoleOfTheEquilibriumEndsTheTraceWithAReason) {
   EXPECT_LT(trace.result.nodes, 200);
 }
 
+/// A shaft of equal stiffness in both directions runs down: at rest forward and backward whirl of all modes
+/// meet at once, twenty pairs in one place.
+TEST(SensitiveSpectra, ForwardAndBackwardWhirlOfManyModesMeetAtRest) {
+  constexpr int n = 20;
+  const auto both = [](const auto& one) {  // of x and y alike: coordinates x1, y1, x2, y2 ...
+    return matrix(2 * n, [&](int i, int k) { return i % 2 == k % 2 ? one(i / 2, k / 2) : 0.0; });
+  };
+  const std::string K = both([](int i, int k) {
+    return i == k ? 2.0 + 0.3 * i : std::abs(i - k) == 1 ? -1.0 : 0.0;
+  });
+  const std::string G = matrix(2 * n, [](int i, int k) {
+    if (i % 2 == k % 2) return 0.0;
+    const int a = i / 2, b = k / 2;
+    const double of_discs = a == b ? 0.02 + 0.005 * ((3 * a) % 7) : std::abs(a - b) == 1 ? 0.004 : 0.0;
+    return i % 2 == 0 ? of_discs : -of_discs;
+  });
+  for (const double tolerance : {1e-6, 1e-10}) {
+    SCOPED_TRACE(tolerance);
+    const RecordedTrace trace = record_trace(
+        family(2 * n, identity(2 * n), zero(2 * n) + ", " + G, K + ", " + zero(2 * n), 1.0, 0.0, tolerance));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    EXPECT_LT(trace.result.nodes, 25);
+    for (const std::string& note : trace.result.notes) ADD_FAILURE() << note;
+    ComplexVector at_rest = trace.eigenvalues_at(0.0);
+    std::sort(at_rest.begin(), at_rest.end(), [](Complex a, Complex b) { return a.imag() < b.imag(); });
+    ASSERT_EQ(at_rest.size(), 2 * n);
+    for (Eigen::Index i = 0; i < 2 * n; i += 2) EXPECT_LT(std::abs(at_rest[i] - at_rest[i + 1]), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -48,8 +48,9 @@ constexpr double longest_step_of_large_blocks = 0.05;
 /// A step whose certificate fails is shortened as if this were its error in units of the accepted one: to
 /// 0.56 of its length at order 3. A larger value shortens more at once, a smaller one needs more attempts.
 constexpr double uncertified_error = 30.0;
-/// Largest number of attempts to join blocks at one point. It limits how often a step of the same length is
-/// tried before it is shortened. Fewer may miss a useful block, more may waste attempts.
+/// Largest number of attempts to join blocks at one point, or one per track if those are more: all of them
+/// may meet at the end of the step, as forward and backward whirl at rest. It limits how often a step of the
+/// same length is tried before it is shortened. Fewer may miss a useful block, more may waste attempts.
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
@@ -343,9 +344,10 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   if (uncertified) memory.patience.count_failure();
   const Shorter shorter =
       uncertified && memory.patience.is_in_vain(verdict.error) ? Shorter::in_vain : Shorter::may_help;
+  const int limit = std::max(most_joins, static_cast<int>(state_.origin.node.tracks.size()));
   const Remedy remedy =
       eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step ? &*step : nullptr,
-                              memory.joins < most_joins, shorter, state_.origin.node, state_.result.counts);
+                              memory.joins < limit, shorter, state_.origin.node, state_.result.counts);
   if (remedy.tried_to_join) ++memory.joins;
   if (!remedy.helps()) return false;
   if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
@@ -553,6 +555,7 @@ bool TraceLoop::leaves_path_at(const PathNode& node) const {
 
 void TraceLoop::log(FoundEvents found) {
   const std::size_t before = state_.events.size();
+  if (state_.result.notes.size() >= most_notes) found.notes.clear();
   record(log_, std::move(found), state_.events, state_.dismissed, state_.result.notes);
   for (std::size_t i = before; i < state_.events.size(); ++i) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
