@@ -347,8 +347,8 @@ class Projector {
     return model;
   }
 
-  /// Whether a model of the same vectors is accurate enough; corrects the places to it, and notes its error if
-  /// it is.
+  /// Whether a model of the same vectors is accurate enough; corrects the places to it, and notes its error
+  /// if it is.
   bool holds(const Model& model, ScoutedPlaces& places) {
     const std::optional<Worst> worst = places.correct_for(model);
     if (!worst || factor_ * worst->indicator > safety * target_) return false;
