@@ -5,6 +5,8 @@
 //         a line per discrepancy over N seeds from S on, a table at the end; scenes of the seeds that fail
 //     completeness_sweep --veerings [--seeds N] [--first S] [--reversed]
 //         the same for veerings, against exceptional points at complex parameters
+//     completeness_sweep --few K [--seeds N] [--first S] [--reversed]
+//         traces of the K slowest modes against traces of all modes
 //     completeness_sweep --seed S [--reversed] [--scene]
 //         everything about one seed; its scene with --scene
 //
@@ -18,6 +20,7 @@
 
 #include "completeness/discrepancies.hpp"
 #include "completeness/exceptional_points.hpp"
+#include "completeness/few_modes.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -89,6 +92,7 @@ struct Summary {
 
 struct Options {
   std::uint64_t seeds = 1000, first = 1;
+  int few = 0;
   bool single = false, reversed = false, scene = false, veerings = false;
   std::string scenes;
 };
@@ -148,6 +152,26 @@ int sweep_veerings(const Options& options) {
   return failed.empty() ? 0 : 1;
 }
 
+int sweep_few(const Options& options) {
+  std::uint64_t failed = 0;
+  long nodes = 0;
+  long nodes_of_all = 0;
+  for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed) {
+    const FewModesReport report = check_few_modes(random_family(seed), options.few, options.reversed);
+    nodes += report.nodes;
+    nodes_of_all += report.nodes_of_all;
+    if (report.problems.empty()) continue;
+    ++failed;
+    std::printf("seed %lu, %d modes\n", static_cast<unsigned long>(seed), options.few);
+    for (const std::string& line : report.problems) std::printf("  %s\n", line.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("%lu seeds, %d modes: %lu failed; %ld points, of all modes %ld\n",
+              static_cast<unsigned long>(options.seeds), options.few, static_cast<unsigned long>(failed),
+              nodes, nodes_of_all);
+  return failed == 0 ? 0 : 1;
+}
+
 int show(const Options& options) {
   const RandomFamily family = random_family(options.first);
   if (options.scene) {
@@ -171,9 +195,11 @@ int show(const Options& options) {
 }
 
 int usage() {
-  std::fprintf(stderr,
-               "usage: completeness_sweep [--seeds N] [--first S] [--reversed] [--scenes FOLDER] | --seed S "
-               "[--reversed] [--scene] | --veerings [--seeds N] [--first S] [--reversed]\n");
+  std::fprintf(
+      stderr,
+      "usage: completeness_sweep [--seeds N] [--first S] [--reversed] [--scenes FOLDER] | --seed S "
+      "[--reversed] [--scene] | --veerings [--seeds N] [--first S] [--reversed] | --few K [--seeds N] "
+      "[--first S] [--reversed]\n");
   return 2;
 }
 
@@ -191,6 +217,8 @@ int run(int argc, char** argv) {
       return usage();
     } else if (option == "--scenes") {
       options.scenes = argv[++i];
+    } else if (option == "--few") {
+      options.few = std::stoi(argv[++i]);
     } else if (option == "--seeds") {
       options.seeds = std::stoull(argv[++i]);
     } else if (option == "--first" || option == "--seed") {
@@ -201,6 +229,7 @@ int run(int argc, char** argv) {
     }
   }
   if (options.veerings) return sweep_veerings(options);
+  if (options.few > 0) return sweep_few(options);
   return options.single ? show(options) : sweep(options);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "completeness/discrepancies.hpp"
+#include "completeness/few_modes.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -36,6 +37,26 @@ TEST(RandomFamilies, HaveNoCollisionOfAllOverdampedModes) {
     EXPECT_TRUE(report.passed()) << report.problems();
   }
 }
+
+/// A pair meets the real axis while it is followed together with another one. Rounding tells which of the
+/// other two eigenvalues, conjugates of each other, is close to it: they stay, or go, together.
+TEST(RandomFamilies, HaveAPairOnTheAxisBesideAnotherPair) {
+  const CompletenessReport report = check_completeness(random_family(184));
+  EXPECT_TRUE(report.passed()) << report.problems();
+}
+
+/// The slowest two or three modes of a family, of up to thirty: modes that nobody follows meet them.
+class FewModesOfRandomFamily : public testing::TestWithParam<int> {};
+
+TEST_P(FewModesOfRandomFamily, HaveTheEventsOfATraceOfAll) {
+  for (const int modes : {2, 3}) {
+    const FewModesReport report = check_few_modes(random_family(GetParam()), modes);
+    for (const std::string& problem : report.problems) ADD_FAILURE() << modes << " modes: " << problem;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, FewModesOfRandomFamily, testing::Values(6, 14, 19, 28, 97, 98, 119, 150),
+                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace
 }  // namespace eigentrail::test

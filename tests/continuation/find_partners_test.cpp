@@ -160,5 +160,16 @@ TEST(FindPartners, RealBlockIsMetWhereItsMembersAre) {
   EXPECT_LE(partners[0].distance, 0.05 + rounding);
 }
 
+/// A wide block of 11 and 16 + p, and a mode 15 + p between them. Mean and radius of the block alone would
+/// have it meet the member at 11, from which it moves away.
+TEST(FindPartners, WideBlockIsNotMetWhereItsDiscIs) {
+  Planted family = Planted::frequencies(uncoupled(Matrix{{11.0, 0.0}, {16.0, 1.0}, {15.0, 1.0}}));
+  PathNode node = family.point(0.0, alone({11.0 * j, 16.0 * j, 15.0 * j}));
+  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.0}}, family.counts));
+  ASSERT_EQ(node.tracks.size(), 2U);
+  EXPECT_TRUE(find_partners(node, 1, 8.0, 0.4).empty());
+  EXPECT_TRUE(find_partners(node, 0, 8.0, 0.4).empty());
+}
+
 }  // namespace
 }  // namespace eigentrail::test

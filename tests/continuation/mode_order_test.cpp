@@ -53,18 +53,18 @@ TEST(SettleRealBlock, NumbersWhatBeginsOnTheRealAxis) {
   };
   ModeNumbers numbers{5};
   Track apart = block(-1.0, -2.0, {3, Track::no_mode});
-  const std::vector<Birth> births = settle_real_block(apart, numbers);
+  const std::vector<Birth> births = settle_real_block(apart, apart.modes, numbers);
   ASSERT_EQ(births.size(), 1U);
   EXPECT_EQ(births[0].parent, 3);
   EXPECT_EQ(births[0].born, 5);
   EXPECT_EQ(numbers.count, 6);
   EXPECT_EQ(apart.modes, (Modes{3, 5}));
   Track pair = block({-1.5, 0.5}, {-1.5, -0.5}, {3, 5});
-  EXPECT_TRUE(settle_real_block(pair, numbers).empty());
+  EXPECT_TRUE(settle_real_block(pair, pair.modes, numbers).empty());
   EXPECT_EQ(std::count(pair.modes.begin(), pair.modes.end(), Track::no_mode), 1);
   const int left_over = *std::max_element(pair.modes.begin(), pair.modes.end());
   Track again = block(-1.2, -1.8, {left_over, Track::no_mode});
-  settle_real_block(again, numbers);
+  settle_real_block(again, again.modes, numbers);
   std::sort(again.modes.begin(), again.modes.end());
   EXPECT_EQ(again.modes, (Modes{3, 5})) << "the same numbers as before";
   EXPECT_EQ(numbers.count, 6);
@@ -77,8 +77,32 @@ TEST(SettleRealBlock, LeavesGuestsAlone) {
   track.pair.Lambda = ComplexMatrix::Identity(2, 2);
   track.modes = {0, Track::guest};
   ModeNumbers numbers{1};
-  EXPECT_TRUE(settle_real_block(track, numbers).empty());
+  EXPECT_TRUE(settle_real_block(track, track.modes, numbers).empty());
   EXPECT_EQ(track.modes, (Modes{0, Track::guest}));
+}
+
+/// Modes 3 and 5 were a pair. Then 3 meets an eigenvalue that nobody follows, while 5 goes on elsewhere:
+/// behind that pair a new mode begins, and no second mode 5.
+TEST(SettleRealBlock, NeverGivesANumberThatIsInUse) {
+  Track track;
+  track.pair.is_real = true;
+  track.pair.Lambda = ComplexMatrix::Identity(2, 2);
+  for (const bool meets_a_guest : {true, false}) {
+    ModeNumbers numbers{6, {{3, 5}, {5, 3}}};
+    if (meets_a_guest) {
+      track.roots = ComplexVector{{Complex(-1.5, 0.5), Complex(-1.5, -0.5)}};
+      track.modes = {3, Track::guest};
+      EXPECT_TRUE(settle_real_block(track, {3, 5}, numbers).empty());
+      EXPECT_EQ(track.modes, (Modes{3, Track::no_mode}));
+      EXPECT_TRUE(numbers.partners.empty());
+    }
+    track.roots = ComplexVector{{-1.0, -2.0}};
+    track.modes = {3, Track::no_mode};
+    const std::vector<Birth> births = settle_real_block(track, {3, 5}, numbers);
+    ASSERT_EQ(births.size(), 1U);
+    EXPECT_EQ(births[0].born, 6);
+    EXPECT_EQ(track.modes, (Modes{3, 6}));
+  }
 }
 
 }  // namespace

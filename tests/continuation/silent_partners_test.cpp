@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuation/planted_search.hpp"
+#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -47,6 +48,26 @@ TEST(AddNeighbours, FindsRealEigenvalues) {
   for (std::size_t i = 1; i < 3; ++i)
     has_real = has_real || (node.tracks[i].pair.is_real && std::abs(node.tracks[i].roots[0] + 4.0) < 1e-10);
   EXPECT_TRUE(has_real);
+}
+
+/// s^2 + 2 s + 0.2 + 0.8 p, of which only the slower of two real roots is followed: it meets the other one at
+/// p = 1, where the step may not have become short before the other one is seen.
+TEST(SilentPartners, AreFoundBeforeStepsShrinkTowardsACollision) {
+  for (const std::string tolerance : {"1e-6", "1e-8", "1e-10"}) {
+    SCOPED_TRACE(tolerance);
+    const RecordedTrace trace =
+        record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n"
+                                  "modes = 1\n[matrix_family]\n"
+                                  "M = [[[1, 0], [0, 1]]]\n"
+                                  "C = [[[2, 0], [0, 0.5]]]\n"
+                                  "K = [[[0.2, 0.01], [0, 400]], [[0.8, 0], [0, 1]]]\n",
+                                  {{"tolerance", tolerance}}));
+    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    EXPECT_LT(trace.result.nodes, 40);
+    ASSERT_EQ(trace.result.events.size(), 1U);
+    EXPECT_EQ(trace.result.events[0].kind, EventKind::collision);
+    EXPECT_NEAR(trace.result.events[0].p, 1.0, 1e-8);
+  }
 }
 
 }  // namespace

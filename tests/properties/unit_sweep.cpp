@@ -25,7 +25,8 @@ TraceResult traced(const HardCase& hard_case, const std::string& tolerance, cons
 }
 
 double factorizations(const RunCounts& counts) {
-  return static_cast<double>(counts.modes.factorizations + counts.certificate_factorizations +
+  return static_cast<double>(counts.modes.factorizations + counts.modes.modal_bases +
+                             counts.certificate_factorizations + counts.certificate_bases +
                              counts.event_factorizations);
 }
 

@@ -9,12 +9,9 @@
 
 namespace eigentrail {
 
-/// Number of followed eigenvalues with Re s > 0, pairs counted twice. Empty where one cannot be told from
-/// zero, or is infinite.
-std::optional<int> growing_eigenvalues(const EventSearch& search, const PathNode& node);
-
-/// A remark on a step where that number changes otherwise than the recorded events say, with its place. Empty
-/// where both agree, where the number is not known at an end, and where the path turns or branches.
+/// A remark on a step where the number of followed eigenvalues with Re s > 0, pairs counted twice, changes
+/// otherwise than the recorded events say, with its place. Empty where both agree, where the number is not
+/// known at an end, and where the path turns or branches.
 std::optional<std::string> unexplained_growth(const EventSearch& search, const Step& step);
 
 }  // namespace eigentrail

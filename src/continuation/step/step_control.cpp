@@ -22,6 +22,9 @@ constexpr double least_error = 1e-10;
 /// A step may be longer by this factor to reach the end of the range: a very short last step is avoided.
 /// The error grows by 1.02^(2q+2), at most 22 %, which the distance between `aim` and one allows for.
 constexpr double stretch_to_end = 1.02;
+/// The same for a step of the largest length, which is longer by rounding only: places that are solved for
+/// are not exact, and rounding should not decide between one step and two.
+constexpr double stretch_of_largest = 1.0 + 1e-9;
 
 }  // namespace
 
@@ -33,7 +36,7 @@ StepControl::StepControl(int order, double first_step, double max_step, double m
 
 double StepControl::propose(double remaining) const {
   const double step = std::min(step_, max_step_);
-  if (remaining <= std::min(stretch_to_end * step, max_step_)) return remaining;
+  if (remaining <= std::min(stretch_to_end * step, stretch_of_largest * max_step_)) return remaining;
   // Two equal steps instead of a full one and a short one.
   return remaining < 2.0 * step ? 0.5 * remaining : step;
 }

@@ -304,7 +304,7 @@ std::optional<StartFailure> Start::make_node(const std::vector<StartingGroup>& g
     Track& track = node->tracks[i];
     track.modes = groups[i].modes;
     track.roots = in_order_of(groups[i].roots, track.roots);
-    if (track.pair.is_real && track.size() > 1) settle_real_block(track, state_.numbers);
+    if (track.pair.is_real && track.size() > 1) settle_real_block(track, {}, state_.numbers);
     track.arriving = track.modes;
   }
   state_.origin.node = std::move(*node);
@@ -362,7 +362,7 @@ std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const P
     if (!meets[i]) continue;
     track.departure = Track::Departure{distance, block_roots(evaluate_series(track.functions, distance))};
     if (track.pair.is_real) {
-      const std::vector<Birth> born = settle_real_block(track, numbers);
+      const std::vector<Birth> born = settle_real_block(track, modes_of(node.tracks), numbers);
       births.insert(births.end(), born.begin(), born.end());
     } else {
       number_by_magnitude(track);

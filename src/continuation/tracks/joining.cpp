@@ -5,6 +5,7 @@
 
 #include "continuation/step/step_error.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
+#include "continuation/tracks/silent_partners.hpp"
 
 namespace eigentrail {
 namespace {
@@ -19,11 +20,10 @@ constexpr double worthwhile = 0.05;
 constexpr double limiting_error = 0.1;
 /// As `worthwhile`, for the change to the other chart, which has no extra cost.
 constexpr double better_chart = 0.3;
-/// Blocks of more than two, to six, are formed only if the step is shorter than this share of the longest one
-/// of the last steps. In large blocks the eigenvalues are harder to identify, and more events are close to
-/// each other.
-constexpr double shrinking = 0.25;
-/// The same for blocks of more than six: at exceptional points of a higher order steps shrink towards zero.
+/// Blocks of more than six are formed only if the step is shorter than this share of the longest one of the
+/// last steps: at exceptional points of a higher order steps shrink towards zero. Blocks of more than two, to
+/// six, only if it has shrunk at all. In large blocks the eigenvalues are harder to identify, and more events
+/// are close to each other.
 constexpr double much_shrinking = 0.1;
 /// Meetings farther away than this many times the distance of the nearest one have little influence on the
 /// error.
@@ -67,7 +67,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   const double accepted = accepted_share * rules.tolerance * scale;
   const double length = std::abs(step.h);
   const Eigen::Index largest = length < much_shrinking * rules.longest_step ? most_together
-                               : length < shrinking * rules.longest_step    ? 6
+                               : rules.has_shrunk(length)                   ? 6
                                                                             : 2;
   std::vector<Partner> chosen;
   Eigen::Index size = distinct_eigenvalues(there);
@@ -89,15 +89,25 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   Regroupings done;
   std::vector<Choice> choices;
   std::vector<Track>& tracks = step.right.tracks;
+  const bool may_look_beyond = !rules.follows_all && rules.has_shrunk(next_step);
+  std::size_t worst = tracks.size();
+  double largest = limiting_error;
   for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
-    // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
     // Tracks that were added or taken apart at the end of the step have no error on it.
-    if (tracks[i].lineage != step.left->tracks[i].lineage ||
-        tracks[i].size() != step.left->tracks[i].size() || distinct_eigenvalues(tracks[i]) > 1)
+    if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
       continue;
+    // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
+    // With one that nobody follows a mode may have been joined for nothing.
+    const bool is_joined = distinct_eigenvalues(tracks[i]) > 1;
+    if (is_joined && !may_look_beyond) continue;
     const double error = track_error(problem, rules.tolerance, 0.0, step, i);
     if (error < limiting_error) continue;
-    const double in_other_chart = error_in_other_chart(problem, *step.left, step.right, i, step.h);
+    if (error >= largest) {
+      largest = error;
+      worst = i;
+    }
+    const double in_other_chart =
+        is_joined ? INFINITY : error_in_other_chart(problem, *step.left, step.right, i, step.h);
     if (in_other_chart < better_chart * error * accepted_share * rules.tolerance) {
       if (change_chart(problem, step.right, i, counts)) ++done.charts;
       return done;
@@ -112,6 +122,9 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   for (Choice& choice : choices) {
     if (join_choice(problem, choice, step.right, counts)) ++done.joined;
   }
+  if (may_look_beyond && choices.empty() && worst < tracks.size() &&
+      join_unfollowed(problem, step.right, worst, next_step, rules.parting_reach, counts))
+    ++done.joined;
   return done;
 }
 

@@ -2,6 +2,8 @@
 // series.
 #pragma once
 
+#include <cmath>
+
 #include "continuation/step/step.hpp"
 #include "continuation/tracks/regrouping.hpp"
 #include "eigentrail/continuation/trace_result.hpp"
@@ -14,6 +16,14 @@ struct JoiningRules {
   double parting_reach = 3.0;  ///< in steps: meetings within this distance keep a block together
   double longest_step = 0.0;   ///< of about the last ten steps, in the coordinate along the path
   bool follows_all = true;     ///< every finite mode is followed
+
+  /// Whether a step is so much shorter than the last ones that something nearby must be the reason: then
+  /// larger blocks are worth their cost, and a look for modes that are not followed, which takes a large
+  /// factorization.
+  bool has_shrunk(double h) const {
+    constexpr double share = 0.25;
+    return std::abs(h) < share * longest_step;
+  }
 };
 
 /// The partners with which a block reduces the error of a track so much that it is worth its cost: the
@@ -25,8 +35,9 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
                                       const std::vector<Partner>& candidates);
 
 /// At the end of a step, joins single modes whose errors limit the length of the steps with the partners that
-/// help. If one of them is much more accurate in the other chart, changes only that chart. Returns the
-/// numbers of changes. `next_step`: signed length of the next step.
+/// help, or, where steps have become short, with one that is not followed. If one of them is much more
+/// accurate in the other chart, changes only that chart. Returns the numbers of changes. `next_step`: signed
+/// length of the next step.
 Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRules& rules, Step& step,
                                    double next_step, RunCounts& counts);
 

@@ -23,6 +23,16 @@ ComplexVector roots_beside(const Track& track, double distance) {
   return block_roots(evaluate_series(track.functions, distance));
 }
 
+/// Forgets with which mode another one was a pair: it has become one with an eigenvalue that nobody follows,
+/// and the former partner may go on elsewhere.
+void forget_partner(int mode, ModeNumbers& numbers) {
+  const auto found = numbers.partners.find(mode);
+  if (found == numbers.partners.end()) return;
+  const auto back = numbers.partners.find(found->second);
+  if (back != numbers.partners.end() && back->second == mode) numbers.partners.erase(back);
+  numbers.partners.erase(mode);
+}
+
 /// Assigns the mode of every complex pair of a real block to the member with Im s > 0. Two modes that have
 /// become a pair keep the smaller number and are noted as partners.
 void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
@@ -38,6 +48,8 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
     if (a >= 0 && b >= 0) {
       numbers.partners[a] = b;
       numbers.partners[b] = a;
+    } else if (followed && std::min(a, b) == Track::guest) {
+      forget_partner(upper, numbers);
     }
     a = upper;
     b = followed ? Track::no_mode : Track::guest;
@@ -64,10 +76,14 @@ int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root,
   return parent;
 }
 
-/// The partner of a mode; a new number if it has none yet.
-int partner_of(int mode, ModeNumbers& numbers) {
+/// The partner of a mode; a new number if it has none yet, or if that one is in use: then it goes on
+/// elsewhere.
+int partner_of(int mode, const std::vector<int>& in_use, ModeNumbers& numbers) {
   const auto found = numbers.partners.find(mode);
-  if (found != numbers.partners.end()) return found->second;
+  if (found != numbers.partners.end()) {
+    if (std::find(in_use.begin(), in_use.end(), found->second) == in_use.end()) return found->second;
+    forget_partner(mode, numbers);
+  }
   const int born = numbers.count++;
   numbers.partners[mode] = born;
   numbers.partners[born] = mode;
@@ -75,6 +91,12 @@ int partner_of(int mode, ModeNumbers& numbers) {
 }
 
 }  // namespace
+
+std::vector<int> modes_of(const std::vector<Track>& tracks) {
+  std::vector<int> modes;
+  for (const Track& track : tracks) modes.insert(modes.end(), track.modes.begin(), track.modes.end());
+  return modes;
+}
 
 void order_arrival(Step& step) {
   for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
@@ -108,7 +130,7 @@ std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, M
     track.roots = in_order_of(before, track.roots);
     track.departure = Track::Departure{distance, in_order_of(expected, roots_beside(track, distance))};
     if (!track.pair.is_real) continue;
-    const std::vector<Birth> born = settle_real_block(track, numbers);
+    const std::vector<Birth> born = settle_real_block(track, modes_of(step.right.tracks), numbers);
     births.insert(births.end(), born.begin(), born.end());
   }
   return births;
@@ -126,13 +148,13 @@ std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step
     const double distance = beside_branch_point * next_step;
     track.departure = Track::Departure{distance, in_order_of(track.roots, roots_beside(track, distance))};
     if (!track.pair.is_real) continue;
-    const std::vector<Birth> born = settle_real_block(track, numbers);
+    const std::vector<Birth> born = settle_real_block(track, modes_of(node.tracks), numbers);
     births.insert(births.end(), born.begin(), born.end());
   }
   return births;
 }
 
-std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers) {
+std::vector<Birth> settle_real_block(Track& track, const std::vector<int>& in_use, ModeNumbers& numbers) {
   ComplexVector& roots = track.departure ? track.departure->roots : track.roots;
   settle_pairs(track, roots, numbers);
   std::vector<Birth> births;
@@ -141,7 +163,7 @@ std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers) {
     if (roots[i].imag() != 0.0 || mode != Track::no_mode) continue;
     // A real eigenvalue without a mode was the lower member of a pair that has become two real modes.
     const int parent = parent_of(track, roots, i, numbers);
-    mode = partner_of(parent, numbers);
+    mode = partner_of(parent, in_use, numbers);
     births.push_back({parent, mode});
   }
   return births;

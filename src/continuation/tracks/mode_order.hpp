@@ -40,8 +40,11 @@ std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step
                                        ModeNumbers& numbers);
 
 /// Updates the mode numbers of a real block so that every real eigenvalue is a mode, and of a complex pair
-/// the member with Im s > 0. Eigenvalues that are not followed stay guests. Returns the modes that begin, or
-/// begin again.
-std::vector<Birth> settle_real_block(Track& track, ModeNumbers& numbers);
+/// the member with Im s > 0. Eigenvalues that are not followed stay guests. `in_use`: the modes of all tracks
+/// at the point; none of them begins again. Returns the modes that begin, or begin again.
+std::vector<Birth> settle_real_block(Track& track, const std::vector<int>& in_use, ModeNumbers& numbers);
+
+/// The modes of all eigenvalues of some tracks.
+std::vector<int> modes_of(const std::vector<Track>& tracks);
 
 }  // namespace eigentrail

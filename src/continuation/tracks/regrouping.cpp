@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "continuation/tracks/grouping_errors.hpp"
@@ -73,11 +74,12 @@ enum class Doubtful { counts, is_left_out };
 /// Distance from the step [0, h] of the nearest meeting of two eigenvalues with these series; infinite beyond
 /// `limit`. For blocks, the series are those of the means, and `spread` is the square of the radius of the
 /// eigenvalues about the mean: the magnitude of the discriminant is reduced by it, to allow for the members
-/// that are closest to each other.
+/// that are closest to each other. Where their discs overlap, means tell nothing: infinite.
 double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h, double limit,
                         Doubtful doubtful) {
   ComplexVector delta = discriminant_series(a, b);
-  if (spread > 0.0 && delta[0] != 0.0) delta[0] -= spread * delta[0] / std::abs(delta[0]);
+  if (spread > 0.0 && spread >= std::abs(delta[0])) return INFINITY;
+  if (spread > 0.0) delta[0] -= spread * delta[0] / std::abs(delta[0]);
   if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
   double nearest = INFINITY;
   for (const Complex root : polynomial_roots(delta)) {
@@ -87,32 +89,52 @@ double meeting_distance(const ComplexVector& a, const ComplexVector& b, double s
   return nearest;
 }
 
-/// Square of the largest distance of an eigenvalue of a track from the mean.
-double square_radius(const Track& track) {
-  double radius = 0.0;
-  for (const Complex root : track.roots) radius = std::max(radius, std::norm(root - track.roots.mean()));
-  return track.size() == 1 ? 0.0 : radius;
-}
-
 /// A series in a chart; empty where it is infinite there.
 ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
   if (track.pair.chart == chart) return series;
   return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);
 }
 
-/// Series of the mean of a track in a chart; empty where it is infinite there.
-ComplexVector mean_in(const Track& track, Chart chart) {
-  return in_chart(mean_series(track.series.Lambda), track, chart);
-}
+/// An eigenvalue as a series, or the mean of several.
+struct Representative {
+  ComplexVector series;
+  double spread = 0.0;  ///< square of the largest distance of an eigenvalue from the mean
+};
 
-/// Series of the eigenvalues of a track in a chart, as far as they are simple and finite there.
-std::vector<ComplexVector> members_in(const Track& track, Chart chart) {
-  std::vector<ComplexVector> all;
+/// The eigenvalues of a track in a chart, as far as they are simple and finite there, and the mean of a
+/// block: series of members that are close to each other are known less well, or not at all.
+std::vector<Representative> representatives(const Track& track, Chart chart) {
+  std::vector<Representative> all;
   for (const Complex root : track.roots) {
     ComplexVector own = root_series(track.functions, root);
     if (own.size() > 0) own = in_chart(std::move(own), track, chart);
-    if (own.size() > 0) all.push_back(std::move(own));
+    if (own.size() > 0) all.push_back({std::move(own)});
   }
+  if (track.size() == 1) return all;
+  Representative mean{in_chart(mean_series(track.series.Lambda), track, chart)};
+  if (mean.series.size() == 0) return all;
+  for (const Complex root : track.roots) {
+    const Complex here = track.pair.chart == chart ? root : 1.0 / root;
+    mean.spread = std::max(mean.spread, std::norm(here - mean.series[0]));
+  }
+  all.push_back(std::move(mean));
+  return all;
+}
+
+/// Distance from the step of the nearest meeting of two of them, of one track each.
+double meeting_distance(const std::vector<Representative>& some, const std::vector<Representative>& others,
+                        double h, double limit) {
+  double nearest = INFINITY;
+  for (const Representative& a : some) {
+    for (const Representative& b : others)
+      nearest = std::min(nearest, meeting_distance(a.series, b.series, std::max(a.spread, b.spread), h, limit,
+                                                   Doubtful::is_left_out));
+  }
+  return nearest;
+}
+
+std::vector<Representative> conjugates(std::vector<Representative> all) {
+  for (Representative& one : all) one.series = one.series.conjugate().eval();
   return all;
 }
 
@@ -150,36 +172,19 @@ double inseparable(const PathNode& node, const std::vector<std::size_t>& members
 std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
   const Track& track = node.tracks[index];
   const double limit = reach * std::abs(h);
-  const ComplexVector mean = mean_series(track.series.Lambda);
-  const std::vector<ComplexVector> members = members_in(track, track.pair.chart);
+  const std::vector<Representative> own = representatives(track, track.pair.chart);
   std::vector<Partner> partners;
-  // The mean of a block says little about its members where they are far apart.
-  const auto consider = [&](const Track& other, const ComplexVector& other_mean, double spread,
-                            Partner partner) {
-    if (other_mean.size() > 0)
-      partner.distance = meeting_distance(mean, other_mean, spread, h, limit, Doubtful::is_left_out);
-    if (track.size() + other.size() > 2) {
-      for (const ComplexVector& a : members) {
-        for (const ComplexVector& b : members_in(other, track.pair.chart))
-          partner.distance =
-              std::min(partner.distance, meeting_distance(a, b, 0.0, h, limit, Doubtful::is_left_out));
-      }
-    }
-    if (partner.distance <= limit) partners.push_back(partner);
-  };
   // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
   // the track is joined with its own conjugate.
   double nearest_conjugate = INFINITY;
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
     if (other.pair.part != track.pair.part) continue;  // they cross and never meet
-    const double spread =
-        i == index ? square_radius(track) : std::max(square_radius(track), square_radius(other));
-    const ComplexVector series = mean_in(other, track.pair.chart);
-    if (i != index) consider(other, series, spread, {false, i, INFINITY});
-    if (track.pair.is_real || other.pair.is_real || series.size() == 0) continue;
-    nearest_conjugate = std::min(nearest_conjugate, meeting_distance(mean, series.conjugate(), spread, h,
-                                                                     limit, Doubtful::is_left_out));
+    const std::vector<Representative> others = i == index ? own : representatives(other, track.pair.chart);
+    const double distance = i == index ? INFINITY : meeting_distance(own, others, h, limit);
+    if (distance <= limit) partners.push_back({false, i, distance});
+    if (track.pair.is_real || other.pair.is_real) continue;
+    nearest_conjugate = std::min(nearest_conjugate, meeting_distance(own, conjugates(others), h, limit));
   }
   if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
   std::sort(partners.begin(), partners.end(),
@@ -320,7 +325,11 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     append(track.roots, other_chart, with_conjugates, known);
     if (departure) append(roots_at_departure(track, *departure), other_chart, with_conjugates, departing);
     modes.insert(modes.end(), track.modes.begin(), track.modes.end());
-    if (with_conjugates) modes.insert(modes.end(), static_cast<std::size_t>(track.size()), Track::no_mode);
+    // The conjugate of a guest is one, too.
+    if (with_conjugates) {
+      std::transform(track.modes.begin(), track.modes.end(), std::back_inserter(modes),
+                     [](int mode) { return mode >= 0 ? Track::no_mode : Track::guest; });
+    }
   }
   if (static_cast<Eigen::Index>(known.size()) > largest_block_of(node.pencil.of(pairs[0].part).size()))
     return false;
@@ -344,6 +353,15 @@ namespace {
 /// to the reference magnitude if that is larger: about the square root of rounding, the accuracy of a double
 /// eigenvalue.
 constexpr double told_apart = 1e-5;
+
+/// Indices with the same label, below their number, as lists.
+std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
+  std::vector<std::vector<int>> result(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    result[static_cast<std::size_t>(labels[i])].push_back(static_cast<int>(i));
+  std::erase_if(result, [](const std::vector<int>& members) { return members.empty(); });
+  return result;
+}
 
 /// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
 /// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
@@ -373,15 +391,7 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
       std::replace(group.begin(), group.end(), from, to);
     }
   }
-  std::vector<std::vector<int>> result;
-  for (int label = 0; label < k; ++label) {
-    std::vector<int> members;
-    for (int i = 0; i < k; ++i) {
-      if (group[static_cast<std::size_t>(i)] == label) members.push_back(i);
-    }
-    if (!members.empty()) result.push_back(std::move(members));
-  }
-  return result;
+  return by_label(group);
 }
 
 /// Unites groups whose eigenvalues are inseparable.
@@ -405,6 +415,26 @@ std::vector<std::vector<int>> with_inseparable(const Track& track, std::vector<s
     }
   }
   return groups;
+}
+
+/// Unites the groups of a real block that rounding alone tells from their mirror images: what is together
+/// with an eigenvalue is together with its conjugate as well where the conjugates are together.
+std::vector<std::vector<int>> with_mirrored(const Track& track, const std::vector<std::vector<int>>& groups) {
+  if (!track.pair.is_real || groups.size() < 2) return groups;
+  std::vector<int> label(static_cast<std::size_t>(track.size()));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const int i : groups[g]) label[static_cast<std::size_t>(i)] = static_cast<int>(g);
+  }
+  const auto label_of_conjugate = [&](int i) {
+    Eigen::Index j = 0;
+    (track.roots.array() - std::conj(track.roots[i])).abs().minCoeff(&j);
+    return label[static_cast<std::size_t>(j)];
+  };
+  for (const std::vector<int>& members : groups) {
+    for (const int i : members)
+      std::replace(label.begin(), label.end(), label_of_conjugate(i), label_of_conjugate(members.front()));
+  }
+  return by_label(label);
 }
 
 /// Groups of the eigenvalues of a block by their errors as single modes: each with less than the accepted
@@ -534,7 +564,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
                                      share * rules.accepted);
       }
-      members = with_inseparable(track, std::move(members));
+      members = with_mirrored(track, with_inseparable(track, std::move(members)));
       if (members.size() > 1 && are_told_apart(track, members))
         parts = parts_of(problem, node, track, members, counts);
     }

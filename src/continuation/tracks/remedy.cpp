@@ -13,14 +13,6 @@ namespace {
 /// distant ones only reduce the accuracy.
 constexpr double join_reach = 1.0;
 
-/// Eigenvalues that no certificate kept apart stay together up to this multiple of their distance. With a
-/// smaller one they are joined again soon; a larger one keeps blocks, which cost more than single modes.
-constexpr double kept_together = 3.0;
-
-/// Modes that are not followed are looked for only if the step is shorter than this share of the longest one
-/// of the last steps: each look costs a large factorization.
-constexpr double shrinking = 0.25;
-
 /// Largest block that is formed for this reason if only some modes are followed. Large blocks take long
 /// steps, on which meetings of their members may be passed; with all modes followed, a checksum notices what
 /// is lost.
@@ -50,29 +42,6 @@ bool join_nearest(const PathProblem& problem, const JoiningRules& rules, PathNod
   joined.inseparable = std::max(joined.inseparable, kept_together * nearest->distance);
   joined.unproven = true;
   return true;
-}
-
-/// Joins a track with a mode that is not followed, if it meets one near the step, or if the nearest one is
-/// closer than all that are followed.
-bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t track, double h, double reach,
-                     RunCounts& counts) {
-  const std::size_t followed = node.tracks.size();
-  add_neighbours(problem, node, track, counts);
-  std::vector<Partner> partners = find_partners(node, track, h, reach);
-  std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
-  double kept = 0.0;
-  if (partners.empty()) {
-    const std::optional<Partner> nearest = nearest_partner(node, track);
-    if (nearest && !nearest->conjugate && nearest->track >= followed) {
-      partners.push_back(*nearest);
-      kept = kept_together * nearest->distance;
-    }
-  }
-  if (!partners.empty()) partners.resize(1);
-  const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
-  if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
-  remove_guests(node);
-  return joined;
 }
 
 }  // namespace
@@ -112,8 +81,7 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     return remedy;
   }
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
-  const bool has_shrunk = std::abs(h) < shrinking * rules.longest_step;
-  if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : has_shrunk)) {
+  if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : rules.has_shrunk(h))) {
     remedy.tried_to_join = true;
     if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
   }

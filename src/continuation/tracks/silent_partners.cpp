@@ -6,9 +6,11 @@
 
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/recognition.hpp"
+#include "continuation/tracks/regrouping.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -18,7 +20,7 @@ namespace {
 constexpr std::size_t most_neighbours = 3;
 /// Number of eigenvalues that are computed beside those of the track. The farthest ones of a subspace are
 /// inaccurate; a conjugate takes a place, too.
-constexpr Eigen::Index beside = 6;
+constexpr Eigen::Index beside = 12;
 /// Largest number of freedoms for which the companion form is factorized.
 constexpr Eigen::Index most_freedoms = 1000;
 
@@ -27,28 +29,54 @@ constexpr Eigen::Index most_freedoms = 1000;
 constexpr double real_axis = 1e-8;
 constexpr double same = 1e-6;
 
-/// Relative distance of an eigenvalue or its conjugate from the nearest one of a track.
-double distance_from(const Track& track, Complex s, double reference) {
-  double least = INFINITY;
+/// The eigenvalue of a track whose series has the smallest radius of convergence, as the growth of its terms
+/// says: a meeting with another eigenvalue is the reason. One without a series coincides with another one of
+/// the track; it comes first.
+Complex most_restless(const Track& track) {
+  Complex restless = track.roots[0];
+  double most = 0.0;
   for (const Complex root : track.roots) {
-    const Complex own = chart_value(root, track.pair.chart);
-    const double size = std::max({std::abs(s), std::abs(own), reference});
-    least = std::min({least, std::abs(own - s) / size, std::abs(own - std::conj(s)) / size});
+    const ComplexVector series = root_series(track.functions, root);
+    if (series.size() == 0) return root;
+    const Eigen::Index last = series.size() - 1;
+    const double slope = std::abs(series[std::min<Eigen::Index>(1, last)]);
+    const double growth =
+        slope > 0.0 ? std::pow(std::abs(series[last]) / slope, 1.0 / std::max(1.0, last - 1.0)) : 0.0;
+    if (growth <= most) continue;
+    most = growth;
+    restless = root;
   }
-  return least;
+  return restless;
 }
 
-/// The eigenvalues about those of a track, by inverse iteration.
+/// The eigenvalues of a subspace, Im s >= 0 or < 0, with their vectors in the columns of Z. Those of a real
+/// subspace are exactly real, or conjugates of each other, however inaccurate it is.
+struct RitzPairs {
+  ComplexVector s;
+  ComplexMatrix Z;
+};
+
+RitzPairs ritz_pairs(const InvariantPair& pair) {
+  if (pair.is_real) {
+    const Eigen::EigenSolver<Matrix> solver(pair.Lambda.real());
+    return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
+  }
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
+  return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
+}
+
+/// The eigenvalues about one of a track, by inverse iteration: with a real subspace about a real one.
 Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track) {
-  const Complex centre = chart_value(track.roots[0], track.pair.chart);
+  const Complex centre = chart_value(most_restless(track), track.pair.chart);
   const Eigen::Index size = std::min(track.size() + beside, 2 * pencil.size());
-  const InvariantPair pair = invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, false);
+  const InvariantPair pair =
+      invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, centre.imag() == 0.0);
   Spectrum spectrum;
   if (!pair.Z.allFinite() || !pair.Lambda.allFinite()) return spectrum;
-  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
+  const RitzPairs ritz = ritz_pairs(pair);
   for (Eigen::Index i = 0; i < size; ++i) {
-    Complex s = solver.eigenvalues()[i];
-    ComplexVector z = (pair.Z * solver.eigenvectors().col(i)).normalized();
+    Complex s = ritz.s[i];
+    ComplexVector z = ritz.Z.col(i).normalized();
     if (s.imag() < 0.0) {
       s = std::conj(s);
       z = z.conjugate();
@@ -74,8 +102,12 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
   const Spectrum spectrum = spectrum_beside(node.pencil.of(track.pair.part), track);
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
+  const Complex centre = chart_value(most_restless(track), track.pair.chart);
+  const auto distance = [&](Complex s) {
+    return std::min(std::abs(centre - s), std::abs(centre - std::conj(s)));
+  };
   std::stable_sort(others.begin(), others.end(), [&](const StartingMode& a, const StartingMode& b) {
-    return distance_from(track, a.s, problem.s_ref) < distance_from(track, b.s, problem.s_ref);
+    return distance(a.s) < distance(b.s);
   });
   if (others.size() > most_neighbours) others.resize(most_neighbours);
   return others;
@@ -110,6 +142,27 @@ void remove_guests(PathNode& node) {
   std::erase_if(node.tracks, [](const Track& track) {
     return std::all_of(track.modes.begin(), track.modes.end(), [](int mode) { return mode < 0; });
   });
+}
+
+bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t track, double h, double reach,
+                     RunCounts& counts) {
+  const std::size_t followed = node.tracks.size();
+  add_neighbours(problem, node, track, counts);
+  std::vector<Partner> partners = find_partners(node, track, h, reach);
+  std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
+  double kept = 0.0;
+  if (partners.empty()) {
+    const std::optional<Partner> nearest = nearest_partner(node, track);
+    if (nearest && !nearest->conjugate && nearest->track >= followed) {
+      partners.push_back(*nearest);
+      kept = kept_together * nearest->distance;
+    }
+  }
+  if (!partners.empty()) partners.resize(1);
+  const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
+  if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
+  remove_guests(node);
+  return joined;
 }
 
 }  // namespace eigentrail

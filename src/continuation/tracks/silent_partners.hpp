@@ -15,4 +15,9 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
 /// Removes the tracks that consist of guests.
 void remove_guests(PathNode& node);
 
+/// Joins a track with a mode that is not followed, if it meets one within `reach` steps of signed length h,
+/// or if the nearest one is closer than all that are followed. Returns whether it did. Cost: add_neighbours.
+bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t track, double h, double reach,
+                     RunCounts& counts);
+
 }  // namespace eigentrail

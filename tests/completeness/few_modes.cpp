@@ -1,0 +1,65 @@
+#include "completeness/few_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// As a share of the range: the distance up to which two places are one.
+constexpr double same_place = 1e-6;
+/// A trace of few modes may have so many times the points of the trace of all, and so many besides.
+constexpr int times_the_points = 3;
+constexpr int further_points = 60;
+
+bool is_compared(const Event& event) {
+  return event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
+         event.kind == EventKind::collision;
+}
+
+/// The events of one list that another one does not have.
+std::vector<Event> without(const std::vector<Event>& events, const std::vector<Event>& others, double range) {
+  std::vector<Event> result;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(result), [&](const Event& event) {
+    return is_compared(event) && std::none_of(others.begin(), others.end(), [&](const Event& other) {
+             return other.kind == event.kind && std::abs(other.p - event.p) <= same_place * range;
+           });
+  });
+  return result;
+}
+
+}  // namespace
+
+FewModesReport check_few_modes(RandomFamily family, int modes, bool reversed) {
+  if (reversed) std::swap(family.from, family.to);
+  const RecordedTrace all = record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}}));
+  const RecordedTrace few =
+      record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}, {"modes", std::to_string(modes)}}));
+  FewModesReport report;
+  report.nodes = few.result.nodes;
+  report.nodes_of_all = all.result.nodes;
+  const auto problem = [&](const auto&... words) {
+    std::ostringstream text;
+    text.precision(12);
+    (text << ... << words);
+    report.problems.push_back(text.str());
+  };
+  if (few.result.status != TraceStatus::completed) problem("ended early: ", few.result.message);
+  for (const std::string& note : few.result.notes) problem("note: ", note);
+  const double range = std::abs(family.to - family.from);
+  for (const Event& event : without(few.result.events, all.result.events, range))
+    problem("invented: ", event_line(event));
+  for (const Event& event : without(all.result.events, few.result.events, range)) {
+    if (*std::min_element(event.modes.begin(), event.modes.end()) < modes)
+      problem("missing: ", event_line(event));
+  }
+  if (report.nodes > times_the_points * report.nodes_of_all + further_points)
+    problem(report.nodes, " points, of all modes ", report.nodes_of_all);
+  return report;
+}
+
+}  // namespace eigentrail::test
