@@ -8,8 +8,8 @@
 
 namespace eigentrail::app {
 
-/// Open MPI's layer `cm`, for networks that match messages themselves, waits 0.2 s for their hardware. Processes
-/// of one machine do without it; who has chosen a layer gets that one.
+/// Open MPI's layer `cm`, for networks that match messages themselves, waits 0.2 s for their hardware.
+/// Processes of one machine do without it. A layer that the user has chosen stays.
 inline void leave_out_the_network_on_one_machine() {
   const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");

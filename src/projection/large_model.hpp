@@ -54,8 +54,8 @@ class LargeModel {
   /// of the energy K + frequency^2 M; the space becomes this part, and gives it away.
   virtual std::unique_ptr<Model> reduced(ProjectionSpace& space, double accuracy, const Vector& middle,
                                          double frequency) const = 0;
-  /// A smaller model on two spaces, of right and of left vectors, from one that `reduced` gave, whose space has
-  /// both; arguments as there. Null where little is gained.
+  /// A smaller model on two spaces, of right and of left vectors, from one that `reduced` gave, whose space
+  /// has both; arguments as there. Null where little is gained.
   virtual std::unique_ptr<Model> on_two_spaces(const Model& reduced, const ProjectionSpace& space,
                                                double accuracy, const Vector& middle,
                                                double frequency) const = 0;

@@ -18,7 +18,8 @@ std::vector<Complex> exact_ones(const SmallPencil& small, const SparsePencil& la
                                 const std::vector<Complex>& eigenvalues, double reference) {
   std::vector<ProjectedMode> modes;
   for (const Complex s : eigenvalues) modes.push_back(mode_of(small, s));
-  const std::vector<EigenvalueError> errors = eigenvalue_errors(large, lifted(modes, *bases.right, *bases.left));
+  const std::vector<EigenvalueError> errors =
+      eigenvalue_errors(large, lifted(modes, *bases.right, *bases.left));
   std::vector<Complex> exact;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Complex s = eigenvalues[i];

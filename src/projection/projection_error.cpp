@@ -50,35 +50,44 @@ RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVecto
 
 namespace {
 
-/// The vectors of the modes, of length one, in the coordinates of the large pencil.
-std::vector<ComplexVector> lifted(const std::vector<ProjectedMode>& modes,
-                                  ComplexVector ProjectedMode::*vector, const Matrix& basis) {
-  Matrix parts(basis.cols(), 2 * static_cast<Eigen::Index>(modes.size()));
+/// Real and imaginary parts of vectors of the modes, side by side.
+Matrix parts_of(const std::vector<ProjectedMode>& modes, ComplexVector ProjectedMode::*vector) {
+  Matrix parts((modes.front().*vector).size(), 2 * static_cast<Eigen::Index>(modes.size()));
   Eigen::Index j = 0;
   for (const ProjectedMode& mode : modes) {
     parts.col(j++) = (mode.*vector).real();
     parts.col(j++) = (mode.*vector).imag();
   }
-  const Matrix all = product(basis, parts);
-  std::vector<ComplexVector> vectors;
-  for (j = 0; j < all.cols(); j += 2) {
-    vectors.emplace_back(all.rows());
-    vectors.back().real() = all.col(j);
-    vectors.back().imag() = all.col(j + 1);
-    vectors.back().normalize();
-  }
-  return vectors;
+  return parts;
+}
+
+ComplexVector unit_vector(const Eigen::Ref<const Matrix>& parts) {
+  ComplexVector vector(parts.rows());
+  vector.real() = parts.col(0);
+  vector.imag() = parts.col(1);
+  vector.normalize();
+  return vector;
 }
 
 }  // namespace
 
 std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const Matrix& right_basis,
                                   const Matrix& left_basis) {
-  std::vector<ComplexVector> right = lifted(modes, &ProjectedMode::right, right_basis);
-  std::vector<ComplexVector> left = lifted(modes, &ProjectedMode::left, left_basis);
+  if (modes.empty()) return {};
+  const Matrix right = parts_of(modes, &ProjectedMode::right), left = parts_of(modes, &ProjectedMode::left);
+  const Eigen::Index n = right_basis.rows(), k = right.cols();
+  Matrix all(n, 2 * k);
+  if (&right_basis == &left_basis) {  // a large one is read once
+    Matrix both(right.rows(), 2 * k);
+    both << right, left;
+    all = product(right_basis, both);
+  } else {
+    all << product(right_basis, right), product(left_basis, left);
+  }
   std::vector<ProjectedMode> result;
-  for (std::size_t i = 0; i < modes.size(); ++i)
-    result.push_back({modes[i].s, std::move(right[i]), std::move(left[i])});
+  for (Eigen::Index j = 0; j < k; j += 2)
+    result.push_back({modes[static_cast<std::size_t>(j / 2)].s, unit_vector(all.middleCols(j, 2)),
+                      unit_vector(all.middleCols(k + j, 2))});
   return result;
 }
 

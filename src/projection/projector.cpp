@@ -28,6 +28,10 @@ constexpr double accuracy_of_samples = 0.01;
 /// Accuracy of vectors that are only put into the space, as a share of that to which they are kept.
 constexpr double accuracy_of_added_vectors = 0.1;
 
+/// Up to this size of the large model a projection on two spaces saves more in one trace than looking at all
+/// places once more costs: measured, 0.1 s against 14 us per freedom.
+constexpr Eigen::Index largest_on_two_spaces = 8000;
+
 std::string digits(double value, int count) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*g", count, value);
@@ -334,16 +338,17 @@ class Projector {
   /// known, and by the indicator everywhere.
   std::unique_ptr<Model> smallest(std::unique_ptr<Model> model) {
     ScoutedPlaces places(places_);
-    std::unique_ptr<Model> smaller =
-        large_.on_two_spaces(*model, space_, accuracy_of_vectors(), middle(), frequency_);
+    std::unique_ptr<Model> smaller;
+    if (large_.model().n_coordinates() <= largest_on_two_spaces)
+      smaller = large_.on_two_spaces(*model, space_, accuracy_of_vectors(), middle(), frequency_);
     const bool is_enough = smaller && holds(*smaller, places);
     if (is_enough) model = std::move(smaller);
     if (lines_.size() == 1) note_newcomers(*model, is_enough ? places : places_);
     return model;
   }
 
-  /// Whether a model of the same vectors is accurate enough; corrects the places to it, and notes its error if
-  /// it is.
+  /// Whether a model of the same vectors is accurate enough; corrects the places to it, and notes its error
+  /// if it is.
   bool holds(const Model& model, ScoutedPlaces& places) {
     const std::optional<Worst> worst = places.correct_for(model);
     if (!worst || factor_ * worst->indicator > safety * target_) return false;

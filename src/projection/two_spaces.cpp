@@ -26,8 +26,8 @@ Matrix normalized(const Matrix& B, const Matrix& energy) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(congruence(B, energy, B));
   const Vector sizes = solver.eigenvalues().cwiseAbs();
   const double floor = std::numeric_limits<double>::epsilon() * sizes.maxCoeff();
-  return product(B, Matrix(solver.eigenvectors() *
-                           sizes.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal()));
+  return product(
+      B, Matrix(solver.eigenvectors() * sizes.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal()));
 }
 
 Matrix side_by_side(const Matrix& A, const Matrix& B) {

@@ -1,5 +1,5 @@
-// A smaller projection of a pencil P that is not symmetric: on a space V of its right vectors and a space W of
-// its left ones (Petrov-Galerkin), W^T P V, in place of Q^T P Q with the sum of both as Q. The error of an
+// A smaller projection of a pencil P that is not symmetric: on a space V of its right vectors and a space W
+// of its left ones (Petrov-Galerkin), W^T P V, in place of Q^T P Q with the sum of both as Q. The error of an
 // eigenvalue is that of its right vector in V times that of its left one in W.
 //
 // W^T P V is as far from singular as the angles between the spaces are from right angles. In the norm of an

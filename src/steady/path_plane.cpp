@@ -137,7 +137,8 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const double size =
         std::max(dx.lpNorm<Eigen::Infinity>() / length, reaction.lpNorm<Eigen::Infinity>() / scale);
     // Small corrections that grow show divergence; large ones may grow far from the solution.
-    const bool diverges = size > 2.0 * last && size < 1e-3, is_lost = size > last && size > far_away;
+    const bool diverges = size > 2.0 * last && size < 1e-3;
+    const bool is_lost = size > last && size > far_away;
     if (!std::isfinite(size) || diverges || is_lost || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
       result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
@@ -226,16 +227,15 @@ double kernel_share_of_parameter(const Model& model, const Path& point, int trac
 
 namespace {
 
-/// As directions_at_branch_point, of a large scene whose tangent basis spans few of its motions: they tell the
-/// kernel to few digits, and nothing of how the whole follows the parameter. `right`, `left`: unit vectors
-/// near the kernel and that of the transpose, which border the equations of the whole scene. `next`: the
-/// second smallest singular value in the basis. Empty also if the whole is not singular: the motion that
+/// As directions_at_branch_point, of a large scene whose tangent basis spans few of its motions: they tell
+/// the kernel to few digits, and nothing of how the whole follows the parameter. `right`, `left`: unit
+/// vectors near the kernel and that of the transpose, which border the equations of the whole scene. `next`:
+/// the second smallest singular value in the basis. Empty also if the whole is not singular: the motion that
 /// nothing holds is none of the followed modes then, and the basis knows little of it.
 Matrix directions_of_the_whole(const Model& model, const Path& point, int traced,
                                const Linearization& linearization, const Vector& right, const Vector& left,
                                double next, EvaluationCounts& counts) {
   constexpr double singular = 1e-3;  // of `next`
-
   const Eigen::Index n = right.size(), m = model.n_constraints();
   Vector force, constraint;
   if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,

@@ -52,8 +52,8 @@ TEST(LoadSteps, SayHowMuchOfTheLoadIsBorneWhereThereIsNoRoot) {
   EXPECT_LT(std::abs(u[0]), 0.1);
 }
 
-/// A beam of 100 elements, 1212 coordinates, that is straight in the guess, under weights per length of 1 to 20
-/// EI/L^3.
+/// A beam of 100 elements, 1212 coordinates, that is straight in the guess, under weights per length of 1 to
+/// 20 EI/L^3.
 TEST(LoadSteps, FindALargeBeamThatBendsFarUnderItsWeight) {
   for (const double weight : {1.0, 5.0, 20.0}) {
     const Setting setting =

@@ -13,8 +13,8 @@ namespace eigentrail {
 
 using ComplexSparseMatrix = Eigen::SparseMatrix<Complex>;
 
-/// What is known of a matrix before it is factored. `near_symmetric`: its pattern is nearly symmetric, but for
-/// rows and columns with many entries, such as a border: these are eliminated last.
+/// What is known of a matrix before it is factored. `near_symmetric`: its pattern is nearly symmetric, but
+/// for rows and columns with many entries, such as a border: these are eliminated last.
 enum class SparseKind { symmetric, near_symmetric, general };
 
 /// Memory and work of a factorization, as the symbolic analysis foresees them.

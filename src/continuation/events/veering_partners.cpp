@@ -207,7 +207,8 @@ class PencilSearch {
                : std::optional(std::move(event));
   }
 
-  /// Whether the log has the veering of an exceptional point from which eigenvalues were followed down before.
+  /// Whether the log has the veering of an exceptional point from which eigenvalues were followed down
+  /// before.
   bool is_recorded(const Event& event, const ExceptionalPoint& point, double t) const {
     constexpr double same = 1e-7;  // of the distance from the axis, and of the eigenvalue
     return std::any_of(known_.entries.begin(), known_.entries.end(), [&](const auto& entry) {
