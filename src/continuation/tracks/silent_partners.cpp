@@ -113,6 +113,15 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
   return others;
 }
 
+/// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
+/// followed mode would be taken for another one.
+InvariantPair upper_member(InvariantPair pair) {
+  if (pair.size() > 1 || pair.is_real || pair.eigenvalue().imag() >= 0.0) return pair;
+  for (ComplexMatrix* matrix : {&pair.Z, &pair.Lambda, &pair.W}) *matrix = matrix->conjugate().eval();
+  pair.factors.reset();
+  return pair;
+}
+
 }  // namespace
 
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
@@ -129,7 +138,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
                                       problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
-    Track guest = differentiate_track(problem, node, std::move(pair), counts);
+    Track guest = differentiate_track(problem, node, upper_member(std::move(pair)), counts);
     if (!guest.functions.allFinite()) continue;
     if (is_followed(beside_meetings, node, guest)) continue;
     guest.roots = in_order_of(group.roots, guest.roots);
