@@ -563,7 +563,6 @@ void TraceLoop::log(FoundEvents found) {
   }
 }
 
-/// Gives numbers to the copies of modes that have begun at a point.
 bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   TraceResult& result = state_.result;
   result.reached = node.p;
