@@ -1,9 +1,21 @@
-// A candidate for a block with a given track.
+// Candidates for a block with a given track, and where eigenvalues meet.
+//
+// The radius of convergence of the series of two eigenvalues is limited by the exceptional point where they
+// coincide, a root of ((s_i - s_j)/2)^2 in the complex plane of the path's coordinate. That function is
+// smooth there, so that the root follows from its own series.
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
+
+/// Largest number of eigenvalues of a block that is formed on the way. Bounds its cost: a block of k
+/// eigenvalues takes k factorizations, and its dense output has k^2 functions.
+inline constexpr Eigen::Index largest_block = 16;
 
 /// Eigenvalues that are joined because they are close, and not because they are seen to meet, stay together
 /// up to this multiple of their distance. With a smaller one they are joined again soon; a larger one keeps
@@ -16,5 +28,28 @@ struct Partner {
   std::size_t track = 0;   ///< index of the other track
   double distance = 0.0;   ///< of their nearest meeting from the step, in the coordinate along the path
 };
+
+/// The partners whose nearest meeting with `track` is at most `reach` |h| away from the step [0, h], by
+/// ascending distance.
+std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
+
+/// The tracks that a certificate cannot keep apart from `track` on a step of length h, by ascending distance:
+/// those closer to it, or to another one of them, than a small share of the way that their eigenvalues move.
+/// Empty if with them the block would be too large.
+std::vector<Partner> crowding_partners(const PathNode& node, std::size_t track, double h);
+
+/// The track with the eigenvalue nearest to one of `track`, or its own conjugate; the distance is that of the
+/// eigenvalues. Empty if there is none in its chart.
+std::optional<Partner> nearest_partner(const PathNode& node, std::size_t track);
+
+/// Whether meetings at places where the series are not accurate count.
+enum class Doubtful { counts, is_left_out };
+
+/// Distance from the step [0, h] of the nearest meeting of two eigenvalues with these series; infinite beyond
+/// `limit`. For blocks, the series are those of the means, and `spread` is the square of the radius of the
+/// eigenvalues about the mean: the magnitude of the discriminant is reduced by it, to allow for the members
+/// that are closest to each other. Where their discs overlap, means tell nothing: infinite.
+double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h, double limit,
+                        Doubtful doubtful);
 
 }  // namespace eigentrail

@@ -1,28 +1,11 @@
 // Changes of the tracks at a point: close modes are joined into blocks, blocks whose modes are no longer
 // close are separated, and single modes change their chart.
-//
-// The radius of convergence of the series of two eigenvalues is limited by the exceptional point where they
-// coincide, a root of ((s_i - s_j)/2)^2 in the complex plane of the path's coordinate. That function is
-// smooth there, so that the root follows from its own series.
 #pragma once
 
 #include "continuation/tracks/partner.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
-
-/// The partners whose nearest meeting with `track` is at most `reach` |h| away from the step [0, h], by
-/// ascending distance.
-std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
-
-/// The tracks that a certificate cannot keep apart from `track` on a step of length h, by ascending distance:
-/// those closer to it, or to another one of them, than a small share of the way that their eigenvalues move.
-/// Empty if with them the block would be too large.
-std::vector<Partner> crowding_partners(const PathNode& node, std::size_t track, double h);
-
-/// The track with the eigenvalue nearest to one of `track`, or its own conjugate; the distance is that of the
-/// eigenvalues. Empty if there is none in its chart.
-std::optional<Partner> nearest_partner(const PathNode& node, std::size_t track);
 
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
 /// change the node, if the block does not converge or would be too large.

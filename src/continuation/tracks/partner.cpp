@@ -1,0 +1,207 @@
+#include "continuation/tracks/partner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eigentrail/core/chebyshev.hpp"
+#include "eigentrail/modes/block_parts.hpp"
+#include "eigentrail/modes/invariants.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// Two eigenvalues are crowded on a step if their distance is below this share of the way that they move. A
+/// certificate that keeps them apart needs a number of factorizations of the order of the reciprocal. A
+/// larger value makes more blocks, a smaller one more expensive certificates; no result depends on it.
+constexpr double crowding = 0.02;
+
+/// Distance of a complex number from the real segment between 0 and h.
+double distance_to_step(Complex z, double h) {
+  const double along = h > 0.0 ? std::clamp(z.real(), 0.0, h) : std::clamp(z.real(), h, 0.0);
+  return std::abs(z - along);
+}
+
+/// A series is not accurate where its last term is a larger share of the largest term: its terms do not
+/// decrease there.
+constexpr double last_term = 0.3;
+
+/// Whether the last term of a series at z is small enough.
+bool converges_at(const ComplexVector& series, Complex z) {
+  double largest = 0.0;
+  double term = 0.0;
+  double power = 1.0;
+  for (const Complex coefficient : series) {
+    term = std::abs(coefficient) * power;
+    largest = std::max(largest, term);
+    power *= std::abs(z);
+  }
+  return term <= last_term * largest;
+}
+
+}  // namespace
+
+double meeting_distance(const ComplexVector& a, const ComplexVector& b, double spread, double h, double limit,
+                        Doubtful doubtful) {
+  ComplexVector delta = discriminant_series(a, b);
+  if (spread > 0.0 && spread >= std::abs(delta[0])) return INFINITY;
+  if (spread > 0.0) delta[0] -= spread * delta[0] / std::abs(delta[0]);
+  if (has_no_root_within(delta, std::abs(h) + limit)) return INFINITY;
+  double nearest = INFINITY;
+  for (const Complex root : polynomial_roots(delta)) {
+    if (doubtful == Doubtful::counts || converges_at(delta, root))
+      nearest = std::min(nearest, distance_to_step(root, h));
+  }
+  return nearest;
+}
+
+namespace {
+
+/// A series in a chart; empty where it is infinite there.
+ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
+  if (track.pair.chart == chart) return series;
+  return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);
+}
+
+/// An eigenvalue as a series, or the mean of several.
+struct Representative {
+  ComplexVector series;
+  double spread = 0.0;  ///< square of the largest distance of an eigenvalue from the mean
+};
+
+/// The eigenvalues of a track in a chart, as far as they are simple and finite there, and the mean of a
+/// block: series of members that are close to each other are known less well, or not at all.
+std::vector<Representative> representatives(const Track& track, Chart chart) {
+  std::vector<Representative> all;
+  for (const Complex root : track.roots) {
+    ComplexVector own = root_series(track.functions, root);
+    if (own.size() > 0) own = in_chart(std::move(own), track, chart);
+    if (own.size() > 0) all.push_back({std::move(own)});
+  }
+  if (track.size() == 1) return all;
+  Representative mean{in_chart(mean_series(track.series.Lambda), track, chart)};
+  if (mean.series.size() == 0) return all;
+  for (const Complex root : track.roots) {
+    const Complex here = track.pair.chart == chart ? root : 1.0 / root;
+    mean.spread = std::max(mean.spread, std::norm(here - mean.series[0]));
+  }
+  all.push_back(std::move(mean));
+  return all;
+}
+
+/// Distance from the step of the nearest meeting of two of them, of one track each.
+double meeting_distance(const std::vector<Representative>& some, const std::vector<Representative>& others,
+                        double h, double limit) {
+  double nearest = INFINITY;
+  for (const Representative& a : some) {
+    for (const Representative& b : others)
+      nearest = std::min(nearest, meeting_distance(a.series, b.series, std::max(a.spread, b.spread), h, limit,
+                                                   Doubtful::is_left_out));
+  }
+  return nearest;
+}
+
+std::vector<Representative> conjugates(std::vector<Representative> all) {
+  for (Representative& one : all) one.series = one.series.conjugate().eval();
+  return all;
+}
+
+}  // namespace
+
+std::vector<Partner> find_partners(const PathNode& node, std::size_t index, double h, double reach) {
+  const Track& track = node.tracks[index];
+  const double limit = reach * std::abs(h);
+  const std::vector<Representative> own = representatives(track, track.pair.chart);
+  std::vector<Partner> partners;
+  // A complex mode can also meet its own conjugate, or that of another track, close to the real axis. Then
+  // the track is joined with its own conjugate.
+  double nearest_conjugate = INFINITY;
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& other = node.tracks[i];
+    if (other.pair.part != track.pair.part) continue;  // they cross and never meet
+    const std::vector<Representative> others = i == index ? own : representatives(other, track.pair.chart);
+    const double distance = i == index ? INFINITY : meeting_distance(own, others, h, limit);
+    if (distance <= limit) partners.push_back({false, i, distance});
+    if (track.pair.is_real || other.pair.is_real) continue;
+    nearest_conjugate = std::min(nearest_conjugate, meeting_distance(own, conjugates(others), h, limit));
+  }
+  if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
+  std::sort(partners.begin(), partners.end(),
+            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
+  return partners;
+}
+
+namespace {
+
+/// How far the mean eigenvalue of a track moves on a step of length h.
+double movement(const Track& track, double h) {
+  return std::abs(mean_series(track.series.Lambda)[1] * h);
+}
+
+/// Magnitude of the largest eigenvalue in that chart. A track that moves farther on a step has a series that
+/// says nothing there.
+double largest_root(const PathNode& node, Chart chart) {
+  double largest = 0.0;
+  for (const Track& track : node.tracks) {
+    if (track.pair.chart == chart) largest = std::max(largest, track.roots.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+/// Smallest distance of an eigenvalue of one track from one of another.
+double gap_between(const ComplexVector& a, const ComplexVector& b) {
+  double gap = INFINITY;
+  for (const Complex s : a) gap = std::min(gap, (b.array() - s).abs().minCoeff());
+  return gap;
+}
+
+}  // namespace
+
+std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, double h) {
+  const std::vector<Track>& tracks = node.tracks;
+  const Chart chart = tracks[index].pair.chart;
+  const double farthest = largest_root(node, chart);
+  const auto way = [&](const Track& one) { return std::min(movement(one, h), farthest); };
+  std::vector<Partner> partners;
+  std::vector<bool> taken(tracks.size(), false);
+  std::vector<std::size_t> open{index};
+  taken[index] = true;
+  Eigen::Index size = tracks[index].size();
+  bool with_conjugates = false;
+  while (!open.empty()) {
+    const Track& track = tracks[open.back()];
+    open.pop_back();
+    const double limit = crowding * way(track);
+    if (!track.pair.is_real && gap_between(track.roots, track.roots.conjugate()) < limit)
+      with_conjugates = true;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (taken[i] || tracks[i].pair.chart != chart || tracks[i].pair.part != track.pair.part) continue;
+      const double gap = gap_between(track.roots, tracks[i].roots);
+      if (gap >= std::max(limit, crowding * way(tracks[i]))) continue;
+      taken[i] = true;
+      open.push_back(i);
+      partners.push_back({false, i, gap});
+      size += tracks[i].size();
+    }
+  }
+  if (with_conjugates) partners.push_back({true, index, 0.0});
+  if ((with_conjugates ? 2 : 1) * size > largest_block) return {};
+  std::sort(partners.begin(), partners.end(),
+            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
+  return partners;
+}
+
+std::optional<Partner> nearest_partner(const PathNode& node, std::size_t index) {
+  const Track& track = node.tracks[index];
+  Partner nearest{false, index, INFINITY};
+  if (!track.pair.is_real) nearest = {true, index, gap_between(track.roots, track.roots.conjugate())};
+  for (std::size_t i = 0; i < node.tracks.size(); ++i) {
+    const Track& other = node.tracks[i];
+    if (i == index || other.pair.chart != track.pair.chart || other.pair.part != track.pair.part) continue;
+    const double gap = gap_between(track.roots, other.roots);
+    if (gap < nearest.distance) nearest = {false, i, gap};
+  }
+  if (!std::isfinite(nearest.distance)) return std::nullopt;
+  return nearest;
+}
+
+}  // namespace eigentrail
