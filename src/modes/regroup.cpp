@@ -118,4 +118,13 @@ InvariantPair in_other_chart(const InvariantPair& pair) {
   return result;
 }
 
+InvariantPair conjugated(const InvariantPair& pair) {
+  InvariantPair result = pair;
+  result.Z = pair.Z.conjugate();
+  result.Lambda = pair.Lambda.conjugate();
+  result.W = pair.W.conjugate();
+  result.factors.reset();
+  return result;
+}
+
 }  // namespace eigentrail

@@ -26,4 +26,7 @@ ComplexVector pair_eigenvalues(const InvariantPair& pair);
 /// The same block in the other chart: Lambda is replaced by its inverse.
 InvariantPair in_other_chart(const InvariantPair& pair);
 
+/// The block of the conjugate eigenvalues.
+InvariantPair conjugated(const InvariantPair& pair);
+
 }  // namespace eigentrail

@@ -13,6 +13,7 @@
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -180,9 +181,7 @@ namespace {
 /// A track of a complex eigenvalue as the track of its conjugate.
 Track conjugated(const Track& track) {
   Track result;
-  result.pair = track.pair;
-  result.pair.Z = track.pair.Z.conjugate();
-  result.pair.Lambda = track.pair.Lambda.conjugate();
+  result.pair = conjugated(track.pair);
   result.roots = track.roots.conjugate();
   return result;
 }

@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
@@ -65,9 +66,9 @@ RitzPairs ritz_pairs(const InvariantPair& pair) {
   return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
 }
 
-/// The eigenvalues about one of a track, by inverse iteration: with a real subspace about a real one.
-Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track) {
-  const Complex centre = chart_value(most_restless(track), track.pair.chart);
+/// The eigenvalues about `centre`, one of a track, by inverse iteration: with a real subspace about a real
+/// one.
+Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Complex centre) {
   const Eigen::Index size = std::min(track.size() + beside, 2 * pencil.size());
   const InvariantPair pair =
       invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, centre.imag() == 0.0);
@@ -99,10 +100,10 @@ Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track) {
 /// The eigenvalues nearest to a track that no track has.
 std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNode& node,
                                         const Track& track) {
-  const Spectrum spectrum = spectrum_beside(node.pencil.of(track.pair.part), track);
+  const Complex centre = chart_value(most_restless(track), track.pair.chart);
+  const Spectrum spectrum = spectrum_beside(node.pencil.of(track.pair.part), track, centre);
   if (spectrum.status != SpectrumStatus::complete) return {};
   std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
-  const Complex centre = chart_value(most_restless(track), track.pair.chart);
   const auto distance = [&](Complex s) {
     return std::min(std::abs(centre - s), std::abs(centre - std::conj(s)));
   };
@@ -116,10 +117,8 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
 /// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
 /// followed mode would be taken for another one.
 InvariantPair upper_member(InvariantPair pair) {
-  if (pair.size() > 1 || pair.is_real || pair.eigenvalue().imag() >= 0.0) return pair;
-  for (ComplexMatrix* matrix : {&pair.Z, &pair.Lambda, &pair.W}) *matrix = matrix->conjugate().eval();
-  pair.factors.reset();
-  return pair;
+  const bool is_lower = pair.size() == 1 && !pair.is_real && pair.eigenvalue().imag() < 0.0;
+  return is_lower ? conjugated(pair) : pair;
 }
 
 }  // namespace
