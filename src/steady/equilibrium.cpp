@@ -165,6 +165,14 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
                                Vector& u) {
   const Vector guess = u;
   const bool large = n >= many_coordinates;
+  // A method that leaves u where it is if it fails. `before`: iterations so far.
+  const auto from_the_guess = [&](const auto& solve, int before) {
+    Vector other = guess;
+    NonlinearResult found = solve(other);
+    found.iterations += before;
+    if (found.converged) u = std::move(other);
+    return found;
+  };
   NonlinearResult result;
   if (large) {
     // Damped steps from a far guess become shorter and shorter; few of them are tried before the load is
@@ -172,13 +180,9 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
     result = options.relax ? solve_error_oriented(problem, n, {.max_iterations = patience}, u)
                            : solve_error_oriented(problem, n, {.least_damping = 1.0}, u);
     if (result.converged || !options.relax) return result;
-    Vector loaded = guess;
-    NonlinearResult in_steps = solve_in_load_steps(problem, n, {}, loaded);
-    in_steps.iterations += result.iterations;
-    if (in_steps.converged) {
-      u = std::move(loaded);
-      return in_steps;
-    }
+    const NonlinearResult in_steps =
+        from_the_guess([&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); }, result.iterations);
+    if (in_steps.converged) return in_steps;
     result = solve_error_oriented(problem, n, {}, u);
     result.iterations += in_steps.iterations;
     if (result.converged) return result;
@@ -189,13 +193,9 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
   result = solve_with_kinsol(problem, options.tolerance, first, u);
   result.iterations += before;
   if (result.converged || !options.relax || large) return result;
-  Vector other = guess;
-  NonlinearResult damped = solve_error_oriented(problem, n, {}, other);
-  damped.iterations += result.iterations;
-  if (damped.converged) {
-    u = std::move(other);
-    return damped;
-  }
+  const NonlinearResult damped =
+      from_the_guess([&](Vector& v) { return solve_error_oriented(problem, n, {}, v); }, result.iterations);
+  if (damped.converged) return damped;
   if (first == options.max_iterations) return result;
   result = solve_with_kinsol(problem, options.tolerance, options.max_iterations - first, u);
   result.iterations += damped.iterations;

@@ -7,24 +7,15 @@
 
 #include "eigentrail/steady/equilibrium.hpp"
 #include "steady/heavy_elastica.hpp"
+#include "steady/scalar_problem.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
 
 TEST(ErrorOrientedNewton, DampsWherePlainNewtonDiverges) {
-  double slope = 0.0;
-  NonlinearProblem problem;
-  problem.residual = [](const Vector& u, Vector& f) {
-    f = u.array().atan();
-    return true;
-  };
-  problem.factor = [&slope](const Vector& u) {
-    slope = 1.0 / (1.0 + u[0] * u[0]);
-    return true;
-  };
-  problem.solve = [&slope](const Vector& b, Vector& du) { du = b / slope; };
-  problem.u_scale = problem.f_scale = Vector::Ones(1);
+  const NonlinearProblem problem =
+      scalar_problem([](double u) { return std::atan(u); }, [](double u) { return 1.0 / (1.0 + u * u); });
   Vector u{{20.0}};
   Vector whole_steps = u;
   EXPECT_FALSE(solve_error_oriented(problem, 1, {.least_damping = 1.0}, whole_steps).converged);
@@ -33,18 +24,8 @@ TEST(ErrorOrientedNewton, DampsWherePlainNewtonDiverges) {
 }
 
 TEST(ErrorOrientedNewton, GivesAReasonWhenThereIsNoRoot) {
-  NonlinearProblem problem;
-  problem.residual = [](const Vector& u, Vector& f) {
-    f = Vector{{u[0] * u[0] + 1.0}};
-    return true;
-  };
-  double slope = 0.0;
-  problem.factor = [&](const Vector& u) {
-    slope = 2.0 * u[0];
-    return true;
-  };
-  problem.solve = [&](const Vector& b, Vector& du) { du = b / slope; };
-  problem.u_scale = problem.f_scale = Vector::Ones(1);
+  const NonlinearProblem problem =
+      scalar_problem([](double u) { return u * u + 1.0; }, [](double u) { return 2.0 * u; });
   Vector u{{1.0}};
   const NonlinearResult result =
       solve_error_oriented(problem, 1, {.tolerance = 1e-10, .max_iterations = 50}, u);
@@ -54,23 +35,14 @@ TEST(ErrorOrientedNewton, GivesAReasonWhenThereIsNoRoot) {
 
 TEST(ErrorOrientedNewton, FindsTheEquilibriumOfASlenderBeamUnderItsWeight) {
   const double weight = 2.5;  // at 3 and 3.2 rounding decides, and some processors relax
-  const Setting setting =
-      scene_setting("rotating_cantilever", {},
-                    {{"elements     = 10", "elements = 40"},
-                     {"lag     = 20.0", "lag = 20.0\nweight = " + std::to_string(weight)},
-                     {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}});
-  EvaluationCounts counts = setting.model->new_counts();
-  const Vector parameters = setting.problem().parameters;
-  const Equilibrium found =
-      solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
-                        SteadyOptions(), counts);
+  const HeavyCantilever beam(weight, "elements = 40");
+  const Equilibrium& found = beam.found;
   ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
   EXPECT_FALSE(found.report.relaxed);
   EXPECT_LT(found.report.iterations, 200);
   const Vector tip = heavy_elastica(weight);
-  const Eigen::Index at = setting.model->n_coordinates() - 12;  // origin of the last node
-  EXPECT_NEAR(found.x[at], tip[0], 1e-4);
-  EXPECT_NEAR(found.x[at + 2], -std::abs(tip[1]), 1e-4);
+  EXPECT_NEAR(beam.tip()[0], tip[0], 1e-4);
+  EXPECT_NEAR(beam.tip()[2], -std::abs(tip[1]), 1e-4);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-// A closed description of a beam that bends far under its weight.
+// A beam that bends far under its weight: as a scene, and as the heavy elastica.
 #pragma once
 
 #include <cmath>
+#include <string>
 
-#include "eigentrail/core/types.hpp"
+#include "eigentrail/steady/equilibrium.hpp"
+#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 
@@ -39,5 +41,26 @@ inline Vector heavy_elastica(double w) {
   }
   return tip;
 }
+
+/// The cantilever of the scenes at rest, straight in the guess, under a weight per length; EI and length are
+/// one. `elements`: the line of the scene that says how many there are.
+struct HeavyCantilever {
+  Setting setting;
+  Equilibrium found;
+
+  HeavyCantilever(double weight, const std::string& elements)
+      : setting(scene_setting("rotating_cantilever", {},
+                              {{"elements     = 10", elements},
+                               {"lag     = 20.0", "lag = 20.0\nweight = " + std::to_string(weight)},
+                               {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}})) {
+    EvaluationCounts counts = setting.model->new_counts();
+    const Vector parameters = setting.problem().parameters;
+    found = solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
+                              SteadyOptions(), counts);
+  }
+
+  /// Position of the last node.
+  Vector tip() const { return found.x.segment(setting.model->n_coordinates() - 12, 3); }
+};
 
 }  // namespace eigentrail::test

@@ -4,33 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 #include "eigentrail/steady/equilibrium.hpp"
 #include "steady/error_oriented_newton.hpp"
 #include "steady/heavy_elastica.hpp"
-#include "support/scenes.hpp"
+#include "steady/scalar_problem.hpp"
 
 namespace eigentrail::test {
 namespace {
-
-/// F(u) = f(u) with one unknown.
-template <class F, class Slope>
-NonlinearProblem scalar_problem(F f, Slope slope) {
-  NonlinearProblem problem;
-  auto at = std::make_shared<double>(0.0);
-  problem.residual = [f](const Vector& u, Vector& value) {
-    value = Vector{{f(u[0])}};
-    return true;
-  };
-  problem.factor = [slope, at](const Vector& u) {
-    *at = slope(u[0]);
-    return true;
-  };
-  problem.solve = [at](const Vector& b, Vector& du) { du = b / *at; };
-  problem.u_scale = problem.f_scale = Vector::Ones(1);
-  return problem;
-}
 
 TEST(LoadSteps, ArriveWhereWholeStepsOfNewtonsMethodDiverge) {
   const NonlinearProblem problem =
@@ -56,22 +37,13 @@ TEST(LoadSteps, SayHowMuchOfTheLoadIsBorneWhereThereIsNoRoot) {
 /// 20 EI/L^3.
 TEST(LoadSteps, FindALargeBeamThatBendsFarUnderItsWeight) {
   for (const double weight : {1.0, 5.0, 20.0}) {
-    const Setting setting =
-        scene_setting("rotating_cantilever", {},
-                      {{"elements     = 10", "elements = 100\ndegree = 1"},
-                       {"lag     = 20.0", "lag = 20.0\nweight = " + std::to_string(weight)},
-                       {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}});
-    EvaluationCounts counts = setting.model->new_counts();
-    const Vector parameters = setting.problem().parameters;
-    const Equilibrium found =
-        solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
-                          SteadyOptions(), counts);
+    const HeavyCantilever beam(weight, "elements = 100\ndegree = 1");
+    const Equilibrium& found = beam.found;
     ASSERT_EQ(found.status, SteadyStatus::converged) << weight << ": " << found.report.message;
     EXPECT_LT(found.report.factorizations, 200) << weight;
     const Vector tip = heavy_elastica(weight);
-    const Eigen::Index at = setting.model->n_coordinates() - 12;  // origin of the last node
-    EXPECT_NEAR(found.x[at], tip[0], 1e-3) << weight;
-    EXPECT_NEAR(found.x[at + 2], -std::abs(tip[1]), 1e-3) << weight;
+    EXPECT_NEAR(beam.tip()[0], tip[0], 1e-3) << weight;
+    EXPECT_NEAR(beam.tip()[2], -std::abs(tip[1]), 1e-3) << weight;
   }
 }
 
