@@ -4,6 +4,7 @@
 #include <umfpack.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -102,6 +103,14 @@ class Lu {
                                     numeric_, control_, info)
                  : umfpack_dl_solve(system, starts, rows, values_.data(), x, b, numeric_, control_, info);
     check_umfpack("solution", code);
+  }
+
+  /// Of a real matrix.
+  LogDeterminant determinant() const {
+    double mantissa = 0.0, exponent = 0.0, info[UMFPACK_INFO];
+    check_umfpack("determinant", umfpack_dl_get_determinant(&mantissa, &exponent, numeric_, info));
+    if (mantissa == 0.0) return {};
+    return {mantissa > 0.0 ? 1.0 : -1.0, std::log(std::abs(mantissa)) + exponent * std::log(10.0)};
   }
 
   std::size_t bytes() const { return bytes_; }
@@ -343,6 +352,13 @@ bool SparseFactors::is_complex() const {
 std::size_t SparseFactors::bytes() const {
   const Implementation& i = *implementation_;
   return i.cholesky ? i.cholesky->bytes() : i.lu->bytes();
+}
+
+LogDeterminant SparseFactors::determinant() const {
+  const Lu* lu = implementation_->lu.get();
+  if (lu == nullptr || lu->is_complex())
+    throw std::logic_error("SparseFactors: expected a real matrix, not factored as a symmetric one");
+  return lu->determinant();
 }
 
 std::string SparseFactors::method() const {

@@ -4,6 +4,7 @@
 // This is the only place of the library that knows what factors sparse matrices.
 #pragma once
 
+#include "eigentrail/core/log_determinant.hpp"
 #include "eigentrail/core/sparse_solver.hpp"
 
 namespace eigentrail {
@@ -24,6 +25,10 @@ class SparseFactors final : public SparseSolver {
   /// "Cholesky (CHOLMOD)" or "LU (UMFPACK)".
   std::string method() const override;
   FactorEstimate estimate(const SparseMatrix& A, SparseKind kind) const override;
+
+  /// Of the real matrix that was factored last, not as a symmetric one. Throws std::logic_error if there is
+  /// none.
+  LogDeterminant determinant() const;
 
  private:
   struct Implementation;

@@ -64,6 +64,7 @@ void ScoutedPlaces::scout(const Model& model, const ParameterValues& line) {
   options.events = {};
   options.events.extrema = false;
   options.events.veerings = false;
+  options.events.other_paths = false;
   options.order.reset();
   options.max_step = std::abs(trace_.to - trace_.from) / scout_steps;
   const double close = least_distance * *options.max_step;

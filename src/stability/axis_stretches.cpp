@@ -250,6 +250,17 @@ std::optional<Stability> verdict(const AxisStretch& stretch) {
   return result;
 }
 
+/// Whether a sign change is that of a fold or branch point, where a mode passes zero: the place of the event
+/// is that of the equilibrium on a bridge, which differs a little from that of the mode.
+bool is_of_turn(const RecordedPath& path, const AxisCut& turn, const AxisCut& change) {
+  return turn.turns && std::abs(turn.p - change.p) <= on_node * (path.highest() - path.lowest());
+}
+
+AxisCut moved_to(const AxisCut& change, AxisCut turn) {
+  turn.at = change.at;
+  return turn;
+}
+
 /// Largest number of stretches between two events that were found. More sign changes than that between them
 /// are noise; looking for each takes a walk along the dense output.
 constexpr std::size_t most_between_events = 32;
@@ -265,6 +276,10 @@ void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut&
   if (stretch.samples.empty()) return;  // the sign change lies at a cut that exists already
   const bool may_split = depth < deepest && stretches.size() < most;
   if (const auto cut = may_split ? missing_cut(path, stretch, judging) : std::nullopt) {
+    if (is_of_turn(path, from, *cut))
+      return add_stretches(path, moved_to(*cut, from), to, judging, depth + 1, most, stretches);
+    if (is_of_turn(path, to, *cut))
+      return add_stretches(path, from, moved_to(*cut, to), judging, depth + 1, most, stretches);
     add_stretches(path, from, *cut, judging, depth + 1, most, stretches);
     add_stretches(path, *cut, to, judging, depth + 1, most, stretches);
     return;

@@ -9,6 +9,7 @@
 #include "steady/bordered_kkt.hpp"
 #include "steady/rounding.hpp"
 #include "steady/sparse_bordered_kkt.hpp"
+#include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
 namespace {
@@ -141,8 +142,12 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
     const bool is_lost = size > last && size > far_away;
     if (!std::isfinite(size) || diverges || is_lost || i > most_corrections) return result;
     if (size <= newton_rounding || (size > 0.5 * last && size < newton_rounding_floor)) {
-      result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
-      ++result.report.factorizations;
+      // Of a large scene only the constraints: near a fold or branch point the whole would be factored with
+      // dense matrices. What needs it factors it itself.
+      if (!result.linearization.K[0].is_sparse() || model.n_trims() > 0) {
+        result.kkt = KktFactorization(result.linearization.K[0], result.linearization.A[0], trim);
+        ++result.report.factorizations;
+      }
       result.status = SteadyStatus::converged;
       result.report.message.clear();
       return result;
@@ -201,12 +206,32 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
 
 }  // namespace
 
+namespace {
+
+/// Whether a basis spans only a part of the motions that the constraints allow, as in a projected scene.
+bool spans_a_part(const Matrix& tangent_basis, const Linearization& linearization) {
+  const SystemMatrix &K = linearization.K[0], &A = linearization.A[0];
+  return tangent_basis.cols() < K.rows() - A.rows() && K.is_sparse() && A.is_sparse();
+}
+
+/// The left kernel of the singular stiffness T^T K T, n; of the whole stiffness where T spans a part of the
+/// motions.
+Vector left_kernel(const Linearization& linearization, const Matrix& tangent_basis) {
+  if (spans_a_part(tangent_basis, linearization)) {
+    const auto kernel = kkt_kernel(linearization.K[0].sparse(), linearization.A[0].sparse());
+    if (kernel) return kernel->left;
+  }
+  const SingularVectors<Matrix> svd =
+      singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
+  return tangent_basis * svd.U.col(tangent_basis.cols() - 1);
+}
+
+}  // namespace
+
 std::vector<KernelLoad> kernel_loads(const Model& model, const Path& point,
                                      const std::vector<int>& parameters, const Linearization& linearization,
                                      const Matrix& tangent_basis, EvaluationCounts& counts) {
-  const SingularVectors<Matrix> svd =
-      singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
-  const Vector kernel = tangent_basis * svd.U.col(tangent_basis.cols() - 1);
+  const Vector kernel = left_kernel(linearization, tangent_basis);
   std::vector<KernelLoad> loads;
   for (const int parameter : parameters) {
     Vector follow, load;
@@ -228,27 +253,22 @@ double kernel_share_of_parameter(const Model& model, const Path& point, int trac
 namespace {
 
 /// As directions_at_branch_point, of a large scene whose tangent basis spans few of its motions: they tell
-/// the kernel to few digits, and nothing of how the whole follows the parameter. `right`, `left`: unit
-/// vectors near the kernel and that of the transpose, which border the equations of the whole scene. `next`:
-/// the second smallest singular value in the basis. Empty also if the whole is not singular: the motion that
-/// nothing holds is none of the followed modes then, and the basis knows little of it.
+/// nothing of how the whole follows the parameter. The kernel of the whole borders its equations.
 Matrix directions_of_the_whole(const Model& model, const Path& point, int traced,
-                               const Linearization& linearization, const Vector& right, const Vector& left,
-                               double next, EvaluationCounts& counts) {
-  constexpr double singular = 1e-3;  // of `next`
-  const Eigen::Index n = right.size(), m = model.n_constraints();
+                               const Linearization& linearization, EvaluationCounts& counts) {
+  const SparseMatrix &K = linearization.K[0].sparse(), &A = linearization.A[0].sparse();
   Vector force, constraint;
   if (parameter_slope(model, point.x.col(0), point.lambda.col(0), point.parameters.col(0), traced, force,
                       constraint, counts))
     return {};
-  const KktBorder border{left, Matrix::Zero(m, 1), right.transpose(), {}, Matrix::Zero(1, 1)};
-  const SparseBorderedKkt system(linearization.K[0].sparse(), linearization.A[0].sparse(), border);
-  Vector kernel, followed, multipliers, rest;
-  system.solve(Vector::Zero(n), Vector::Zero(m), Vector::Ones(1), kernel, multipliers, rest);
-  if (!(std::abs(rest[0]) <= singular * next)) return {};
-  system.solve(-force, -constraint, Vector::Zero(1), followed, multipliers, rest);
+  const std::optional<KktKernel> kernel = kkt_kernel(K, A);
+  if (!kernel) return {};
+  const Eigen::Index n = K.rows(), m = A.rows();
+  const KktBorder border{kernel->left, Matrix::Zero(m, 1), kernel->right.transpose(), {}, Matrix::Zero(1, 1)};
+  Vector followed, multipliers, rest;
+  SparseBorderedKkt(K, A, border).solve(-force, -constraint, Vector::Zero(1), followed, multipliers, rest);
   Matrix directions(n + 1, 2);
-  directions.col(0) << kernel, 0.0;
+  directions.col(0) << kernel->right, 0.0;
   directions.col(1) << followed, 1.0;
   return directions;
 }
@@ -258,15 +278,13 @@ Matrix directions_of_the_whole(const Model& model, const Path& point, int traced
 Matrix directions_at_branch_point(const Model& model, const Path& point, int traced,
                                   const Linearization& linearization, const Matrix& tangent_basis,
                                   EvaluationCounts& counts) {
+  if (spans_a_part(tangent_basis, linearization))
+    return directions_of_the_whole(model, point, traced, linearization, counts);
   Vector follow, load;
   if (parameter_load(model, point, traced, linearization, follow, load, counts)) return {};
   const SingularVectors<Matrix> svd =
       singular_vectors(Matrix(tangent_basis.transpose() * linearization.K[0] * tangent_basis));
   const Eigen::Index regular = tangent_basis.cols() - 1;
-  const bool is_part = tangent_basis.cols() < model.n_coordinates() - model.n_constraints();
-  if (is_part && regular > 0 && linearization.K[0].is_sparse() && linearization.A[0].is_sparse())
-    return directions_of_the_whole(model, point, traced, linearization, tangent_basis * svd.V.col(regular),
-                                   tangent_basis * svd.U.col(regular), svd.values[regular - 1], counts);
   const Vector loads = svd.U.leftCols(regular).transpose() * (tangent_basis.transpose() * load);
   const Vector y = svd.V.leftCols(regular) * loads.cwiseQuotient(svd.values.head(regular));
   Matrix directions(tangent_basis.rows() + 1, 2);

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/positive_or_one.hpp"
-#include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
 namespace {
@@ -14,6 +13,15 @@ double largest(const Vector& entries) {
 }
 
 }  // namespace
+
+double singularity_test(const SparseMatrix& K, const SparseMatrix& A, const KktKernel& nearby) {
+  const KktBorder border{
+      nearby.left, Matrix::Zero(A.rows(), 1), nearby.right.transpose(), {}, Matrix::Zero(1, 1)};
+  Vector dx, dl, test;
+  SparseBorderedKkt(K, A, border)
+      .solve(Vector::Zero(K.rows()), Vector::Zero(A.rows()), Vector::Ones(1), dx, dl, test);
+  return test[0];
+}
 
 SparseBorderedKkt::SparseBorderedKkt(const SparseMatrix& K, const SparseMatrix& A, const KktBorder& border)
     : n_(K.rows()), m_(A.rows()) {

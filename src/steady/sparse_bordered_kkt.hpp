@@ -4,6 +4,7 @@
 
 #include "core/sparse_factors.hpp"
 #include "steady/bordered_kkt.hpp"
+#include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
 
@@ -23,5 +24,11 @@ class SparseBorderedKkt {
   SparseFactors lu_;
   bool is_regular_ = false;
 };
+
+/// A smooth function of K and A that is zero where [K, A^T; A, 0] is singular: the unknown of its equations
+/// bordered by the kernel at a place nearby (Govaerts, Numerical Methods for Bifurcations of Dynamical
+/// Equilibria, SIAM 2000, section 3.3). Where the sign of the determinant is already rounding it still has
+/// digits.
+double singularity_test(const SparseMatrix& K, const SparseMatrix& A, const KktKernel& nearby);
 
 }  // namespace eigentrail

@@ -11,6 +11,29 @@ namespace {
 
 /// Iterations for the norm of the inverse tangent stiffness, of which only the magnitude is needed.
 constexpr int power_iterations = 4;
+/// Iterations for the kernel of a system that is singular up to rounding: each multiplies what else there is
+/// by the ratio of the two smallest singular values.
+constexpr int kernel_iterations = 3;
+
+/// Scale of the rows of the constraints that makes them as large as K.
+Vector row_scale_of(const SparseMatrix& A, double magnitude) {
+  return SystemMatrix(A).row_norms().unaryExpr(
+      [magnitude](double norm) { return magnitude / positive_or_one(norm); });
+}
+
+SparseMatrix kkt_matrix(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
+  const KktEntries entries = kkt_entries(K, A, row_scale);
+  const Eigen::Index size = K.rows() + A.rows();
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+Vector random_vector(Eigen::Index size) {
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  return Vector::NullaryExpr(size, [&] { return normal(engine); });
+}
 
 }  // namespace
 
@@ -35,12 +58,8 @@ std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const 
   const double magnitude = SystemMatrix(K).one_norm();
   if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return nullptr;
   result->n_ = K.rows();
-  result->row_scale_ = SystemMatrix(A).row_norms().unaryExpr(
-      [magnitude](double norm) { return magnitude / positive_or_one(norm); });
-  const KktEntries entries = kkt_entries(K, A, result->row_scale_);
-  const Eigen::Index size = K.rows() + A.rows();
-  result->matrix_.resize(size, size);
-  result->matrix_.setFromTriplets(entries.begin(), entries.end());
+  result->row_scale_ = row_scale_of(A, magnitude);
+  result->matrix_ = kkt_matrix(K, A, result->row_scale_);
   if (!result->lu_.factor(result->matrix_, SparseKind::general)) return nullptr;
   const double condition = result->norm_of_tangent_inverse() * magnitude;
   if (!(condition < 1.0 / least_reciprocal_condition)) return nullptr;
@@ -49,9 +68,7 @@ std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const 
 }
 
 double SparseKkt::norm_of_tangent_inverse() {
-  std::mt19937_64 engine(1);
-  std::normal_distribution<double> normal;
-  Vector x = Vector::NullaryExpr(n_, [&] { return normal(engine); });
+  Vector x = random_vector(n_);
   double norm = 0.0;
   Vector right = Vector::Zero(matrix_.rows());
   for (int i = 0; i < power_iterations; ++i) {
@@ -63,6 +80,26 @@ double SparseKkt::norm_of_tangent_inverse() {
     x = Vector(lu_.solve_transposed(Matrix(right))).head(n_);
   }
   return norm;
+}
+
+std::optional<KktKernel> kkt_kernel(const SparseMatrix& K, const SparseMatrix& A) {
+  const Eigen::Index n = K.rows();
+  SparseFactors lu;
+  if (!lu.factor(kkt_matrix(K, A, row_scale_of(A, SystemMatrix(K).one_norm())), SparseKind::general))
+    return std::nullopt;
+  Vector right = random_vector(n + A.rows());
+  Vector left = right;
+  for (int i = 0; i < kernel_iterations; ++i) {
+    right = lu.solve(Matrix(left.normalized()));
+    left = lu.solve_transposed(Matrix(right.normalized()));
+  }
+  return KktKernel{right.head(n).normalized(), left.head(n).normalized()};
+}
+
+LogDeterminant SparseKkt::determinant() const {
+  LogDeterminant result = lu_.determinant();
+  result.logarithm -= 2.0 * row_scale_.array().log().sum();
+  return result;
 }
 
 Vector SparseKkt::refined_solution(const Vector& right) const {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/sparse_factors.hpp"
@@ -16,6 +17,13 @@ namespace eigentrail {
 /// Entries of [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`, m.
 using KktEntries = std::vector<Eigen::Triplet<double>>;
 KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale);
+
+/// Unit vectors, n, that are nearest to the right and the left kernel of [K, A^T; A, 0].
+struct KktKernel {
+  Vector right, left;
+};
+/// The kernel of a system that is singular up to rounding, by inverse iteration. Empty if a pivot is zero.
+std::optional<KktKernel> kkt_kernel(const SparseMatrix& K, const SparseMatrix& A);
 
 class SparseKkt {
  public:
@@ -33,6 +41,9 @@ class SparseKkt {
   /// (Q2^T K Q2)^-1 Q2^T r; the norm of this map is the norm of the inverse of Q2^T K Q2 and is estimated by
   /// power iteration.
   double reciprocal_condition() const { return reciprocal_condition_; }
+
+  /// Of [K, A^T; A, 0].
+  LogDeterminant determinant() const;
 
  private:
   SparseKkt() = default;

@@ -78,8 +78,8 @@ TEST(SidePoint, HasSignAndLogarithmOfTheStiffness) {
     ASSERT_TRUE(side);
     EXPECT_EQ(side->coordinate, k);
     EXPECT_EQ(side->heading, 1.0);
-    EXPECT_EQ(side->sign, k < critical ? 1.0 : -1.0);
-    EXPECT_NEAR(side->logarithm, std::log(std::abs(critical - k)), 1e-10);
+    EXPECT_EQ(side->stiffness.sign, k < critical ? 1.0 : -1.0);
+    EXPECT_NEAR(side->stiffness.logarithm, std::log(std::abs(critical - k)), 1e-10);
   }
 }
 
@@ -88,7 +88,7 @@ TEST(SidePoint, OnTheBranchPointHasNoSign) {
   OnPath at(straight(), critical);
   const auto side = side_point(at.points, at.reduced, 1);
   ASSERT_TRUE(side);
-  EXPECT_EQ(side->sign, 0.0);
+  EXPECT_EQ(side->stiffness.sign, 0.0);
 }
 
 TEST(SidePoint, IsNoneWithoutAPointOrWithOtherFreedoms) {

@@ -119,5 +119,24 @@ TEST(SparseFactors, EstimatesBoundTheFactors) {
   EXPECT_GE(1.01 * estimate.bytes, static_cast<double>(sizeof(double) * 30 * 31 / 2) * 0.5);
 }
 
+TEST(SparseFactors, DeterminantIsThatOfTheMatrix) {
+  const Matrix A = sparse_random(40, 3.0, 5);
+  SparseFactors factors;
+  ASSERT_TRUE(factors.factor(sparse(A), SparseKind::general));
+  const double expected = A.determinant();
+  EXPECT_NEAR(factors.determinant().logarithm, std::log(std::abs(expected)), 1e-10);
+  EXPECT_EQ(factors.determinant().sign, expected > 0.0 ? 1.0 : -1.0);
+  Matrix exchanged = A;
+  exchanged.row(0).swap(exchanged.row(1));
+  ASSERT_TRUE(factors.factor(sparse(exchanged), SparseKind::general));
+  EXPECT_EQ(factors.determinant().sign, expected > 0.0 ? -1.0 : 1.0);
+}
+
+TEST(SparseFactors, DeterminantOfCholeskyFactorsIsRefused) {
+  SparseFactors factors;
+  ASSERT_TRUE(factors.factor(sparse(Matrix::Identity(3, 3)), SparseKind::symmetric));
+  EXPECT_THROW((void)factors.determinant(), std::logic_error);
+}
+
 }  // namespace
 }  // namespace eigentrail::test

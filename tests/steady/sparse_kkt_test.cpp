@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <random>
 
 #include "eigentrail/steady/kkt_factorization.hpp"
+#include "steady/sparse_bordered_kkt.hpp"
 
 namespace eigentrail {
 namespace {
@@ -113,6 +115,61 @@ TEST(SparseKkt, ServesWithoutConstraintsToo) {
   kkt.solve(Vector::Ones(n), Vector(0), dx, dl);
   EXPECT_LT((system.K * dx - Vector::Ones(n)).norm(), tolerance * std::sqrt(n));
   EXPECT_EQ(dl.size(), 0);
+}
+
+TEST(SparseKkt, HasTheDeterminantOfTheWholeMatrix) {
+  for (const double stiffness : {1e-6, 1.0, 1e9}) {
+    const System system(stiffness);
+    Matrix whole = Matrix::Zero(n + m, n + m);
+    whole << system.K, system.A.transpose(), system.A, Matrix::Zero(m, m);
+    const Eigen::PartialPivLU<Matrix> lu(whole);
+    const Vector pivots = lu.matrixLU().diagonal();
+    const auto kkt = SparseKkt::factor(sparse(system.K).sparse(), sparse(system.A).sparse());
+    ASSERT_TRUE(kkt);
+    const LogDeterminant determinant = kkt->determinant();
+    EXPECT_NEAR(determinant.logarithm, pivots.array().abs().log().sum(), 1e-10 * (n + m) * 20.0);
+    EXPECT_EQ(determinant.sign, lu.permutationP().determinant() * pivots.array().sign().prod());
+  }
+}
+
+/// A symmetric system whose stiffness in the allowed motions has a simple eigenvalue at zero for shift 0.
+struct Vanishing {
+  System system;
+  double least;
+  Vector kernel;
+
+  Vanishing() {
+    system.K = (0.5 * (system.K + system.K.transpose())).eval();
+    const Matrix Q2 = ConstraintFactorization(system.A).null_basis();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(Q2.transpose() * system.K * Q2));
+    least = solver.eigenvalues()[0];
+    kernel = Q2 * solver.eigenvectors().col(0);
+  }
+  SparseMatrix K(double shift) const {
+    return sparse(system.K - (least + shift) * Matrix::Identity(n, n)).sparse();
+  }
+  SparseMatrix A() const { return sparse(system.A).sparse(); }
+};
+
+TEST(SparseKkt, TheKernelIsThatOfTheAllowedMotions) {
+  const Vanishing vanishing;
+  const auto kernel = kkt_kernel(vanishing.K(1e-9), vanishing.A());
+  ASSERT_TRUE(kernel);
+  EXPECT_NEAR(std::abs(kernel->right.dot(vanishing.kernel)), 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(kernel->left.dot(vanishing.kernel)), 1.0, 1e-9);
+}
+
+TEST(SparseKkt, TheSingularityTestHasASimpleZeroToTheLastDigits) {
+  const Vanishing vanishing;
+  const auto kernel = kkt_kernel(vanishing.K(1e-4), vanishing.A());
+  ASSERT_TRUE(kernel);
+  const auto test = [&](double shift) {
+    return singularity_test(vanishing.K(shift), vanishing.A(), *kernel);
+  };
+  for (const double shift : {1e-4, 1e-8, 1e-11, -1e-11, -1e-8, -1e-4})
+    EXPECT_NEAR(test(shift) / test(1e-6), shift / 1e-6, 1e-3 * std::abs(shift / 1e-6) + 1e-8) << shift;
+  // Of the determinant nothing is left there: the condition is beyond what a factorization tells.
+  EXPECT_FALSE(SparseKkt::factor(vanishing.K(1e-15), vanishing.A()));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct EventOptions {
   std::optional<Expression> excitation = {};
   bool extrema = false;            ///< whether extrema of the damping ratio are searched for
   bool veerings = true;            ///< the same for veerings; not an option of a scene
+  bool other_paths = true;         ///< the same for the paths that cross at a branch point
   OperatingRanges operating = {};  ///< from which critical speeds must stay away
 
   /// The values requested of one kind.

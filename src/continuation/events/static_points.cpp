@@ -6,6 +6,7 @@
 #include "continuation/events/event_record.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/path_step.hpp"
+#include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 /// As a share of the range: an event this close to the branch point on the bridge is that branch point. The
 /// place of a double eigenvalue is known to about the square root of rounding.
 constexpr double at_branch_point = 1e-8;
+/// Product of the shapes of a mode and of the kernel, both of unit norm, from which on they are one motion:
+/// the kernel is that of a mode to the accuracy of the projection, or it is another motion.
+constexpr double same_motion = 0.9;
 /// Smallest reference magnitude of eigenvalues, 1/s: keeps the limit of zero eigenvalues above zero.
 constexpr double least_reference = 1e-300;
 
@@ -44,6 +48,19 @@ void keep_vanishing_mode(const PathNode& node, Event& event) {
   }
 }
 
+/// The same in a projected scene, where the motion may be none of the followed modes: its shape is the kernel
+/// of the whole stiffness, and modes are kept only if it is theirs.
+void keep_vanishing_motion(const EventSearch& search, const PathNode& node, Event& event) {
+  keep_vanishing_mode(node, event);
+  if (search.problem().model.projection() == nullptr) return;
+  const auto kernel = kkt_kernel(node.linearization.K[0].sparse(), node.linearization.A[0].sparse());
+  if (!kernel) return;
+  const ComplexVector of_mode = event.shape;
+  keep_shape(node, 0, kernel->right.cast<Complex>(), event);
+  const ComplexVector inertia = node.linearization.M[0] * event.shape;  // both shapes have unit M-norm
+  if (!(std::abs(inertia.dot(of_mode)) >= same_motion)) event.modes.clear();
+}
+
 }  // namespace
 
 FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h) {
@@ -68,7 +85,7 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
     found.events.push_back(std::move(event));
     return found;
   }
-  keep_vanishing_mode(node, event);
+  keep_vanishing_motion(search, node, event);
   if (is_fold) keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
   found.events.push_back(std::move(event));
   return found;
@@ -81,7 +98,7 @@ FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
   event.p = search.frame().branch_point.p;
   event.retrackings = 1;
   event.node = search.node;
-  keep_vanishing_mode(node, event);
+  keep_vanishing_motion(search, node, event);
   event.modes.clear();  // the mode numbers are those of one path; the point belongs to both
   return {{std::move(event)}};
 }

@@ -1,12 +1,10 @@
 #include "continuation/path/branch_points.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
-#include "core/matrix_series.hpp"
+#include "continuation/path/stiffness_determinant.hpp"
 #include "core/positive_or_one.hpp"
-#include "core/products.hpp"
 
 namespace eigentrail {
 namespace {
@@ -20,10 +18,6 @@ constexpr double look_ahead = 0.3;
 /// In steps: places at which the series of the left end is evaluated, besides the end of the step, if the
 /// right end was not found. Two changes of sign between neighbouring places are not seen.
 constexpr double first_place = 0.4, second_place = 0.7;
-/// A matrix whose smallest singular value is at most about this share of its scale counts as singular, since
-/// rounding determines the sign of its determinant. The value has a margin for the rounding of the
-/// projection.
-constexpr double regular = 1e-11;
 /// Half the length of the first bridge, as a share of the step. Shorter ones follow until one is accurate:
 /// the polynomial of a long bridge has a larger truncation error, and the ends of a short one are so close to
 /// the branch point that the nearly singular equations make them inaccurate.
@@ -33,55 +27,14 @@ constexpr int most_lengths = 8;    ///< the last bridge has 0.03 times the lengt
 constexpr int most_tries = 3;      ///< attempts to build a bridge from one point
 /// A bridge is replaced by a shorter one only if the error of that is at most this share of its own.
 constexpr double much_better = 0.3;
+/// As a share of the range: a projected scene has the zero of a followed mode this close to that of the
+/// whole, and the branch point is where the followed mode has it. Farther away its own zero is that of a
+/// motion that it knows little of. The error of a projection is about the square of that of its vectors,
+/// below 1e-8.
+constexpr double same_zero = 1e-6;
 /// In half lengths of a bridge: if the root of the test function moves by more, the prediction was of another
 /// point.
 constexpr double farthest_root = 10.0;
-
-/// Sign and logarithm of a determinant. The determinant of a large matrix may overflow.
-struct Determinant {
-  double sign = 0.0;  ///< 0: the matrix is singular up to rounding
-  double logarithm = 0.0;
-
-  /// `scale`: norm of the matrix of which this one is a projection.
-  Determinant(const Matrix& matrix, double scale) {
-    if (matrix.size() == 0) return;
-    const Eigen::PartialPivLU<Matrix> lu(matrix);
-    const double norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
-    if (!(lu.rcond() * norm > regular * scale)) return;
-    sign = lu.permutationP().determinant();
-    for (const double pivot : lu.matrixLU().diagonal()) {
-      sign *= pivot > 0.0 ? 1.0 : -1.0;
-      logarithm += std::log(std::abs(pivot));
-    }
-  }
-  /// This determinant, with its sign, divided by the magnitude of another one.
-  double relative_to(const Determinant& other) const { return sign * std::exp(logarithm - other.logarithm); }
-};
-
-/// A stiffness in reduced coordinates, and the norm of the terms that its entries are sums of.
-struct Stiffness {
-  Matrix K;
-  double scale;
-
-  Determinant determinant() const { return {K, scale}; }
-};
-
-/// `K` in the coordinates of a basis, without the freedoms that nothing holds for any value of the parameter:
-/// their zero is no branch point. `whole`: the stiffness of which K is a projection.
-Stiffness held_stiffness(const Matrix& K, const TangentBasis& basis, const SystemMatrix& whole) {
-  if (!basis.parts) return {K, whole.one_norm()};
-  const IndependentParts& parts = *basis.parts;
-  std::vector<Eigen::Index> held;
-  for (Eigen::Index i = 0; i < K.rows(); ++i) {
-    if (!parts.pattern_K.row(i).isZero(0.0) || !parts.pattern_K.col(i).isZero(0.0)) held.push_back(i);
-  }
-  const Matrix terms = magnitudes_of_terms(parts.left, whole.dense(), parts.right);
-  return {K(held, held), held.empty() ? 0.0 : terms(held, held).colwise().sum().maxCoeff()};
-}
-
-Stiffness held_stiffness(const PathPoint& point) {
-  return held_stiffness(point.pencil.K[0], point.basis, point.equilibrium.linearization.K[0]);
-}
 
 /// Derivative of a row of a series at h.
 double slope(const VectorSeries& series, Eigen::Index row, double h) {
@@ -98,16 +51,15 @@ double straight_root(double a, double b) {
 
 /// Predicted distance of a branch point from `node`, up to a little beyond `next`, from a change of sign of
 /// the test function. Empty if there is none.
-std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode& node, double h,
-                                          const PathNode* next) {
+std::optional<double> expect_branch_point(const PathProblem& problem, const PathFrame& frame,
+                                          const PathNode& node, double h, const PathNode* next) {
   const int traced = frame.range.traced;
   const auto test = [&](const PathNode& there, double distance, double& divisor) {
     divisor = frame.plane ? slope(there.path.parameters, traced, distance) : 1.0;
-    return held_stiffness(evaluate_series(there.pencil.K, distance), there.basis, there.linearization.K[0])
-        .determinant();
+    return stiffness_determinant(problem, there, distance);
   };
   double heading = 1.0;
-  const Determinant begin = test(node, within_step * h, heading);
+  const LogDeterminant begin = test(node, within_step * h, heading);
   if (begin.sign == 0.0) return std::nullopt;
   std::array<std::pair<const PathNode*, double>, 4> places{
       {{&node, first_place}, {&node, second_place}, {&node, 1.0}, {&node, 1.0 + look_ahead}}};
@@ -117,7 +69,7 @@ std::optional<double> expect_branch_point(const PathFrame& frame, const PathNode
   for (const auto& [there, distance] : places) {
     if (there == nullptr) break;
     double divisor = 1.0;
-    const Determinant value = test(*there, distance * h, divisor);
+    const LogDeterminant value = test(*there, distance * h, divisor);
     const double at_right = value.relative_to(begin) * begin.sign / divisor;
     const double right = there == &node ? distance : 1.0 + distance;
     if (at_left * at_right < 0.0) return h * (left + (right - left) * straight_root(at_left, at_right));
@@ -139,37 +91,50 @@ double turning_point(const Bridge& bridge, int traced, const SidePoint& left, co
   return a;
 }
 
-/// Coordinate of the branch point on a bridge: a root of det K, by the secant method from `guess`. If p has
-/// an extremum at the branch point, as on the bifurcating path of a pitchfork, det K has a double root there,
-/// and the simple root of dp/dsigma is used.
-double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& bridge, const SidePoint& left,
-                 const SidePoint& right, double guess) {
+/// A root of a test function of the points on a bridge, by the secant method from `guess` and `other`. The
+/// function is evaluated at the guess first.
+template <class Test>
+double root_on(const PointSolver& solver, const Matrix& basis, const Bridge& bridge, double guess,
+               double other, Test&& test) {
   constexpr int most_secants = 20;
-  constexpr double same_turn = 0.2;          // of the bridge: an extremum of p farther away is another point
   constexpr double last_correction = 1e-15;  // relative: rounding of the coordinate
-  if (solver.frame().plane && left.heading * right.heading < 0.0) {
-    const double turn = turning_point(bridge, solver.problem().traced, left, right);
-    if (std::abs(turn - guess) < same_turn * std::abs(bridge.end() - bridge.begin())) return turn;
-  }
-  const auto stiffness = [&](double at) {
+  const auto value = [&](double at) {
     const PathPoint point = reduce_on(solver.problem(), bridge.path(at, 1), basis, solver.counts());
-    if (point.status != PointStatus::computed) return 0.0;
-    const Determinant there(held_stiffness(point).K, 0.0);
-    return there.sign * std::exp(there.logarithm - left.logarithm);
+    return point.status == PointStatus::computed ? test(point) : 0.0;
   };
-  double a = left.coordinate;
-  double at_a = left.sign;
   double b = guess;
-  double at_b = stiffness(b);
+  double at_b = value(b);
+  double a = other;
+  double at_a = value(a);
   for (int i = 0; i < most_secants && at_b != 0.0 && at_b != at_a; ++i) {
     const double next = b - at_b * (b - a) / (at_b - at_a);
     a = b;
     at_a = at_b;
     b = next;
     if (!bridge.covers(b) || std::abs(b - a) <= last_correction * std::abs(b)) break;
-    at_b = stiffness(b);
+    at_b = value(b);
   }
   return b;
+}
+
+/// Coordinate of the branch point on a bridge: where the stiffness is singular. If p has an extremum there,
+/// as on the bifurcating path of a pitchfork, its determinant has a double root, and the simple root of
+/// dp/dsigma is used.
+double locate_on(const PointSolver& solver, const Matrix& basis, const Bridge& bridge, const SidePoint& left,
+                 const SidePoint& right, double guess) {
+  constexpr double same_turn = 0.2;  // of the bridge: an extremum of p farther away is another point
+  const PathFrame& frame = solver.frame();
+  if (frame.plane && left.heading * right.heading < 0.0) {
+    const double turn = turning_point(bridge, solver.problem().traced, left, right);
+    if (std::abs(turn - guess) < same_turn * std::abs(bridge.end() - bridge.begin())) return turn;
+  }
+  const bool is_projected = solver.problem().model.projection() != nullptr;
+  const double whole =
+      is_projected ? root_on(solver, basis, bridge, guess, left.coordinate, WholeSingularity()) : guess;
+  const double own = root_on(solver, basis, bridge, whole, left.coordinate, [&](const PathPoint& point) {
+    return vanishing_determinant(point, left.stiffness);
+  });
+  return is_projected && !(std::abs(own - whole) <= same_zero * frame.range.length()) ? whole : own;
 }
 
 /// The side point at a distance from `node`.
@@ -201,8 +166,8 @@ bool build_bridge(const PointSolver& solver, PathFrame& frame, const PathNode& n
     const std::optional<SidePoint> left = side_point_at(solver, node, guess - half);
     const std::optional<SidePoint> right = side_point_at(solver, node, guess + half);
     if (!left || !right) continue;
-    const double ratio = right->sign * std::exp(right->logarithm - left->logarithm) / left->sign *
-                         left->heading / right->heading;
+    const double ratio =
+        right->stiffness.relative_to(left->stiffness) / left->stiffness.sign * left->heading / right->heading;
     const double root = guess + half * (2.0 * straight_root(1.0, ratio) - 1.0);
     if (!std::isfinite(root) || std::abs(root - guess) > farthest_root * std::abs(half)) break;
     guess = root;
@@ -253,9 +218,7 @@ std::optional<SidePoint> side_point(const PointSolver& solver, const PathPoint& 
   side.coordinate =
       point.plane ? (*point.plane)(point.equilibrium.x, point.equilibrium.lambda, point.p) : point.p;
   side.heading = coefficient(side.path.parameters, solver.problem().traced, 1);
-  const Determinant stiffness = held_stiffness(point).determinant();
-  side.sign = stiffness.sign;
-  side.logarithm = stiffness.logarithm;
+  side.stiffness = stiffness_determinant(solver.problem(), point);
   return side;
 }
 
@@ -266,16 +229,14 @@ bool bridge_branch_point(const PointSolver& solver, PathFrame& frame, const Path
   const double here = frame.coordinate(node);
   if (frame.bridge && (frame.bridge->covers(here) || frame.bridge->covers(here + h))) return false;
   const StageTimer timer(solver.counts().events_seconds);
-  const std::optional<double> expected = expect_branch_point(frame, node, h, next);
+  const std::optional<double> expected = expect_branch_point(solver.problem(), frame, node, h, next);
   if (!expected) return false;
   ++tries;
   return build_bridge(solver, frame, node, *expected, h);
 }
 
 bool is_on_branch_point(const PathProblem& problem, const PathPoint& point) {
-  if (!may_branch(problem) || point.pencil.size() == 0) return false;
-  const Stiffness stiffness = held_stiffness(point);
-  return stiffness.K.size() > 0 && stiffness.determinant().sign == 0.0;
+  return may_branch(problem) && holds_anything(point) && stiffness_determinant(problem, point).sign == 0.0;
 }
 
 std::optional<PathPoint> bridge_start(const PointSolver& solver, PathFrame& frame, const PathPoint& point) {

@@ -7,15 +7,16 @@
 #pragma once
 
 #include "continuation/point/point_solver.hpp"
+#include "eigentrail/core/log_determinant.hpp"
 
 namespace eigentrail {
 
 /// A point of the path on one side of a branch point, without modes.
 struct SidePoint {
   double coordinate = 0.0;
-  Path path;                           ///< series of the highest order, max_order
-  double heading = 1.0;                ///< dp/dsigma
-  double sign = 0.0, logarithm = 0.0;  ///< det T^T K T: sign, and log of the magnitude
+  Path path;                 ///< series of the highest order, max_order
+  double heading = 1.0;      ///< dp/dsigma
+  LogDeterminant stiffness;  ///< det T^T K T
 };
 
 /// The side point from a reduced point. Empty if that was not computed, does not have `n_freedoms` freedoms,

@@ -1,0 +1,83 @@
+// Branch points of large scenes are those of the whole scene, whatever modes are followed.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "eigentrail/projection/project.hpp"
+#include "eigentrail/steady/equilibrium.hpp"
+#include "support/scenes.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+/// A column of 100 elements that stands on a clamp, 1212 coordinates, under a growing weight w per length, in
+/// EI / L^3.
+Setting column(const std::string& modes) {
+  return scene_setting("rotating_cantilever", {{"modes", modes}, {"to", "8.5"}},
+                       {{"elements     = 10", "elements = 100\ndegree = 1"},
+                        {"slender = 1e-6", "slender = 1e-4\nw = 0"},
+                        {"parameter = \"eta\"", "parameter = \"w\""},
+                        {"[[beam]] ", "[gravity]\nacceleration = [\"-w\", 0, 0]\n[[beam]] "}});
+}
+
+/// Modes whose motions do not have the shape in which the column buckles.
+constexpr const char* high_modes = "near = '20 Hz', count = 3";
+
+struct Buckling {
+  RecordedTrace trace;
+  std::vector<Event> branch_points;
+
+  explicit Buckling(Setting setting) {
+    project_if_large(setting.model, setting.options);
+    trace = record_trace(setting);
+    EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    for (const Event& event : trace.result.events) {
+      if (event.kind == EventKind::branch_point) branch_points.push_back(event);
+    }
+  }
+  double place() const { return branch_points.empty() ? NAN : branch_points.front().p; }
+};
+
+/// The stiffness of the motions that the constraints of the whole scene allow, and its eigenvalues: those of
+/// the null space of the constraints by dense matrices.
+struct WholeStiffness {
+  Matrix basis;
+  Vector eigenvalues;
+  Vector buckling;  ///< of the smallest one
+
+  explicit WholeStiffness(double w) {
+    const Setting setting = column("1");
+    const Vector parameters = parameters_at(setting.problem(), w);
+    EvaluationCounts counts = setting.model->new_counts();
+    const Equilibrium at = solve_equilibrium(*setting.model, parameters,
+                                             setting.model->initial_guess(parameters), Vector(), {}, counts);
+    EXPECT_EQ(at.status, SteadyStatus::converged) << at.report.message;
+    basis = ConstraintFactorization(SystemMatrix(at.linearization.A[0].dense())).null_basis();
+    const Matrix K = basis.transpose() * (at.linearization.K[0] * basis);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (K + K.transpose()));
+    eigenvalues = solver.eigenvalues();
+    buckling = basis * solver.eigenvectors().col(0);
+  }
+  Eigen::Index n_negative() const { return (eigenvalues.array() < 0.0).count(); }
+};
+
+TEST(BucklingOfLargeScenes, IsFoundWhereTheWholeStiffnessIsSingular) {
+  const Buckling seen(column(high_modes));
+  ASSERT_EQ(seen.branch_points.size(), 1u);
+  const double w = seen.place();
+  EXPECT_NEAR(w, 7.8373474, 5e-3);  // Greenhill 1881, of a column without shear; 9 j^2 / 4 with J_-1/3(j) = 0
+  EXPECT_EQ(WholeStiffness(w * (1.0 - 1e-7)).n_negative(), 0);
+  const WholeStiffness behind(w * (1.0 + 1e-7));
+  EXPECT_EQ(behind.n_negative(), 1);
+  // None of the followed modes vanishes there; the shape is that of the motion that does.
+  EXPECT_GT(seen.trace.eigenvalues_at(w).cwiseAbs().minCoeff(), 50.0);
+  const ComplexVector shape = seen.branch_points.front().shape;
+  EXPECT_NEAR(std::abs(shape.dot(behind.buckling.cast<Complex>())) / shape.norm(), 1.0, 1e-6);
+  // With the mode that vanishes it is at the same place.
+  const Buckling followed(column("4"));
+  ASSERT_EQ(followed.branch_points.size(), 1u);
+  EXPECT_NEAR(followed.place(), w, 1e-7);
+}
+
+}  // namespace
+}  // namespace eigentrail::test
