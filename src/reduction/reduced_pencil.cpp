@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/products.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 
 namespace eigentrail {
 namespace {
@@ -94,6 +95,7 @@ Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
   add_product(product, B, parts.right);
   for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality < 0) continue;  // has the same matrices
     result.block(range.first, range.first, range.size, range.size).noalias() =
         parts.left.middleCols(range.first, range.size).transpose() *
         product.middleCols(range.first, range.size);
@@ -146,10 +148,24 @@ MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const
   return result;
 }
 
+/// Removes the rounding by which conjugate pairs of parts differ from their canonical form.
+MatrixSeries canonical(MatrixSeries B, const IndependentParts& parts) {
+  for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality <= 0) continue;
+    for (Matrix& coefficient : B) {
+      auto block = coefficient.block(range.first, range.first, range.size, range.size);
+      block = canonical_form(block);
+    }
+  }
+  return B;
+}
+
 ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
   const IndependentParts& parts = *basis.parts;
   const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
-    return basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order);
+    return canonical(
+        basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order),
+        parts);
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};
@@ -161,8 +177,12 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
     return whole;
   }
   for (const IndependentParts::Range& range : parts.ranges)
-    whole.parts.push_back(
-        {block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range), {}, copies(range)});
+    whole.parts.push_back({block_of(whole.M, range),
+                           block_of(whole.C, range),
+                           block_of(whole.K, range),
+                           {},
+                           copies(range),
+                           range.chirality});
   return whole;
 }
 
