@@ -6,39 +6,40 @@
 namespace eigentrail {
 namespace {
 
-Complex turn(int chirality) {
+Complex unit_of(int chirality) {
   return {0.0, static_cast<double>(chirality)};
 }
 
-constexpr double unit = 0.5 * std::numbers::sqrt2;
+/// 1 / sqrt(2): lengths are kept.
+constexpr double inverse_root = 0.5 * std::numbers::sqrt2;
 
 template <class Values>
-ComplexMatrix block_of(const Values& canonical, int chirality) {
+ComplexMatrix block_in(const Values& canonical, int chirality) {
   const Eigen::Index m = canonical.rows() / 2;
   return canonical.topLeftCorner(m, m) +
-         turn(chirality) * canonical.bottomLeftCorner(m, m).template cast<Complex>();
+         unit_of(chirality) * canonical.bottomLeftCorner(m, m).template cast<Complex>();
 }
 
 }  // namespace
 
 ComplexMatrix chiral_coordinates(const ComplexMatrix& Z, int chirality) {
   const Eigen::Index m = Z.rows() / 2;
-  return unit * (Z.topRows(m) + turn(chirality) * Z.bottomRows(m));
+  return inverse_root * (Z.topRows(m) + unit_of(chirality) * Z.bottomRows(m));
 }
 
 ComplexMatrix from_chiral_coordinates(const ComplexMatrix& q, int chirality) {
   ComplexMatrix Z(2 * q.rows(), q.cols());
-  Z.topRows(q.rows()) = unit * q;
-  Z.bottomRows(q.rows()) = (-unit * turn(chirality)) * q;
+  Z.topRows(q.rows()) = inverse_root * q;
+  Z.bottomRows(q.rows()) = (-inverse_root * unit_of(chirality)) * q;
   return Z;
 }
 
 ComplexMatrix chiral_block(const Matrix& canonical, int chirality) {
-  return block_of(canonical, chirality);
+  return block_in(canonical, chirality);
 }
 
 ComplexMatrix chiral_block(const ComplexMatrix& canonical, int chirality) {
-  return block_of(canonical, chirality);
+  return block_in(canonical, chirality);
 }
 
 Matrix canonical_form(const Matrix& matrix) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "core/products.hpp"
 #include "eigentrail/reduction/chirality.hpp"
@@ -17,32 +18,40 @@ namespace {
 
 /// Distance of eigenvalues of a random combination, relative to the largest one, from which they are
 /// different. Those of a conjugate pair of parts are all different, as the combination is random.
-constexpr double different = 1e-6;
+constexpr double told_apart = 1e-6;
 /// Couplings of eigenvectors up to this share of the largest one are taken for rounding. What is found is
 /// tested; a larger value overlooks parts whose only connections are weaker.
 constexpr double weak = 1e-7;
 /// Largest condition number of canonical coordinates.
-constexpr double worst = 1e4;
+constexpr double worst_condition = 1e4;
 
 /// Canonical coordinates of one part.
 struct Canonical {
   Matrix right, left;  ///< 2m x 2m
 };
 
-/// The matrices left^T A right of a part, of norm one; those that are rounding are left out.
-std::vector<Matrix> own_matrices(const CoefficientMatrices& coefficients, const Matrix& left,
-                                 const Matrix& right) {
-  constexpr double rounding = 1e-13;
-  std::vector<Matrix> all;
+/// A part with its matrices.
+struct PartMatrices {
+  Matrix left, right;         ///< n x 2m
+  std::vector<Matrix> given;  ///< n x n, in units of the norms that they have in the part
+  std::vector<Matrix> own;    ///< left^T A right of the given ones, of norm one
+};
+
+/// Matrices that are nothing but rounding in the part are left out.
+PartMatrices matrices_of_part(const CoefficientMatrices& coefficients, Matrix left, Matrix right) {
+  constexpr double nothing = 1e-13;
+  PartMatrices part{std::move(left), std::move(right), {}, {}};
   for (const auto* matrices : {&coefficients.M, &coefficients.C, &coefficients.K}) {
     for (const Matrix& A : *matrices) {
       if (A.size() == 0 || !A.allFinite()) continue;
-      const Matrix own = left.transpose() * A * right;
-      const double size = own.norm();
-      if (size > rounding * magnitudes_of_terms(left, A, right).norm()) all.emplace_back(own / size);
+      const Matrix here = part.left.transpose() * A * part.right;
+      const double size = here.norm();
+      if (!(size > nothing * magnitudes_of_terms(part.left, A, part.right).norm())) continue;
+      part.given.emplace_back(A / size);
+      part.own.emplace_back(here / size);
     }
   }
-  return all;
+  return part;
 }
 
 /// Indices that are connected with the first one by entries of H.
@@ -66,7 +75,7 @@ std::vector<Eigen::Index> connected_with_first(const ComplexMatrix& H) {
 
 /// Whether all eigenvalues are different from each other and from the real axis.
 bool are_different(const ComplexVector& values) {
-  const double apart = different * values.cwiseAbs().maxCoeff();
+  const double apart = told_apart * values.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::abs(values[i].imag()) <= apart) return false;
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -79,7 +88,7 @@ bool are_different(const ComplexVector& values) {
 /// Whether the eigenvalues of the members are the conjugates of the others.
 bool is_half(const ComplexVector& values, const std::vector<Eigen::Index>& members) {
   if (2 * static_cast<Eigen::Index>(members.size()) != values.size()) return false;
-  const double apart = different * values.cwiseAbs().maxCoeff();
+  const double apart = told_apart * values.cwiseAbs().maxCoeff();
   for (const Eigen::Index i : members) {
     for (const Eigen::Index j : members) {
       if (std::abs(values[i] - std::conj(values[j])) <= apart) return false;
@@ -128,12 +137,12 @@ Matrix real_coordinates(const ComplexMatrix& U) {
 /// The spaces of one half: right and left vectors of all matrices that are coupled with each other.
 std::optional<Canonical> canonical_coordinates(const std::vector<Matrix>& all, Random& random) {
   const Eigen::PartialPivLU<Matrix> B(random_combination(all, random));
-  if (!(B.rcond() > 1.0 / (worst * worst))) return std::nullopt;
+  if (!(B.rcond() > 1.0 / (worst_condition * worst_condition))) return std::nullopt;
   const Eigen::EigenSolver<Matrix> eigen(Matrix(B.solve(random_combination(all, random))));
   if (eigen.info() != Eigen::Success || !are_different(eigen.eigenvalues())) return std::nullopt;
   const ComplexMatrix V = eigen.eigenvectors();
   const Eigen::PartialPivLU<ComplexMatrix> lu(V);
-  if (!(lu.rcond() > 1.0 / (worst * worst))) return std::nullopt;
+  if (!(lu.rcond() > 1.0 / (worst_condition * worst_condition))) return std::nullopt;
   const ComplexMatrix coupling = lu.solve(product(Matrix(B.solve(random_combination(all, random))), V));
   const std::vector<Eigen::Index> half = connected_with_first(coupling);
   if (!is_half(eigen.eigenvalues(), half)) return std::nullopt;
@@ -152,27 +161,29 @@ std::optional<Canonical> canonical_coordinates(const std::vector<Matrix>& all, R
 }
 
 /// Whether all matrices have the canonical form in these coordinates up to rounding, as a whole and entry by
-/// entry, as independent parts are tested.
-bool holds(const Canonical& canonical, const std::vector<Matrix>& all) {
+/// entry, as independent parts are tested: compared with the terms that they are sums of.
+bool holds(const Canonical& canonical, const PartMatrices& part) {
+  constexpr double most = 100.0;  // beyond that, rounding would hide a difference that matters
   const double rcond = std::min(Eigen::PartialPivLU<Matrix>(canonical.right).rcond(),
                                 Eigen::PartialPivLU<Matrix>(canonical.left).rcond());
-  if (!(rcond > 1.0 / worst)) return false;
+  if (!(rcond > 1.0 / worst_condition)) return false;
+  const Matrix left = part.left * canonical.left, right = part.right * canonical.right;
   const double size = std::max(canonical.left.norm() * canonical.right.norm(), 1.0);
-  return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
-    const Matrix there = canonical.left.transpose() * A * canonical.right;
+  return std::all_of(part.given.begin(), part.given.end(), [&](const Matrix& A) {
+    const Matrix there = left.transpose() * A * right;
     const Matrix apart = there - canonical_form(there);
-    const Matrix rounding = rounding_of_entries(canonical.left, A, canonical.right, 1.0 / rcond);
-    return apart.norm() <= largest_coupling(1.0) * size &&
-           (apart.cwiseAbs().array() <= rounding.array()).all();
+    const double terms = magnitudes_of_terms(part.left, A, part.right).norm();
+    return apart.norm() <= largest_coupling(std::clamp(terms, 1.0, most)) * size &&
+           (apart.cwiseAbs().array() <= rounding_of_entries(left, A, right, 1.0 / rcond).array()).all();
   });
 }
 
-std::optional<Canonical> find_canonical(const std::vector<Matrix>& all, Random& random) {
+std::optional<Canonical> find_canonical(const PartMatrices& part, Random& random) {
   constexpr int attempts = 3;  // some combinations are worse conditioned than others
-  if (all.size() < 2) return std::nullopt;
+  if (part.own.size() < 2) return std::nullopt;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    auto found = canonical_coordinates(all, random);
-    if (found && holds(*found, all)) return found;
+    auto found = canonical_coordinates(part.own, random);
+    if (found && holds(*found, part)) return found;
   }
   return std::nullopt;
 }
@@ -254,8 +265,8 @@ std::shared_ptr<const IndependentParts> find_conjugate_parts(const CoefficientMa
     std::optional<Canonical> canonical;
     if (range.size % 2 == 0) {
       const auto columns = Eigen::seqN(range.first, range.size);
-      canonical = find_canonical(own_matrices(coefficients, Matrix(found->left(Eigen::all, columns)),
-                                              Matrix(found->right(Eigen::all, columns))),
+      canonical = find_canonical(matrices_of_part(coefficients, Matrix(found->left(Eigen::all, columns)),
+                                                  Matrix(found->right(Eigen::all, columns))),
                                  random);
     }
     if (canonical) change_coordinates(coefficients, *canonical, range, *found);
