@@ -158,9 +158,7 @@ void explain_sensitivity(std::FILE* to, const Scene& scene, const OptionTexts& o
 std::string describe_equal(const IndependentParts& parts) {
   std::map<std::size_t, std::vector<std::size_t>> standing;  // parts by the number that they stand for
   for (std::size_t i = 0; i < parts.count(); ++i) {
-    const bool counts = parts.ranges[i].chirality >= 0;  // a conjugate pair once
-    if (counts && !parts.ranges[i].copies.empty())
-      standing[1 + parts.ranges[i].copies.size()].push_back(i + 1);
+    if (!parts.ranges[i].copies.empty()) standing[1 + parts.ranges[i].copies.size()].push_back(i + 1);
   }
   std::string text;
   for (const auto& [equal, which] : standing) {
