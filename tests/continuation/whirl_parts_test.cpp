@@ -279,6 +279,29 @@ TEST(WhirlParts, DampedAndCirculatoryShaftsInAnyCoordinates) {
   }
 }
 
+/// Internal damping alone: both whirls have one frequency to first order, and other growth rates, s(p) in one
+/// half is the conjugate mirror of s(-p) in the other. They cross at rest.
+TEST(WhirlParts, WhirlsThatOnlyCirculatoryForcesTellApartCrossAtRest) {
+  Shaft shaft = unequal_chain(4, 0.0, 0.0);
+  shaft.C = {0.03 * ComplexMatrix::Identity(4, 4)};
+  ComplexMatrix internal = ComplexMatrix::Zero(4, 4);
+  for (Eigen::Index i = 0; i < 4; ++i) internal(i, i) = Complex(0.0, -0.02 - 0.01 * static_cast<double>(i));
+  shaft.K.push_back(internal);
+  for (const bool backward : {false, true}) {
+    const double from = backward ? 6.0 : 0.0;
+    const Setting setting = setting_of(shaft, from, 6.0 - from, "1e-7");
+    EXPECT_TRUE(has_complex_parts(setting));
+    const RecordedTrace found = record_trace(setting);
+    ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+    EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
+    const std::vector<double> crossings = places_of(found, EventKind::crossing);
+    EXPECT_EQ(crossings.size(), 4U);
+    for (const double p : crossings) EXPECT_NEAR(p, 0.0, 1e-9);
+    EXPECT_EQ(places_of(found, EventKind::flutter).size(), 4U);
+    expect_eigenvalues(found, shaft, from, 6.0 - from, 1e-7);
+  }
+}
+
 /// Stiffnesses of the two directions that differ by 1e-9 couple both whirls: their modes veer, and the
 /// equations are one real part.
 TEST(WhirlParts, SlightlyAnisotropicShaftIsOneRealPart) {
