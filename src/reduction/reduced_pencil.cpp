@@ -89,8 +89,42 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
 
 namespace {
 
+/// The rows of the only entries of every column; empty if a column has not one entry.
+std::vector<Eigen::Index> only_entries(const Matrix& A) {
+  std::vector<Eigen::Index> rows;
+  for (const auto& column : A.colwise()) {
+    Eigen::Index row = 0;
+    column.cwiseAbs().maxCoeff(&row);
+    if ((column.array() != 0.0).count() != 1) return {};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// The diagonal blocks of left^T B right where both select coordinates: the directions x and y of a shaft.
+/// The same numbers as the products, without their n^3 multiplications.
+Matrix selected_blocks(const IndependentParts& parts, const Matrix& B, const std::vector<Eigen::Index>& rows,
+                       const std::vector<Eigen::Index>& columns) {
+  Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
+  for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality < 0) continue;  // has the same matrices
+    for (Eigen::Index j = range.first; j < range.first + range.size; ++j) {
+      const Eigen::Index column = columns[static_cast<std::size_t>(j)];
+      for (Eigen::Index i = range.first; i < range.first + range.size; ++i) {
+        const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+        result(i, j) = parts.left(row, i) * (B(row, column) * parts.right(column, j));
+      }
+    }
+  }
+  return result;
+}
+
 /// The diagonal blocks of left^T B right.
 Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
+  if (!B.is_sparse()) {
+    const std::vector<Eigen::Index> rows = only_entries(parts.left), columns = only_entries(parts.right);
+    if (!rows.empty() && !columns.empty()) return selected_blocks(parts, B.dense(), rows, columns);
+  }
   Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
   add_product(product, B, parts.right);
