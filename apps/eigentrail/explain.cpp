@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "eigentrail/continuation/family_parts.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
@@ -171,6 +172,22 @@ std::string describe_equal(const IndependentParts& parts) {
   return text;
 }
 
+/// Size of the matrices that are factored: a complex part has half of the coordinates of its pair.
+Eigen::Index solved_size(const IndependentParts::Range& range) {
+  return range.chirality == 0 ? range.size : range.size / 2;
+}
+
+/// "; parts 2 and 3 are a conjugate pair of complex parts, ..."; empty if there is none.
+std::string describe_pairs(const IndependentParts& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    if (parts.ranges[i].chirality <= 0) continue;
+    text += "; parts " + std::to_string(i + 1) + " and " + std::to_string(i + 2) +
+            " are a conjugate pair of complex parts, as forward and backward whirl of an isotropic shaft";
+  }
+  return text;
+}
+
 /// "3 independent parts: 3 of 2 freedoms"; empty where the equations do not fall apart.
 std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
   if (!parts) return "";
@@ -178,7 +195,7 @@ std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
   std::map<Eigen::Index, std::size_t, std::greater<>> number;  // of parts by size
   std::size_t total = 0;
   for (const IndependentParts::Range& range : parts->ranges) {
-    number[range.size] += 1 + range.copies.size();
+    number[solved_size(range)] += 1 + range.copies.size();
     total += 1 + range.copies.size();
   }
   std::string text = std::to_string(total) + " independent parts: ";
@@ -188,7 +205,7 @@ std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
             (size == 1 ? " freedom" : " freedoms");
     first = false;
   }
-  return text + describe_equal(*parts) + "; followed one by one";
+  return text + describe_pairs(*parts) + describe_equal(*parts) + "; followed one by one";
 }
 
 void print_structure(std::FILE* to, const Structure& structure, bool has_constraints,
@@ -292,7 +309,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const PathPoint point = reduce_at(problem, options.from, {guess, Vector()}, Matrix(), counts);
   const bool computed = point.status == PointStatus::computed;
   const Sizes sizes = sizes_at(*model, point);
-  auto parts = find_independent_parts(model->coefficient_matrices(problem.parameters, problem.traced));
+  auto parts = parts_of_family(problem, options);
   if (!parts && computed)
     parts = scene_on_range(problem, options, point.equilibrium.x, point.equilibrium.lambda).parts;
   if (computed) {
@@ -315,7 +332,8 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   // Independent parts are followed one by one, each with matrices of its own size.
   const bool apart = parts && parts->falls_apart();
   Eigen::Index size = apart ? 0 : sizes.freedoms;
-  for (std::size_t i = 0; apart && i < parts->count(); ++i) size = std::max(size, parts->ranges[i].size);
+  for (std::size_t i = 0; apart && i < parts->count(); ++i)
+    size = std::max(size, solved_size(parts->ranges[i]));
   print_solvers(to, *model, structure,
                 {size, modes, options.modes.is_all() && !apart, options.order.value_or(cheapest)},
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());

@@ -48,7 +48,39 @@ std::optional<Complex> direction_of(const PencilAtPoint& pencil, Complex s) {
   return pencil.is_undamped() && imaginary ? std::optional(Complex(0.0, 1.0)) : std::nullopt;
 }
 
+/// [P, X; Y, D], restricted to the vectors of a complex part.
+ComplexMatrix bordered_matrix(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X,
+                              const ComplexMatrix& Y, const ComplexMatrix& D) {
+  const int chirality = pencil.chirality;
+  const Eigen::Index n = chirality == 0 ? pencil.size() : pencil.size() / 2, k = D.rows();
+  ComplexMatrix B(n + k, n + k);
+  B.bottomRightCorner(k, k) = D;
+  if (chirality == 0) {
+    B.topLeftCorner(n, n) = pencil.matrix(mu);
+    B.topRightCorner(n, k) = X;
+    B.bottomLeftCorner(k, n) = Y;
+    return B;
+  }
+  B.topLeftCorner(n, n) = chiral_block(pencil.matrix(mu), chirality);
+  B.topRightCorner(n, k) = chiral_coordinates(X, chirality);
+  B.bottomLeftCorner(k, n) = chiral_coordinates(Y.adjoint(), chirality).adjoint();
+  return B;
+}
+
 }  // namespace
+
+BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X,
+                       const ComplexMatrix& Y, const ComplexMatrix& D)
+    : n_(pencil.size()),
+      k_(D.rows()),
+      chirality_(pencil.chirality),
+      lu_(bordered_matrix(pencil, mu, X, Y, D)) {}
+
+ComplexMatrix BorderedLu::restricted(const ComplexMatrix& b) const {
+  ComplexMatrix within(n_ / 2 + k_, b.cols());
+  within << chiral_coordinates(b.topRows(n_), chirality_), b.bottomRows(k_);
+  return within;
+}
 
 PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexMatrix& Z,
                                      const ComplexMatrix& Lambda, const ComplexMatrix& W) {
@@ -76,16 +108,14 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const double slope = (2.0 * MZ * T + CZ).norm();
   slope_scale_ = slope > 0.0 ? size / slope : size;
   border_scale_ = size;
-  if (k == 1 && factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ)) return;
+  if (k == 1 && pencil.chirality == 0 && factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ))
+    return;
   columns_.reserve(static_cast<std::size_t>(k));
   for (Eigen::Index j = 0; j < k; ++j) {
     const Complex t = T(j, j);
-    ComplexMatrix B(n + k, n + k);
-    B.topLeftCorner(n, n) = pencil.matrix(t);
-    B.topRightCorner(n, k) = slope_scale_ * (MZ * (T + t * ComplexMatrix::Identity(k, k)) + CZ);
-    B.bottomLeftCorner(k, n) = border_scale_ * (WU.topRows(n).adjoint() + t * WU.bottomRows(n).adjoint());
-    B.bottomRightCorner(k, k) = border_scale_ * slope_scale_ * WZ;
-    columns_.emplace_back(std::move(B));
+    columns_.emplace_back(pencil, t, slope_scale_ * (MZ * (T + t * ComplexMatrix::Identity(k, k)) + CZ),
+                          border_scale_ * (WU.topRows(n).adjoint() + t * WU.bottomRows(n).adjoint()),
+                          border_scale_ * slope_scale_ * WZ);
   }
 }
 
@@ -256,7 +286,7 @@ double PairFactorization::sensitivity() const {
   const auto k = static_cast<Eigen::Index>(columns_.size());
   const Eigen::Index n = columns_.front().size() - k;
   double square = 0.0;
-  for (const ComplexLu& lu : columns_) {
+  for (const BorderedLu& lu : columns_) {
     for (Eigen::Index i = 0; i < k; ++i) {
       ComplexVector y = ComplexVector::Unit(n + k, n + i);
       lu.solve_adjoint_in_place(y);

@@ -71,7 +71,8 @@ PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)
       K(chart == Chart::finite ? pencil.K[0] : pencil.M[0]),
       norm_M(M.norm()),
       norm_C(C.norm()),
-      norm_K(K.norm()) {}
+      norm_K(K.norm()),
+      chirality(pencil.chirality) {}
 
 PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
     : M(chart == Chart::finite ? finite.M : finite.K),
@@ -79,7 +80,8 @@ PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
       K(chart == Chart::finite ? finite.K : finite.M),
       norm_M(chart == Chart::finite ? finite.norm_M : finite.norm_K),
       norm_C(finite.norm_C),
-      norm_K(chart == Chart::finite ? finite.norm_K : finite.norm_M) {}
+      norm_K(chart == Chart::finite ? finite.norm_K : finite.norm_M),
+      chirality(finite.chirality) {}
 
 ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
   ComplexMatrix P(M.rows(), M.cols());

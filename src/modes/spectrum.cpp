@@ -4,10 +4,13 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "core/lapack.hpp"
 #include "core/reciprocal_condition.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 
 namespace eigentrail {
 namespace {
@@ -28,7 +31,8 @@ struct Scaling {
   double delta = 1.0;  ///< common factor of the scaled matrices
 };
 
-Scaling fan_lin_van_dooren(const Matrix& M, const Matrix& C, const Matrix& K) {
+template <class Values>
+Scaling fan_lin_van_dooren(const Values& M, const Values& C, const Values& K) {
   const double m = M.norm();
   const double c = C.norm();
   const double k = K.norm();
@@ -57,9 +61,11 @@ bool is_singular_matrix(ComplexMatrix P) {
 
 /// A pencil is singular if det P(mu) is zero for all mu. It is tested at three values of mu that have no
 /// special position.
-bool is_singular(const Matrix& M, const Matrix& C, const Matrix& K) {
+template <class Values>
+bool is_singular(const Values& M, const Values& C, const Values& K) {
   for (const Complex mu : {Complex(0.8, 0.6), Complex(-0.28, 0.96), Complex(1.9, -0.7)}) {
-    if (!is_singular_matrix((mu * mu) * M.cast<Complex>() + mu * C.cast<Complex>() + K.cast<Complex>()))
+    if (!is_singular_matrix((mu * mu) * M.template cast<Complex>() + mu * C.template cast<Complex>() +
+                            K.template cast<Complex>()))
       return false;
   }
   return true;
@@ -78,14 +84,15 @@ ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_comple
 
 /// Companion form: a y = mu b y with y = [z; mu z_m], z_m the coordinates with mass. Those without have no
 /// velocity as a state: s C z stands on the right side for them.
-void linearize(const Matrix& M, const Matrix& C, const Matrix& K, Matrix& a, Matrix& b) {
+template <class Values>
+void linearize(const Values& M, const Values& C, const Values& K, Values& a, Values& b) {
   const Eigen::Index n = M.rows();
   std::vector<Eigen::Index> with_mass;
   for (Eigen::Index j = 0; j < n; ++j) {
     if (!M.col(j).isZero(0.0)) with_mass.push_back(j);
   }
   const auto m = static_cast<Eigen::Index>(with_mass.size());
-  a = Matrix::Zero(m + n, n + m);
+  a = Values::Zero(m + n, n + m);
   b = a;
   a.topRightCorner(m, m).setIdentity();
   a.bottomLeftCorner(n, n) = -K;
@@ -218,9 +225,88 @@ void add_copies(int copies, Spectrum& spectrum) {
   spectrum.n_infinite *= 1 + copies;
 }
 
+/// The eigenvector of a complex part from that of its companion form.
+ComplexVector chiral_vector(const ComplexVector& both, Eigen::Index m, int chirality) {
+  const bool upper = both.size() < 2 * m || both.head(m).norm() >= both.tail(m).norm();
+  return from_chiral_coordinates(ComplexVector(upper ? both.head(m) : both.tail(m)).normalized(), chirality);
+}
+
+/// alpha and beta of all eigenvalues of a complex pencil, with the vectors of its companion form if those are
+/// asked for (`vectors` then has its size). Empty if LAPACK does not converge.
+std::optional<std::pair<ComplexVector, ComplexVector>> complex_qz(const ComplexMatrix& M,
+                                                                  const ComplexMatrix& C,
+                                                                  const ComplexMatrix& K,
+                                                                  ComplexMatrix* vectors) {
+  ComplexMatrix a, b;
+  linearize(M, C, K, a, b);
+  const auto size = static_cast<lapack_int>(a.rows());
+  ComplexVector alpha(size), beta(size);
+  if (vectors != nullptr) vectors->resize(size, size);
+  const lapack_int info = LAPACKE_zggev(LAPACK_COL_MAJOR, 'N', vectors != nullptr ? 'V' : 'N', size, a.data(),
+                                        size, b.data(), size, alpha.data(), beta.data(), nullptr, 1,
+                                        vectors != nullptr ? vectors->data() : nullptr, size);
+  if (info != 0) return std::nullopt;
+  return std::pair(std::move(alpha), std::move(beta));
+}
+
+/// The same without vectors, by the QR algorithm on the companion form with M inverted.
+std::optional<std::pair<ComplexVector, ComplexVector>> complex_qr(const Eigen::PartialPivLU<ComplexMatrix>& M,
+                                                                  const ComplexMatrix& C,
+                                                                  const ComplexMatrix& K) {
+  const Eigen::Index m = C.rows();
+  ComplexMatrix a = ComplexMatrix::Zero(2 * m, 2 * m);
+  a.topRightCorner(m, m).setIdentity();
+  a.bottomLeftCorner(m, m) = -M.solve(K);
+  a.bottomRightCorner(m, m) = -M.solve(C);
+  const auto size = static_cast<lapack_int>(2 * m);
+  ComplexVector values(size);
+  if (LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, values.data(), nullptr, 1, nullptr,
+                    1) != 0)
+    return std::nullopt;
+  return std::pair(std::move(values), ComplexVector(ComplexVector::Ones(size)));
+}
+
+/// The eigenvalues with Im s >= 0 of a complex part: those of its complex matrices.
+Spectrum solve_chiral(const ReducedPencil& pencil, bool with_vectors) {
+  Spectrum spectrum;
+  const Scaling scaling = fan_lin_van_dooren(pencil.M[0], pencil.C[0], pencil.K[0]);
+  spectrum.scale = scaling.gamma;
+  const auto block = [&](double factor, const Matrix& A) {
+    return ComplexMatrix(scaling.delta * factor * chiral_block(A, pencil.chirality));
+  };
+  const ComplexMatrix M = block(scaling.gamma * scaling.gamma, pencil.M[0]);
+  const ComplexMatrix C = block(scaling.gamma, pencil.C[0]), K = block(1.0, pencil.K[0]);
+  if (is_singular(M, C, K)) {
+    spectrum.status = SpectrumStatus::singular_pencil;
+    return spectrum;
+  }
+  const Eigen::PartialPivLU<ComplexMatrix> lu(M);
+  ComplexMatrix vectors;
+  const auto all = !with_vectors && lu.rcond() > well_conditioned
+                       ? complex_qr(lu, C, K)
+                       : complex_qz(M, C, K, with_vectors ? &vectors : nullptr);
+  if (!all) return spectrum;
+  const auto& [alpha, beta] = *all;
+  spectrum.n_infinite = static_cast<int>(2 * M.rows() - alpha.size());
+  for (Eigen::Index j = 0; j < alpha.size(); ++j) {
+    if (std::abs(beta[j]) <= infinite * std::abs(alpha[j])) {
+      ++spectrum.n_infinite;
+      continue;
+    }
+    const Complex s = spectrum.scale * alpha[j] / beta[j];
+    if (s.imag() < 0.0) continue;  // its conjugate is a mode of the twin
+    spectrum.modes.push_back({s, {}});
+    if (with_vectors) spectrum.modes.back().z = chiral_vector(vectors.col(j), M.rows(), pencil.chirality);
+  }
+  sort(spectrum);
+  spectrum.status = SpectrumStatus::complete;
+  return spectrum;
+}
+
 Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
   if (pencil.parts.empty()) {
-    Spectrum spectrum = solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+    Spectrum spectrum = pencil.chirality != 0 ? solve_chiral(pencil, with_vectors)
+                                              : solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
     add_copies(pencil.copies, spectrum);
     return spectrum;
   }
@@ -249,12 +335,16 @@ Spectrum compute_eigenvalues(const ReducedPencil& pencil) {
   return solve_parts(pencil, false);
 }
 
-ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double s_ref) {
+namespace {
+
+template <class Values>
+ComplexVector vector_near(const Values& M, const Values& C, const Values& K, Complex s, double s_ref) {
   constexpr int iterations = 4;
   constexpr double offset = 1e-9;  // relative to max(|s|, s_ref): the shift must not equal the eigenvalue
   const Complex sigma = s + offset * std::max(std::abs(s), s_ref);
-  const Eigen::PartialPivLU<ComplexMatrix> lu((sigma * sigma) * M.cast<Complex>() +
-                                              sigma * C.cast<Complex>() + K.cast<Complex>());
+  const Eigen::PartialPivLU<ComplexMatrix> lu((sigma * sigma) * M.template cast<Complex>() +
+                                              sigma * C.template cast<Complex>() +
+                                              K.template cast<Complex>());
   // Start vectors without special structure, equal in every run.
   ComplexVector z(M.rows());
   for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = std::sin(1.0 + 1.7 * static_cast<double>(i));
@@ -263,6 +353,19 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
     z = lu.solve(slope).normalized();
   }
   return z;
+}
+
+}  // namespace
+
+ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double s_ref) {
+  return vector_near(M, C, K, s, s_ref);
+}
+
+ComplexVector eigenvector_near(const ReducedPencil& pencil, Complex s, double s_ref) {
+  if (pencil.chirality == 0) return vector_near(pencil.M[0], pencil.C[0], pencil.K[0], s, s_ref);
+  const auto block = [&](const Matrix& A) { return chiral_block(A, pencil.chirality); };
+  return from_chiral_coordinates(
+      vector_near(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), s, s_ref), pencil.chirality);
 }
 
 namespace {
@@ -279,12 +382,9 @@ InvariantPair pair_of_one_freedom(double m, double c, double k) {
   return pair;
 }
 
-}  // namespace
-
-InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
-                                 Eigen::Index k, bool is_real, double least_scale) {
-  if (M.rows() == 1 && k == 2 && is_real && M(0, 0) != 0.0)
-    return pair_of_one_freedom(M(0, 0), C(0, 0), K(0, 0));
+template <class Values>
+InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Complex centre, Eigen::Index k,
+                          bool is_real, double least_scale) {
   constexpr int iterations = 6;
   constexpr double offset = 1e-5;  // relative to |mu|: the shift must not equal an eigenvalue
   const Eigen::Index n = M.rows();
@@ -294,28 +394,49 @@ InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix&
     scaling.gamma = least_scale;
     scaling.delta = 2.0 / (M.norm() * least_scale * least_scale + C.norm() * least_scale);
   }
-  Matrix a, b;
-  linearize(scaling.delta * scaling.gamma * scaling.gamma * M, scaling.delta * scaling.gamma * C,
-            scaling.delta * K, a, b);
+  Values a, b;
+  linearize(Values(scaling.delta * scaling.gamma * scaling.gamma * M),
+            Values(scaling.delta * scaling.gamma * C), Values(scaling.delta * K), a, b);
   const Complex mu = centre / scaling.gamma;
   const double size = std::max(std::abs(mu), 1e-3);
   const Complex shift = is_real ? Complex(mu.real() + offset * size) : mu + offset * size * Complex(0.6, 0.8);
-  const Eigen::PartialPivLU<ComplexMatrix> lu(a.cast<Complex>() - shift * b.cast<Complex>());
+  const ComplexMatrix complex_a = a.template cast<Complex>(), complex_b = b.template cast<Complex>();
+  const Eigen::PartialPivLU<ComplexMatrix> lu(complex_a - shift * complex_b);
   ComplexMatrix X(a.rows(), k);
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
-    const ComplexMatrix Y = lu.solve(b.cast<Complex>() * X);
+    const ComplexMatrix Y = lu.solve(complex_b * X);
     X = Eigen::HouseholderQR<ComplexMatrix>(Y).householderQ() * ComplexMatrix::Identity(a.rows(), k);
   }
   InvariantPair pair;
   pair.is_real = is_real;
   pair.Z = X.topRows(n);
-  pair.Lambda = scaling.gamma * (b.cast<Complex>() * X).householderQr().solve(a.cast<Complex>() * X);
+  pair.Lambda = scaling.gamma * (complex_b * X).householderQr().solve(complex_a * X);
   if (is_real) {
     // A real pencil and a real shift give a real subspace; the QR basis of it is real.
     pair.Z.imag().setZero();
     pair.Lambda.imag().setZero();
   }
+  return pair;
+}
+
+}  // namespace
+
+InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
+                                 Eigen::Index k, bool is_real, double least_scale) {
+  if (M.rows() == 1 && k == 2 && is_real && M(0, 0) != 0.0)
+    return pair_of_one_freedom(M(0, 0), C(0, 0), K(0, 0));
+  return subspace_of(M, C, K, centre, k, is_real, least_scale);
+}
+
+InvariantPair invariant_subspace(const ReducedPencil& pencil, Complex centre, Eigen::Index k, bool is_real,
+                                 double least_scale) {
+  if (pencil.chirality == 0)
+    return invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, k, is_real, least_scale);
+  const auto block = [&](const Matrix& A) { return chiral_block(A, pencil.chirality); };
+  InvariantPair pair =
+      subspace_of(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), centre, k, false, least_scale);
+  pair.Z = from_chiral_coordinates(pair.Z, pencil.chirality);
   return pair;
 }
 

@@ -25,13 +25,8 @@ constexpr double well_scaled_states = 4.0;
 
 /// Whether the entries of left^T A right are more than rounding, for any of the matrices; within the parts.
 Matrix pattern_of(const std::vector<Matrix>& matrices, const IndependentParts& parts, double magnified) {
-  const Eigen::Index n = parts.right.rows();
-  Matrix pattern = Matrix::Zero(n, n);
-  for (const Matrix& A : matrices) {
-    const Matrix there = (parts.left.transpose() * A * parts.right).cwiseAbs();
-    const Matrix rounding = rounding_of_entries(parts.left, A, parts.right, magnified);
-    pattern = pattern.cwiseMax((there.array() > rounding.array()).cast<double>().matrix());
-  }
+  const Eigen::Index n = parts.right.cols();
+  const Matrix pattern = pattern_of_entries(parts.left, matrices, parts.right, magnified);
   Matrix within = Matrix::Zero(n, n);
   for (const IndependentParts::Range& range : parts.ranges)
     within.block(range.first, range.first, range.size, range.size).setOnes();
@@ -142,7 +137,9 @@ std::vector<Matrix> common_frames(const std::vector<PlaceOnPath>& places) {
 
 Eigen::Index IndependentParts::freedoms() const {
   Eigen::Index count = 0;
-  for (const Range& range : ranges) count += range.size * static_cast<Eigen::Index>(1 + range.copies.size());
+  for (const Range& range : ranges) {
+    if (range.chirality >= 0) count += range.size * static_cast<Eigen::Index>(1 + range.copies.size());
+  }
   return count;
 }
 

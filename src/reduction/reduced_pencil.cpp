@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/products.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 
 namespace eigentrail {
 namespace {
@@ -88,12 +89,47 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
 
 namespace {
 
+/// The rows of the only entries of every column; empty if a column has not one entry.
+std::vector<Eigen::Index> only_entries(const Matrix& A) {
+  std::vector<Eigen::Index> rows;
+  for (const auto& column : A.colwise()) {
+    Eigen::Index row = 0;
+    column.cwiseAbs().maxCoeff(&row);
+    if ((column.array() != 0.0).count() != 1) return {};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// The diagonal blocks of left^T B right where both select coordinates: the directions x and y of a shaft.
+/// The same numbers as the products, without their n^3 multiplications.
+Matrix selected_blocks(const IndependentParts& parts, const Matrix& B, const std::vector<Eigen::Index>& rows,
+                       const std::vector<Eigen::Index>& columns) {
+  Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
+  for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality < 0) continue;  // has the same matrices
+    for (Eigen::Index j = range.first; j < range.first + range.size; ++j) {
+      const Eigen::Index column = columns[static_cast<std::size_t>(j)];
+      for (Eigen::Index i = range.first; i < range.first + range.size; ++i) {
+        const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+        result(i, j) = parts.left(row, i) * (B(row, column) * parts.right(column, j));
+      }
+    }
+  }
+  return result;
+}
+
 /// The diagonal blocks of left^T B right.
 Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
+  if (!B.is_sparse()) {
+    const std::vector<Eigen::Index> rows = only_entries(parts.left), columns = only_entries(parts.right);
+    if (!rows.empty() && !columns.empty()) return selected_blocks(parts, B.dense(), rows, columns);
+  }
   Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
   add_product(product, B, parts.right);
   for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality < 0) continue;  // has the same matrices
     result.block(range.first, range.first, range.size, range.size).noalias() =
         parts.left.middleCols(range.first, range.size).transpose() *
         product.middleCols(range.first, range.size);
@@ -146,10 +182,24 @@ MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const
   return result;
 }
 
+/// Removes the rounding by which conjugate pairs of parts differ from their canonical form.
+MatrixSeries canonical(MatrixSeries B, const IndependentParts& parts) {
+  for (const IndependentParts::Range& range : parts.ranges) {
+    if (range.chirality <= 0) continue;
+    for (Matrix& coefficient : B) {
+      auto block = coefficient.block(range.first, range.first, range.size, range.size);
+      block = canonical_form(block);
+    }
+  }
+  return B;
+}
+
 ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
   const IndependentParts& parts = *basis.parts;
   const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
-    return basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order);
+    return canonical(
+        basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order),
+        parts);
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};
@@ -161,8 +211,12 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
     return whole;
   }
   for (const IndependentParts::Range& range : parts.ranges)
-    whole.parts.push_back(
-        {block_of(whole.M, range), block_of(whole.C, range), block_of(whole.K, range), {}, copies(range)});
+    whole.parts.push_back({block_of(whole.M, range),
+                           block_of(whole.C, range),
+                           block_of(whole.K, range),
+                           {},
+                           copies(range),
+                           range.chirality});
   return whole;
 }
 

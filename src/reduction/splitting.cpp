@@ -347,8 +347,8 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& searc
   return result;
 }
 
-/// Coordinates without entries that are rounding of the largest one in their column. Computed vectors have
-/// such entries in place of zeros, and nothing could tell whether they matter.
+}  // namespace
+
 Matrix without_rounding_of_columns(Matrix coordinates) {
   constexpr double rounding = 2e-15;
   for (auto column : coordinates.colwise()) {
@@ -357,6 +357,12 @@ Matrix without_rounding_of_columns(Matrix coordinates) {
   }
   return coordinates;
 }
+
+double largest_coupling(double magnified) {
+  return magnified * no_coupling;
+}
+
+namespace {
 
 /// Whether the matrices are block diagonal in the coordinates of a splitting, up to rounding: as a whole, and
 /// every entry compared with the terms it is the sum of. The second keeps a weak coupling of freedoms with
@@ -372,7 +378,7 @@ bool holds(const Splitting& splitting, const std::vector<Matrix>& all, double ma
       there.block(at, at, m, m).setZero();
       at += m;
     }
-    return there.norm() <= magnified * no_coupling * size &&
+    return there.norm() <= largest_coupling(magnified) * size &&
            (there.cwiseAbs().array() <= rounding.array()).all();
   });
 }
@@ -478,6 +484,17 @@ double magnified_by(const Splitting& splitting, double magnified) {
 Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified) {
   constexpr double rounding = 1e-13;
   return magnified * rounding * magnitudes_of_terms(left, A, right);
+}
+
+Matrix pattern_of_entries(const Matrix& left, const std::vector<Matrix>& matrices, const Matrix& right,
+                          double magnified) {
+  Matrix pattern = Matrix::Zero(left.cols(), right.cols());
+  for (const Matrix& A : matrices) {
+    const Matrix there = (left.transpose() * A * right).cwiseAbs();
+    const Matrix rounding = rounding_of_entries(left, A, right, magnified);
+    pattern = pattern.cwiseMax((there.array() > rounding.array()).cast<double>().matrix());
+  }
+  return pattern;
 }
 
 }  // namespace eigentrail

@@ -32,4 +32,16 @@ double magnified_by(const Splitting& splitting, double magnified);
 /// Bounds of rounding in the entries of left^T A right: a share of the terms that each is the sum of.
 Matrix rounding_of_entries(const Matrix& left, const Matrix& A, const Matrix& right, double magnified);
 
+/// One where an entry of left^T A right is more than rounding for any of the matrices, else zero.
+Matrix pattern_of_entries(const Matrix& left, const std::vector<Matrix>& matrices, const Matrix& right,
+                          double magnified);
+
+/// Coordinates without entries that are rounding of the largest one in their column. Computed vectors have
+/// such entries in place of zeros, and nothing could tell whether they matter.
+Matrix without_rounding_of_columns(Matrix coordinates);
+
+/// Largest norm of what couples independent parts by rounding, relative to matrices of norm one in
+/// coordinates of norm one.
+double largest_coupling(double magnified);
+
 }  // namespace eigentrail

@@ -7,6 +7,7 @@
 
 #include "core/diagonal_blocks.hpp"
 #include "core/products.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 
 namespace eigentrail {
 namespace {
@@ -35,7 +36,10 @@ ComplexMatrix TangentBasis::coordinates(const ComplexMatrix& V, int part) const 
   if (is_identity) return V;
   if (!parts) return transposed_product(T[0], V);
   if (parts->is_diagonal) return parts->inverse.diagonal().asDiagonal() * V;
-  return product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
+  ComplexMatrix Z = product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
+  const int chirality = parts->ranges[static_cast<std::size_t>(part)].chirality;
+  if (chirality != 0) Z = from_chiral_coordinates(chiral_coordinates(Z, chirality), chirality);
+  return Z;
 }
 
 ComplexMatrix TangentBasis::shapes(const ComplexMatrix& Z, int part, int copy) const {

@@ -286,6 +286,11 @@ class Explain(CommandTest):
                          "symmetric K", "KINSOL", "series of order 2", "Hermite interpolation of degree 5"]:
             self.assertIn(fragment, text)
 
+    def test_whirls_of_an_isotropic_shaft_are_told(self):
+        text = self.run_well("explain", str(SCENES / "two_disc_rotor.toml"))
+        self.assertIn("parts 1 and 2 are a conjugate pair of complex parts, as forward and backward whirl", text)
+        self.assertIn("LU of size 15 per mode", text)  # half of 28 freedoms, and one
+
     def test_order_that_is_not_given_is_chosen_and_told(self):
         self.write("scene.toml", BLADE)
         self.assertRegex(self.run_well("explain", "scene.toml"), r"series of order [1-4] \(auto\)")

@@ -21,6 +21,7 @@
 #include "eigentrail/core/complex_lu.hpp"
 #include "eigentrail/core/real_lu.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 
 namespace eigentrail {
 
@@ -44,6 +45,42 @@ struct ModeCounts {
   std::uint64_t modal_solves = 0;  ///< solutions for all modes at once with these bases
 
   ModeCounts& operator+=(const ModeCounts& other);
+};
+
+/// LU factors of a bordered matrix with n + k rows. In a complex part (chirality.hpp) it is restricted to the
+/// n / 2 dimensions of its vectors: the solution is the inverse there, and what is beside them is dropped.
+class BorderedLu {
+ public:
+  /// Factors [P, X; Y, D]: `pencil` at mu, n x n, the columns X (n x k), the rows Y (k x n) and D (k x k).
+  BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X, const ComplexMatrix& Y,
+             const ComplexMatrix& D);
+
+  Eigen::Index size() const { return n_ + k_; }
+  /// Overwrites b with the solution, or with that of the adjoint equations; vectors, or the columns of a
+  /// matrix, of n + k rows.
+  template <class Vectors>
+  void solve_in_place(Vectors& b) const {
+    solve(b, [this](Vectors& x) { lu_.solve_in_place(x); });
+  }
+  template <class Vectors>
+  void solve_adjoint_in_place(Vectors& b) const {
+    solve(b, [this](Vectors& x) { lu_.solve_adjoint_in_place(x); });
+  }
+
+ private:
+  template <class Vectors, class Solve>
+  void solve(Vectors& b, const Solve& by_factors) const {
+    if (chirality_ == 0) return by_factors(b);
+    Vectors within = restricted(b);
+    by_factors(within);
+    b.topRows(n_) = from_chiral_coordinates(within.topRows(n_ / 2), chirality_);
+    b.bottomRows(k_) = within.bottomRows(k_);
+  }
+  ComplexMatrix restricted(const ComplexMatrix& b) const;
+
+  Eigen::Index n_, k_;
+  int chirality_;
+  ComplexLu lu_;
 };
 
 /// LU factors of the linearized equations at an invariant pair.
@@ -100,7 +137,7 @@ class PairFactorization {
 
   std::optional<Coupling> coupling_;
   std::optional<RealMode> real_;
-  std::vector<ComplexLu> columns_;
+  std::vector<BorderedLu> columns_;
   double slope_scale_, border_scale_;
 };
 

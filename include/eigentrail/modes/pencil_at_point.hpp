@@ -33,6 +33,7 @@ struct PencilAtPoint {
   const Matrix& C;
   const Matrix& K;
   double norm_M, norm_C, norm_K;  ///< Frobenius norms
+  int chirality;                  ///< of a complex part (chirality.hpp); else 0
 
   explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
   /// The pencil is referenced, not copied.

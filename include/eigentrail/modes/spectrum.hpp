@@ -44,6 +44,8 @@ Spectrum compute_eigenvalues(const ReducedPencil& pencil);
 /// eigenvalue is nearer than 1e-6 |s|. Real if s is real. `s_ref` is the reference magnitude of eigenvalues,
 /// 1/s, > 0: it keeps sigma away from an eigenvalue zero. Cost: one LU of size n.
 ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K, Complex s, double s_ref);
+/// The same of a reduced pencil that does not fall apart, at its point: of a complex part, a vector of it.
+ComplexVector eigenvector_near(const ReducedPencil& pencil, Complex s, double s_ref);
 
 /// The block of the k eigenvalues nearest to `centre`, by inverse iteration with k vectors on the companion
 /// form; reliable also if eigenvectors coincide. `is_real` requests a real block; `centre` must then be real.
@@ -51,5 +53,9 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
 /// corrected. Cost: one LU of size 2n.
 InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix& K, Complex centre,
                                  Eigen::Index k, bool is_real, double least_scale = 0.0);
+/// The same of a reduced pencil that does not fall apart, at its point. A block of a complex part is never
+/// real.
+InvariantPair invariant_subspace(const ReducedPencil& pencil, Complex centre, Eigen::Index k, bool is_real,
+                                 double least_scale = 0.0);
 
 }  // namespace eigentrail

@@ -36,6 +36,9 @@ struct IndependentParts {
     /// Index of the first part with the same eigenvalues throughout; its own if there is none before it.
     std::size_t like = 0;
     std::vector<PartCopy> copies = {};  ///< parts that this one stands for, besides itself
+    /// +1 or -1 for the two halves of a conjugate pair of complex parts (chirality.hpp), which have the same
+    /// coordinates, canonical ones; -1 follows +1. 0 for a real part.
+    int chirality = 0;
   };
 
   Matrix right;    ///< n x n'
@@ -53,7 +56,7 @@ struct IndependentParts {
   std::size_t count() const { return ranges.size(); }
   /// Whether there is more than one part, copies included.
   bool falls_apart() const { return count() > 1 || !ranges.front().copies.empty(); }
-  /// Number of freedoms of all parts, copies included.
+  /// Number of freedoms of all parts, copies included. Those of a conjugate pair count once.
   Eigen::Index freedoms() const;
   /// Whether a part is a single freedom that no force holds: a rigid-body motion, an integrator.
   bool is_free(const Range& part) const { return part.size == 1 && pattern_K(part.first, part.first) == 0.0; }
@@ -74,6 +77,19 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
 /// coordinates within the tangent space. T: its orthonormal basis, n x n'. Null where they do not fall apart.
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
                                                                const Matrix& T);
+
+/// The same parts, with canonical coordinates and two entries for each that is a conjugate pair of complex
+/// parts: those of which all matrices commute, in suitable coordinates, with a real J, J^2 = -I. `parts` may
+/// be null. Null where there is no such pair. Structure that does not hold up to rounding is not used. Cost:
+/// two eigenproblems of the size of every part.
+std::shared_ptr<const IndependentParts> find_conjugate_parts(const CoefficientMatrices& coefficients,
+                                                             const IndependentParts* parts);
+
+/// The same coordinates with one real part in the place of a conjugate pair, for the pairs whose first entry
+/// is marked in `which` (one value per part). Sets `numbers` to the new index of every part.
+std::shared_ptr<const IndependentParts> joined_pairs(const IndependentParts& parts,
+                                                     const std::vector<bool>& which,
+                                                     std::vector<int>& numbers);
 
 /// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there.
 struct PlaceOnPath {

@@ -6,15 +6,34 @@
 
 #include "core/products.hpp"
 #include "eigentrail/core/complex_lu.hpp"
+#include "eigentrail/reduction/chirality.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
+
+/// Number of dimensions in which the eigenvectors of a pencil are looked for: those of a complex part are in
+/// its complex coordinates here (chirality.hpp).
+inline Eigen::Index dimensions_of(const ReducedPencil& pencil) {
+  return pencil.chirality == 0 ? pencil.size() : pencil.size() / 2;
+}
+
+/// Writes a matrix into a block; of a complex part, the matrix in its complex coordinates.
+inline void write_matrix(const Matrix& real, const Matrix& imag, int chirality,
+                         Eigen::Ref<ComplexMatrix> block) {
+  if (chirality != 0) {
+    block = chiral_block(real, chirality) + Complex(0.0, 1.0) * chiral_block(imag, chirality);
+    return;
+  }
+  block.real() = real;
+  block.imag() = imag;
+}
 
 /// A matrix series at a complex place. Its derivatives are formed only of the vectors that they are applied
 /// to.
 class SeriesAt {
  public:
-  SeriesAt(const MatrixSeries& series, Complex h) : series_(series), h_(h) {}
+  SeriesAt(const MatrixSeries& series, Complex h, int chirality)
+      : series_(series), h_(h), chirality_(chirality) {}
 
   /// Adds `factor` times the matrix.
   void add_to(Complex factor, Matrix& real, Matrix& imag) const {
@@ -32,6 +51,12 @@ class SeriesAt {
     ComplexMatrix value, slope, curvature;
   };
   Jet times(const ComplexMatrix& v) const {
+    if (chirality_ != 0) return within(jet_of(from_chiral_coordinates(v, chirality_)));
+    return jet_of(v);
+  }
+
+ private:
+  Jet jet_of(const ComplexMatrix& v) const {
     const ComplexMatrix none = ComplexMatrix::Zero(v.rows(), v.cols());
     Jet jet{none, none, none};
     for (std::size_t k = series_.size(); k-- > 0;) {
@@ -42,28 +67,33 @@ class SeriesAt {
     }
     return jet;
   }
+  Jet within(const Jet& jet) const {
+    return {chiral_coordinates(jet.value, chirality_), chiral_coordinates(jet.slope, chirality_),
+            chiral_coordinates(jet.curvature, chirality_)};
+  }
 
- private:
   const MatrixSeries& series_;
   Complex h_;
+  int chirality_;
 };
 
 /// P(mu, h) = mu^2 A + mu B + C with its derivatives.
 class PencilAt {
  public:
   PencilAt(const ReducedPencil& pencil, Chart chart, Complex h)
-      : second_(chart == Chart::finite ? pencil.M : pencil.K, h),
-        first_(pencil.C, h),
-        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h) {}
+      : second_(chart == Chart::finite ? pencil.M : pencil.K, h, pencil.chirality),
+        first_(pencil.C, h, pencil.chirality),
+        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h, pencil.chirality),
+        size_(pencil.size()),
+        chirality_(pencil.chirality) {}
 
   /// Writes P into a block.
   void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const {
-    Matrix real = Matrix::Zero(block.rows(), block.cols()), imag = real;
+    Matrix real = Matrix::Zero(size_, size_), imag = real;
     second_.add_to(mu * mu, real, imag);
     first_.add_to(mu, real, imag);
     zeroth_.add_to(1.0, real, imag);
-    block.real() = real;
-    block.imag() = imag;
+    write_matrix(real, imag, chirality_, block);
   }
 
   /// The products of derivatives of P with vectors.
@@ -90,15 +120,18 @@ class PencilAt {
 
  private:
   SeriesAt second_, first_, zeroth_;
+  Eigen::Index size_;
+  int chirality_;
 };
 
 /// The same at one h, for many mu: its matrices are computed once, and only the derivative by mu is known.
 class FixedPencil {
  public:
-  FixedPencil(const ReducedPencil& pencil, Chart chart, Complex h) : n_(pencil.size()), terms_(n_ * n_, 3) {
-    set(0, chart == Chart::finite ? pencil.M : pencil.K, h);
-    set(1, pencil.C, h);
-    set(2, chart == Chart::finite ? pencil.K : pencil.M, h);
+  FixedPencil(const ReducedPencil& pencil, Chart chart, Complex h)
+      : n_(dimensions_of(pencil)), terms_(n_ * n_, 3) {
+    set(0, chart == Chart::finite ? pencil.M : pencil.K, h, pencil.chirality);
+    set(1, pencil.C, h, pencil.chirality);
+    set(2, chart == Chart::finite ? pencil.K : pencil.M, h, pencil.chirality);
   }
 
   void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const { block = sum(mu * mu, mu, 1.0); }
@@ -108,11 +141,12 @@ class FixedPencil {
   }
 
  private:
-  void set(Eigen::Index term, const MatrixSeries& series, Complex h) {
-    Matrix real = Matrix::Zero(n_, n_), imag = real;
-    SeriesAt(series, h).add_to(1.0, real, imag);
-    terms_.col(term).real() = real.reshaped();
-    terms_.col(term).imag() = imag.reshaped();
+  void set(Eigen::Index term, const MatrixSeries& series, Complex h, int chirality) {
+    Matrix real = Matrix::Zero(series[0].rows(), series[0].cols()), imag = real;
+    SeriesAt(series, h, chirality).add_to(1.0, real, imag);
+    ComplexMatrix matrix(n_, n_);
+    write_matrix(real, imag, chirality, matrix);
+    terms_.col(term) = matrix.reshaped();
   }
 
   /// A sum of the matrices, by BLAS: Eigen's takes as long as the factorization.

@@ -74,7 +74,7 @@ Complex between_eigenvalues(const PencilAt& pencil, Complex mu, Bordered& border
 std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& pencil, Chart chart, Complex h,
                                                        Complex mu, double reach,
                                                        const std::vector<Complex>& known) {
-  Bordered bordered(pencil.size());
+  Bordered bordered(dimensions_of(pencil));
   const Complex start = h;
   const double size_of_mu = std::abs(mu);
   mu = between_eigenvalues(PencilAt(pencil, chart, h), mu, bordered);
@@ -113,7 +113,7 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
   constexpr double first_way = 0.125;
   constexpr double least_way = 1e-3;
   constexpr double enough = 0.9;  // of the way: close to an exceptional point only the mean is smooth
-  std::array<Bordered, 2> bordered{Bordered(pencil.size()), Bordered(pencil.size())};
+  std::array<Bordered, 2> bordered{Bordered(dimensions_of(pencil)), Bordered(dimensions_of(pencil))};
   const Complex way = h - from;
   std::array<Complex, 2> slope{};
   double share = 0.0, step = 0.0;
@@ -152,9 +152,19 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
   return 0.5 * (mu[0] + mu[1]) + (1.0 - share) * 0.5 * (slope[0] + slope[1]);
 }
 
+namespace {
+
+/// The eigenvector, in the coordinates of the pencil.
+ComplexVector vector_of(const ReducedPencil& pencil, const Bordered& bordered) {
+  if (pencil.chirality == 0) return bordered.vector();
+  return from_chiral_coordinates(bordered.vector(), pencil.chirality);
+}
+
+}  // namespace
+
 std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPencil& pencil, Chart chart,
                                                                 const ExceptionalPoint& point) {
-  std::array<Bordered, 2> bordered{Bordered(pencil.size()), Bordered(pencil.size())};
+  std::array<Bordered, 2> bordered{Bordered(dimensions_of(pencil)), Bordered(dimensions_of(pencil))};
   const Complex down(0.0, -point.h.imag());
   const auto apart = [&](double share) { return std::sqrt(point.slope * share * down); };
   double share = first_share, step = first_share;
@@ -186,8 +196,8 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
       share = before_share + step;
     } else {
       if (share >= 1.0) {
-        return std::array<EigenvalueBelow, 2>{EigenvalueBelow{found[0], bordered[0].vector()},
-                                              EigenvalueBelow{found[1], bordered[1].vector()}};
+        return std::array<EigenvalueBelow, 2>{EigenvalueBelow{found[0], vector_of(pencil, bordered[0])},
+                                              EigenvalueBelow{found[1], vector_of(pencil, bordered[1])}};
       }
       at_start = false;
       before = found;

@@ -72,24 +72,48 @@ std::vector<SampledMode> sampled_modes(const Step& step) {
   return all;
 }
 
-/// The part of a difference that has a sign: real parts of two real eigenvalues, imaginary parts otherwise.
-/// A real and a complex eigenvalue coincide only where the complex one turns real.
-double signed_difference(Complex a, Complex b) {
-  return a.imag() == 0.0 && b.imag() == 0.0 ? a.real() - b.real() : a.imag() - b.imag();
-}
+/// The part of a difference that has a sign: real parts of two real eigenvalues. A real and a complex
+/// eigenvalue coincide only where the complex one turns real: imaginary parts. Of two complex ones, the parts
+/// that differ more on the step: whirls that only circulatory forces tell apart have one frequency.
+class SignedDifference {
+ public:
+  SignedDifference(const SampledMode& a, const SampledMode& b) {
+    double real = 0.0, imaginary = 0.0;
+    bool are_complex = true;
+    for (std::size_t k = 0; k < a.s.size(); ++k) {
+      real = std::max(real, std::abs(a.s[k].real() - b.s[k].real()));
+      imaginary = std::max(imaginary, std::abs(a.s[k].imag() - b.s[k].imag()));
+      are_complex = are_complex && a.s[k].imag() != 0.0 && b.s[k].imag() != 0.0;
+    }
+    by_real_parts_ = are_complex && real > imaginary;
+  }
+
+  double operator()(Complex a, Complex b) const { return part_of(a - b, a, b); }
+  /// The same of a derivative of the difference of a and b.
+  double part_of(Complex difference, Complex a, Complex b) const {
+    const bool real = by_real_parts_ || (a.imag() == 0.0 && b.imag() == 0.0);
+    return real ? difference.real() : difference.imag();
+  }
+
+ private:
+  bool by_real_parts_ = false;
+};
 
 /// Zeros of the signed difference of two modes on a step, as t. They are those of its polynomial, as far as
 /// they are real up to the accuracy of the dense output; the walk decides.
 std::vector<double> zeros(const SampledMode& a, const SampledMode& b) {
   constexpr double beside_axis = 1e-2;  // imaginary part of t: double zeros split
-  constexpr double off_the_ends = 1e-6;
+  // By the error of the dense output, one at the end of the step may lie behind it: whirl of a shaft at rest.
+  constexpr double off_the_ends = 1e-3;
+  const SignedDifference signed_difference(a, b);
   const auto difference = [&](double t) {
     const std::size_t k = nearest_sample(t);
     return Complex(signed_difference(a.s[k], b.s[k]));
   };
   const ComplexVector coefficients = chebyshev_coefficients(difference, degree);
-  // The constant term is larger than all others together: no zero.
-  if (std::abs(coefficients[0]) > coefficients.tail(degree).cwiseAbs().sum()) return {};
+  // The constant term is larger than all others together: no zero, and none closely behind the ends.
+  const double others = coefficients.tail(degree).cwiseAbs().sum();
+  if (std::abs(coefficients[0]) > (1.0 + 2.0 * off_the_ends) * others) return {};
   std::vector<double> found;
   for (const Complex t : chebyshev_roots(coefficients)) {
     const bool is_near =
@@ -103,7 +127,7 @@ std::vector<double> zeros(const SampledMode& a, const SampledMode& b) {
 class CrossingWalk {
  public:
   CrossingWalk(const EventSearch& search, const Step& step, const SampledMode& a, const SampledMode& b)
-      : search_(search), step_(step), modes_{&a, &b} {}
+      : search_(search), step_(step), modes_{&a, &b}, signed_difference_(a, b) {}
 
   std::optional<Event> from(double t);
 
@@ -114,6 +138,7 @@ class CrossingWalk {
   const EventSearch& search_;
   const Step& step_;
   std::array<const SampledMode*, 2> modes_;
+  SignedDifference signed_difference_;
   std::array<std::optional<NearbyMode>, 2> seen_;
   std::array<Complex, 2> s_;  ///< the eigenvalues at the last look
   double expected_ = 0.0;     ///< t from which the eigenvalues are expected
@@ -135,10 +160,8 @@ Sight<double> CrossingWalk::look(double h) {
     slopes[i] = series[1];
   }
   ++looks_;
-  const double distance = signed_difference(s_[0], s_[1]);
-  const bool real = s_[0].imag() == 0.0 && s_[1].imag() == 0.0;
-  const Complex slope = slopes[0] - slopes[1];
-  const double rate = real ? slope.real() : slope.imag();
+  const double distance = signed_difference_(s_[0], s_[1]);
+  const double rate = signed_difference_.part_of(slopes[0] - slopes[1], s_[0], s_[1]);
   if (!(std::abs(rate) > 0.0)) return {};
   return {Sight<double>::Kind::seen, -distance / rate};
 }
@@ -194,6 +217,7 @@ void add_crossings(const EventSearch& search, const Step& step, const SampledMod
   const double same = search.thresholds().identity.merged_distance;
   double scale = search.problem().s_ref;
   for (const Complex s : a.s) scale = std::max(scale, std::abs(s));
+  const SignedDifference signed_difference(a, b);
   for (const double t : zeros(a, b)) {
     const std::size_t nearest = nearest_sample(t);
     const std::size_t next = nearest == 0 ? 1 : nearest - 1;

@@ -146,11 +146,12 @@ class Tube {
     const State centre(*this, middle);
     const double scale = unknown_scale(gap_, centre.Lambda.norm());
     const auto samples = samples_of(begin, middle, end);
-    if (centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
+    const bool is_chiral = centre.pencil.chirality != 0;  // the whole matrix may be singular
+    if (!is_chiral && centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       count(1, centre.Z.size() + centre.Lambda.size());
       return closes_about(centre, WholeInverse(centre.place, W_, scale), scale, samples, Z1);
     }
-    count(W_.cols(), centre.Z.rows() + W_.cols());
+    count(W_.cols(), (is_chiral ? centre.Z.rows() / 2 : centre.Z.rows()) + W_.cols());
     return closes_about(centre, TriangularInverse(centre.place, W_, W1_, scale), scale, samples, Z1);
   }
 

@@ -248,6 +248,8 @@ std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, i
     at_left.push_back(&tracks[i]);
     at_right.push_back(&right.tracks[i]);
   }
+  // Of a complex part, the conjugates are modes of another one.
+  if (pencil.left().pencil.of(part).chirality != 0) return closed;
   if (own.empty() || !are_basis(at_left, pencil.left().pencil.of(part).M[0])) return closed;
   const std::vector<bool> of_part = ModalTube(pencil, at_left, at_right, counts).closes();
   for (std::size_t i = 0; i < own.size(); ++i) closed[own[i]] = of_part[i];

@@ -162,6 +162,7 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
   ReducedPencil pencil{{interpolate(left_pencil_.M, right_.M, weights)},
                        {interpolate(left_pencil_.C, right_.C, weights)},
                        {interpolate(left_pencil_.K, right_.K, weights)}};
+  pencil.chirality = left_pencil_.chirality;
   return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
 }
 

@@ -51,8 +51,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<ReducedPencil> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K, parts, copies] = self;
-  visit(M, C, K, parts, copies);
+  auto& [M, C, K, parts, copies, chirality] = self;
+  visit(M, C, K, parts, copies, chirality);
 }
 
 template <SameAs<PathNode> Self, class Visit>
@@ -130,8 +130,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TraceSettings> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [order, s_ref, s_max, route, follows_all] = self;
-  visit(order, s_ref, s_max, route, follows_all);
+  auto& [order, s_ref, s_max, route, follows_all, joins_pairs] = self;
+  visit(order, s_ref, s_max, route, follows_all, joins_pairs);
 }
 
 /// The other path is not saved: it is used, or no longer needed, before the next state is saved.
@@ -246,7 +246,7 @@ bool has_parts(const ReducedPencil& pencil, const IndependentParts* parts) {
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Index size = parts->ranges[i].size;
     const ReducedPencil& own = pencil.parts[i];
-    if (own.copies != copies(parts->ranges[i])) return false;
+    if (own.copies != copies(parts->ranges[i]) || own.chirality != parts->ranges[i].chirality) return false;
     if (!all_are(own.M, size, size) || !all_are(own.C, size, size) || !all_are(own.K, size, size))
       return false;
   }
@@ -390,6 +390,10 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     const SceneOnRange scene = scene_at_start(problem, options);
     problem.rests = scene.rests;
     problem.parts = scene.parts;
+  }
+  if (problem.parts && state.settings.joins_pairs) {
+    std::vector<int> numbers;
+    problem.parts = joined_pairs(*problem.parts, std::vector<bool>(problem.parts->count(), true), numbers);
   }
   restore_parts(problem, state.origin.node);
   if (state.origin.tried && state.origin.tried->equations)

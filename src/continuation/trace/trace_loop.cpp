@@ -15,6 +15,7 @@
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/step/stored_step.hpp"
+#include "continuation/trace/chiral_parts.hpp"
 #include "continuation/trace/narrow_landings.hpp"
 #include "continuation/trace/stop_remarks.hpp"
 #include "continuation/trace/trace_start.hpp"
@@ -286,6 +287,10 @@ bool TraceLoop::advance() {
   const double length = state_.control.propose(std::min(ahead, longest_allowed_step()));
   const double h = state_.frame.direction * length;
   AttemptedStep attempted = steps().attempt(h);
+  if (attempted.step && is_near_real_axis(problem_, attempted.step->right)) {
+    join_conjugate_parts(problem_, state_);
+    return true;  // the step is tried again
+  }
   const PathNode* next = attempted.step ? &attempted.step->right : nullptr;
   if (bridge_branch_point(points_, state_.frame, state_.origin.node, h, next, state_.branches.tries))
     return true;

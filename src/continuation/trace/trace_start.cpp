@@ -336,10 +336,12 @@ double first_step(const PathNode& node, const PathProblem& problem, const TraceO
 
 namespace {
 
+/// Relative distance up to which eigenvalues coincide at the first point.
+constexpr double coincide = 1e-6;
+
 /// Eigenvalues that coincide at the first point get their numbers by ascending magnitude behind it. Without
 /// this, rounding would decide which is the first.
 void number_by_magnitude(Track& track) {
-  constexpr double coincide = 1e-6;  // relative distance
   ComplexVector& behind = track.departure->roots;
   for (std::size_t a = 0; a < track.met.size(); ++a) {
     for (std::size_t b = a + 1; b < track.met.size(); ++b) {
@@ -351,12 +353,37 @@ void number_by_magnitude(Track& track) {
   }
 }
 
+/// Whether two tracks of one mode belong to the halves of a conjugate pair of parts and coincide.
+bool are_coinciding_twins(const PathNode& node, const Track& a, const Track& b) {
+  const auto chirality = [&](const Track& track) { return node.pencil.of(track.pair.part).chirality; };
+  const bool are_twins = chirality(a) > 0 && chirality(b) < 0 && b.pair.part == a.pair.part + 1;
+  return are_twins && a.size() == 1 && b.size() == 1 && a.pair.chart == b.pair.chart &&
+         std::abs(a.roots[0] - b.roots[0]) <= coincide * std::abs(a.roots[0]);
+}
+
+/// The same for both halves of a conjugate pair of parts: forward and backward whirl of a shaft at rest.
+void number_twins_by_magnitude(double distance, PathNode& node) {
+  const auto behind = [&](const Track& track) {
+    return std::abs(block_roots(evaluate_series(track.functions, distance))[0]);
+  };
+  for (Track& a : node.tracks) {
+    for (Track& b : node.tracks) {
+      if (!are_coinciding_twins(node, a, b)) continue;
+      if ((behind(a) < behind(b)) == (a.modes[0] < b.modes[0])) continue;
+      std::swap(a.modes, b.modes);
+      a.arriving = a.modes;
+      b.arriving = b.modes;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const PathFrame& frame,
                                          PathNode& node, ModeNumbers& numbers) {
   const double distance = frame.direction * beside_start * frame.range.length();
   std::vector<Birth> births;
+  number_twins_by_magnitude(distance, node);
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& track = node.tracks[i];
     if (!meets[i]) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eigentrail/continuation/family_parts.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -29,8 +31,7 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
   for (const auto& [name, value] : options.values)
     problem.parameters[model.description().parameters.index(name).value()] = value;
   problem.basis = basis;
-  if (basis == BasisChoice::aligned)
-    problem.parts = find_independent_parts(model.coefficient_matrices(problem.parameters, problem.traced));
+  if (basis == BasisChoice::aligned) problem.parts = parts_of_family(problem, options);
   problem.threads = options.threads;
   problem.thresholds = options.thresholds;
   problem.corrector.passing_error = passing_share * options.tolerance;

@@ -100,6 +100,12 @@ double meeting_distance(const std::vector<Representative>& some, const std::vect
   return nearest;
 }
 
+/// Whether the conjugates of a track's eigenvalues belong to its own equations. Those of a complex part
+/// belong to its twin, and are not met.
+bool meets_conjugates(const PathNode& node, const Track& track) {
+  return !track.pair.is_real && node.pencil.of(track.pair.part).chirality == 0;
+}
+
 std::vector<Representative> conjugates(std::vector<Representative> all) {
   for (Representative& one : all) one.series = one.series.conjugate().eval();
   return all;
@@ -121,7 +127,7 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
     const std::vector<Representative> others = i == index ? own : representatives(other, track.pair.chart);
     const double distance = i == index ? INFINITY : meeting_distance(own, others, h, limit);
     if (distance <= limit) partners.push_back({false, i, distance});
-    if (track.pair.is_real || other.pair.is_real) continue;
+    if (!meets_conjugates(node, track) || other.pair.is_real) continue;
     nearest_conjugate = std::min(nearest_conjugate, meeting_distance(own, conjugates(others), h, limit));
   }
   if (nearest_conjugate <= limit) partners.push_back({true, index, nearest_conjugate});
@@ -171,7 +177,7 @@ std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, 
     const Track& track = tracks[open.back()];
     open.pop_back();
     const double limit = crowding * way(track);
-    if (!track.pair.is_real && gap_between(track.roots, track.roots.conjugate()) < limit)
+    if (meets_conjugates(node, track) && gap_between(track.roots, track.roots.conjugate()) < limit)
       with_conjugates = true;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       if (taken[i] || tracks[i].pair.chart != chart || tracks[i].pair.part != track.pair.part) continue;
@@ -193,7 +199,8 @@ std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, 
 std::optional<Partner> nearest_partner(const PathNode& node, std::size_t index) {
   const Track& track = node.tracks[index];
   Partner nearest{false, index, INFINITY};
-  if (!track.pair.is_real) nearest = {true, index, gap_between(track.roots, track.roots.conjugate())};
+  if (meets_conjugates(node, track))
+    nearest = {true, index, gap_between(track.roots, track.roots.conjugate())};
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
     if (i == index || other.pair.chart != track.pair.chart || other.pair.part != track.pair.part) continue;

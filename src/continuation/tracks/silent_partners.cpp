@@ -69,20 +69,21 @@ RitzPairs ritz_pairs(const InvariantPair& pair) {
 /// The eigenvalues about `centre`, one of a track, by inverse iteration: with a real subspace about a real
 /// one.
 Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Complex centre) {
-  const Eigen::Index size = std::min(track.size() + beside, 2 * pencil.size());
-  const InvariantPair pair =
-      invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, size, centre.imag() == 0.0);
+  const bool is_chiral = pencil.chirality != 0;
+  const Eigen::Index size = std::min(track.size() + beside, (is_chiral ? 1 : 2) * pencil.size());
+  const InvariantPair pair = invariant_subspace(pencil, centre, size, centre.imag() == 0.0);
   Spectrum spectrum;
   if (!pair.Z.allFinite() || !pair.Lambda.allFinite()) return spectrum;
   const RitzPairs ritz = ritz_pairs(pair);
   for (Eigen::Index i = 0; i < size; ++i) {
     Complex s = ritz.s[i];
     ComplexVector z = ritz.Z.col(i).normalized();
+    if (is_chiral && s.imag() < 0.0) continue;  // the conjugate of a mode of the twin
     if (s.imag() < 0.0) {
       s = std::conj(s);
       z = z.conjugate();
     }
-    if (s.imag() <= real_axis * std::abs(s)) {
+    if (!is_chiral && s.imag() <= real_axis * std::abs(s)) {
       Eigen::Index largest = 0;
       z.cwiseAbs().maxCoeff(&largest);
       z = (z * (std::abs(z[largest]) / z[largest])).real().cast<Complex>();

@@ -80,14 +80,12 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
     if (roots.size() == 1) {
       group.pair.is_real = roots[0].imag() == 0.0;
       const StartingMode& mode = modes[members.front()];
-      group.pair.Z =
-          mode.z.size() > 0 ? mode.z : eigenvector_near(own.M[0], own.C[0], own.K[0], mode.s, s_ref);
+      group.pair.Z = mode.z.size() > 0 ? mode.z : eigenvector_near(own, mode.s, s_ref);
       group.pair.Lambda = group.roots;
       if (group.pair.is_real) group.pair.Z.imag().setZero();
     } else {
       const Complex centre = is_real ? Complex(group.roots.mean().real()) : group.roots.mean();
-      group.pair =
-          invariant_subspace(own.M[0], own.C[0], own.K[0], centre, group.roots.size(), is_real, least_scale);
+      group.pair = invariant_subspace(own, centre, group.roots.size(), is_real, least_scale);
     }
     group.pair.part = part;
     groups.push_back(std::move(group));

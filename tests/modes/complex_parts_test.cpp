@@ -1,0 +1,164 @@
+// Complex parts: one of a conjugate pair that has real matrices [A -B; B A]. What is solved in it is the
+// equation of A + iB, of half the size, also where the conjugate has the same eigenvalues.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/reduction/chirality.hpp"
+#include "support/families.hpp"
+#include "support/spectra.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr Eigen::Index m = 4;
+
+Matrix canonical(const ComplexMatrix& A) {
+  Matrix result(2 * A.rows(), 2 * A.cols());
+  result << A.real(), -A.imag(), A.imag(), A.real();
+  return result;
+}
+
+/// s^2 + s (0.01 K + coupling i G) + K with symmetric matrices: without coupling both whirls are the same.
+struct Rotor {
+  explicit Rotor(double coupling) {
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> normal;
+    const Matrix R = Matrix::NullaryExpr(m, m, [&] { return normal(engine); });
+    const Matrix S = Matrix::NullaryExpr(m, m, [&] { return normal(engine); });
+    M = ComplexMatrix::Identity(m, m);
+    K = (R * R.transpose() + Matrix::Identity(m, m)).cast<Complex>();
+    C = 0.01 * K - Complex(0.0, coupling) * (S * S.transpose()).cast<Complex>();
+  }
+
+  ReducedPencil pencil(int chirality) const {
+    ReducedPencil result{{canonical(M)}, {canonical(C)}, {canonical(K)}};
+    result.chirality = chirality;
+    return result;
+  }
+  std::vector<Complex> eigenvalues() const {
+    ComplexMatrix A = ComplexMatrix::Zero(2 * m, 2 * m);
+    A.topRightCorner(m, m).setIdentity();
+    A.bottomLeftCorner(m, m) = -K;
+    A.bottomRightCorner(m, m) = -C;
+    const Eigen::ComplexEigenSolver<ComplexMatrix> eigen(A, false);
+    return {eigen.eigenvalues().begin(), eigen.eigenvalues().end()};
+  }
+
+  ComplexMatrix M, C, K;
+};
+
+TEST(ComplexPart, CoordinatesAreThoseOfItsVectors) {
+  const ComplexMatrix q = ComplexMatrix::Random(m, 3);
+  const Matrix A = canonical(ComplexMatrix::Random(m, m));
+  for (const int chirality : {1, -1}) {
+    const ComplexMatrix Z = from_chiral_coordinates(q, chirality);
+    EXPECT_LT((chiral_coordinates(Z, chirality) - q).norm(), 1e-15 * q.norm());
+    EXPECT_LT(chiral_coordinates(Z, -chirality).norm(), 1e-15 * q.norm());
+    EXPECT_NEAR(Z.norm(), q.norm(), 1e-14 * q.norm());
+    EXPECT_LT((A * Z - from_chiral_coordinates(chiral_block(A, chirality) * q, chirality)).norm(),
+              1e-14 * A.norm() * q.norm());
+  }
+  EXPECT_EQ(canonical_form(A), A);
+}
+
+TEST(ComplexPart, HasItsOwnEigenvaluesAboveTheRealAxis) {
+  for (const double coupling : {0.0, 0.3}) {
+    const Rotor rotor(coupling);
+    const std::vector<Complex> all = rotor.eigenvalues();
+    for (const int chirality : {1, -1}) {
+      std::vector<Complex> expected;
+      for (const Complex s : all) {
+        const Complex own = chirality > 0 ? s : std::conj(s);
+        if (own.imag() > 0.0) expected.push_back(own);
+      }
+      const ReducedPencil pencil = rotor.pencil(chirality);
+      for (const bool with_vectors : {true, false}) {
+        const Spectrum spectrum = with_vectors ? compute_spectrum(pencil) : compute_eigenvalues(pencil);
+        ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
+        EXPECT_EQ(spectrum.n_infinite, 0);
+        std::vector<Complex> found;
+        for (const StartingMode& mode : spectrum.modes) {
+          found.push_back(mode.s);
+          const ComplexVector z = with_vectors ? mode.z : eigenvector_near(pencil, mode.s, 1e-3);
+          EXPECT_LT((PencilAtPoint(pencil).matrix(mode.s) * z).norm(), 1e-11 * pencil.K[0].norm());
+          EXPECT_LT(chiral_coordinates(z, -chirality).norm(), 1e-14);
+        }
+        EXPECT_LT(matched_distance(found, expected), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(ComplexPart, SubspaceNearAnEigenvalueIsOfThePart) {
+  const Rotor rotor(0.3);
+  const ReducedPencil pencil = rotor.pencil(1);
+  const Spectrum spectrum = compute_spectrum(pencil);
+  const InvariantPair pair = invariant_subspace(pencil, spectrum.modes[0].s, 1, false);
+  EXPECT_LT(std::abs(pair.eigenvalue() - spectrum.modes[0].s), 1e-9);
+  EXPECT_LT(PencilAtPoint(pencil).residual(pair.Z, pair.Lambda).norm(), 1e-9 * pencil.K[0].norm());
+  EXPECT_LT(chiral_coordinates(pair.Z, -1).norm(), 1e-14);
+}
+
+/// At rest both halves have the same eigenvalues. The equations of the whole pair are singular there, those
+/// of one half are not.
+TEST(ComplexPart, EquationsOfAModeAreRegularWhereBothWhirlsCoincide) {
+  const Rotor rotor(0.0);
+  const ReducedPencil pencil = rotor.pencil(1);
+  const Spectrum spectrum = compute_spectrum(pencil);
+  const StartingMode& mode = spectrum.modes[1];
+  ComplexMatrix W = ComplexMatrix::Zero(4 * m, 1);
+  W.topRows(2 * m) = mode.z;
+  const ComplexMatrix Lambda = ComplexMatrix::Constant(1, 1, mode.s);
+  const PencilAtPoint at(pencil);
+  const PairFactorization factors(at, mode.z, Lambda, W);
+  std::mt19937_64 engine(5);
+  const ComplexMatrix R = random_complex(2 * m, 1, engine), N = random_complex(1, 1, engine);
+  ComplexMatrix dZ, ds;
+  factors.solve(R, N, dZ, ds);
+  // The solution for what of R is in the part.
+  const ComplexMatrix own = from_chiral_coordinates(chiral_coordinates(R, 1), 1);
+  const ComplexVector slope = 2.0 * mode.s * multiply(at.M, mode.z) + multiply(at.C, mode.z);
+  EXPECT_LT((at.matrix(mode.s) * dZ + slope * ds(0, 0) - own).norm(), 1e-12 * at.magnitude(std::abs(mode.s)));
+  EXPECT_LT(std::abs(mode.z.dot(dZ.col(0)) - N(0, 0)), 1e-12);
+  EXPECT_LT(chiral_coordinates(dZ, -1).norm(), 1e-14 * dZ.norm());
+  EXPECT_LT(factors.sensitivity(), 10.0 / slope.norm());
+  // The same without its chirality: the rival that must lose.
+  const ReducedPencil real = rotor.pencil(0);
+  const PairFactorization singular(PencilAtPoint(real), mode.z, Lambda, W);
+  singular.solve(R, N, dZ, ds);
+  EXPECT_FALSE(dZ.norm() < 1e10);
+}
+
+TEST(ComplexPart, BlocksAreSolvedWithTheirAdjoints) {
+  const Rotor rotor(0.2);
+  const ReducedPencil pencil = rotor.pencil(-1);
+  const PencilAtPoint at(pencil);
+  const Spectrum spectrum = compute_spectrum(pencil);
+  InvariantPair pair;
+  pair.Z.resize(2 * m, 2);
+  pair.Z << spectrum.modes[0].z, spectrum.modes[1].z;
+  pair.Lambda = ComplexVector{{spectrum.modes[0].s, spectrum.modes[1].s}}.asDiagonal();
+  normalize_pair(pair.Z, pair.Lambda, pair.W, 1e-3);
+  const PairFactorization factors(at, pair.Z, pair.Lambda, pair.W);
+  std::mt19937_64 engine(6);
+  const Eigen::Index size = 4 * m + 4;
+  const ComplexVector x = random_complex(size, 1, engine), y = random_complex(size, 1, engine);
+  ComplexVector Bx = x, By = y;
+  factors.solve_in_place(Bx);
+  factors.solve_adjoint_in_place(By);
+  EXPECT_LT(std::abs(y.dot(Bx) - By.dot(x)), 1e-12 * Bx.norm() * y.norm());
+  const ComplexMatrix dZ = Bx.head(4 * m).reshaped(2 * m, 2), dL = Bx.tail(4).reshaped(2, 2);
+  const ComplexMatrix change = at.residual(dZ, pair.Lambda) +
+                               multiply(at.M, pair.Z) * (dL * pair.Lambda + pair.Lambda * dL) +
+                               multiply(at.C, pair.Z) * dL;
+  const ComplexMatrix R = x.head(4 * m).reshaped(2 * m, 2);
+  EXPECT_LT((change - from_chiral_coordinates(chiral_coordinates(R, -1), -1)).norm(), 1e-11 * R.norm());
+}
+
+}  // namespace
+}  // namespace eigentrail::test
