@@ -414,7 +414,9 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   const Completion found =
       complete(problem_, state_.settings.follows_all, step.right, state_.numbers, result.counts);
   const std::string where = "at " + place_text(options_, step.right.p);
-  if (found.doubtful && result.notes.size() < most_notes)
+  // On a branch point a mode vanishes, and the two halves of its pair are one to rounding.
+  const bool is_doubtful = found.doubtful && !state_.frame.on_branch_point(step.right);
+  if (is_doubtful && result.notes.size() < most_notes)
     result.notes.push_back(where +
                            " two tracks share an eigenvalue, or one has left the spectrum; see verify");
   for (const OnePair& pair : found.pairs)
