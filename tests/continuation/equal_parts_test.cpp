@@ -11,25 +11,12 @@
 
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
-
-std::string text(const std::vector<Matrix>& coefficients) {
-  std::string all;
-  for (const Matrix& A : coefficients) {
-    std::string rows;
-    for (const auto& row : A.rowwise()) {
-      std::string entries;
-      for (const double x : row) entries += (entries.empty() ? "" : ", ") + exact_text(x);
-      rows += (rows.empty() ? "[" : ", [") + entries + "]";
-    }
-    all += (all.empty() ? "[" : ", [") + rows + "]";
-  }
-  return "[" + all + "]";
-}
 
 struct EqualParts {
   std::string name;

@@ -10,6 +10,7 @@
 
 #include "eigentrail/continuation/family_parts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "support/matrix_text.hpp"
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
@@ -66,20 +67,6 @@ std::vector<Matrix> real_matrices(const ComplexTerms& terms) {
     result.push_back(std::move(real));
   }
   return result;
-}
-
-std::string text(const std::vector<Matrix>& coefficients) {
-  std::string all;
-  for (const Matrix& A : coefficients) {
-    std::string rows;
-    for (const auto& row : A.rowwise()) {
-      std::string entries;
-      for (const double x : row) entries += (entries.empty() ? "" : ", ") + exact_text(x);
-      rows += (rows.empty() ? "[" : ", [") + entries + "]";
-    }
-    all += (all.empty() ? "[" : ", [") + rows + "]";
-  }
-  return "[" + all + "]";
 }
 
 /// Equations in other coordinates: the same ones on both sides, or different ones.
