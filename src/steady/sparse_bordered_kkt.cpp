@@ -30,7 +30,7 @@ SparseBorderedKkt::SparseBorderedKkt(const SparseMatrix& K, const SparseMatrix& 
   const auto inverse = [magnitude](double size) { return magnitude / positive_or_one(size); };
   rows_ = Vector::Ones(n_ + m_ + q);
   columns_.resize(q);
-  if (m_ > 0) rows_.segment(n_, m_) = SystemMatrix(A).row_norms().unaryExpr(inverse);
+  if (m_ > 0) rows_.segment(n_, m_) = row_scales(A, magnitude);
   const Vector reactions = rows_.segment(n_, m_);
   KktEntries entries = kkt_entries(K, A, reactions);
   Matrix corner = border.unknown;

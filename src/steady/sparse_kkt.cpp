@@ -15,12 +15,6 @@ constexpr int power_iterations = 4;
 /// by the ratio of the two smallest singular values.
 constexpr int kernel_iterations = 3;
 
-/// Scale of the rows of the constraints that makes them as large as K.
-Vector row_scale_of(const SparseMatrix& A, double magnitude) {
-  return SystemMatrix(A).row_norms().unaryExpr(
-      [magnitude](double norm) { return magnitude / positive_or_one(norm); });
-}
-
 SparseMatrix kkt_matrix(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
   const KktEntries entries = kkt_entries(K, A, row_scale);
   const Eigen::Index size = K.rows() + A.rows();
@@ -53,12 +47,17 @@ KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vecto
   return entries;
 }
 
+Vector row_scales(const SparseMatrix& A, double magnitude) {
+  return SystemMatrix(A).row_norms().unaryExpr(
+      [magnitude](double norm) { return magnitude / positive_or_one(norm); });
+}
+
 std::shared_ptr<const SparseKkt> SparseKkt::factor(const SparseMatrix& K, const SparseMatrix& A) {
   std::shared_ptr<SparseKkt> result(new SparseKkt);
   const double magnitude = SystemMatrix(K).one_norm();
   if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return nullptr;
   result->n_ = K.rows();
-  result->row_scale_ = row_scale_of(A, magnitude);
+  result->row_scale_ = row_scales(A, magnitude);
   result->matrix_ = kkt_matrix(K, A, result->row_scale_);
   if (!result->lu_.factor(result->matrix_, SparseKind::general)) return nullptr;
   const double condition = result->norm_of_tangent_inverse() * magnitude;
@@ -85,7 +84,7 @@ double SparseKkt::norm_of_tangent_inverse() {
 std::optional<KktKernel> kkt_kernel(const SparseMatrix& K, const SparseMatrix& A) {
   const Eigen::Index n = K.rows();
   SparseFactors lu;
-  if (!lu.factor(kkt_matrix(K, A, row_scale_of(A, SystemMatrix(K).one_norm())), SparseKind::general))
+  if (!lu.factor(kkt_matrix(K, A, row_scales(A, SystemMatrix(K).one_norm())), SparseKind::general))
     return std::nullopt;
   Vector right = random_vector(n + A.rows());
   Vector left = right;

@@ -18,6 +18,9 @@ namespace eigentrail {
 using KktEntries = std::vector<Eigen::Triplet<double>>;
 KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale);
 
+/// Such scales, m: those that make the rows of A as large as K, whose magnitude is given.
+Vector row_scales(const SparseMatrix& A, double magnitude);
+
 /// Unit vectors, n, that are nearest to the right and the left kernel of [K, A^T; A, 0].
 struct KktKernel {
   Vector right, left;

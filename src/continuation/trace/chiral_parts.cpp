@@ -17,9 +17,14 @@ bool is_near_real_axis(const PathProblem& problem, const PathNode& node) {
   });
 }
 
-void join_conjugate_parts(PathProblem& problem, TraceState& state) {
+std::vector<int> join_pairs(PathProblem& problem) {
   std::vector<int> numbers;
   problem.parts = joined_pairs(*problem.parts, std::vector<bool>(problem.parts->count(), true), numbers);
+  return numbers;
+}
+
+void join_conjugate_parts(PathProblem& problem, TraceState& state) {
+  const std::vector<int> numbers = join_pairs(problem);
   const auto renumber = [&numbers](Track& track) {
     track.pair.part = numbers[static_cast<std::size_t>(track.pair.part)];
     track.pair.factors.reset();  // of the complex part

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "continuation/archived_parts.hpp"
+#include "continuation/trace/chiral_parts.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
@@ -391,10 +392,7 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
     problem.rests = scene.rests;
     problem.parts = scene.parts;
   }
-  if (problem.parts && state.settings.joins_pairs) {
-    std::vector<int> numbers;
-    problem.parts = joined_pairs(*problem.parts, std::vector<bool>(problem.parts->count(), true), numbers);
-  }
+  if (problem.parts && state.settings.joins_pairs) join_pairs(problem);
   restore_parts(problem, state.origin.node);
   if (state.origin.tried && state.origin.tried->equations)
     restore_parts(problem, *state.origin.tried->equations);
