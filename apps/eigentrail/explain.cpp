@@ -244,7 +244,7 @@ std::string describe_route(const Structure& structure, const ModeWork& work) {
 }
 
 void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work,
-                   bool chosen, bool sparse) {
+                   bool chosen, bool sparse, const Route& route) {
   const int order = work.order;
   std::fprintf(to, "solvers\n");
   std::string equilibrium =
@@ -262,13 +262,15 @@ void print_solvers(std::FILE* to, const Model& model, const Structure& structure
   } else if (structure.constant_constraints) {
     basis = first + ", T' = 0";
   }
-  print_table({{"  matrices", sparse ? "sparse: many coordinates, few freedoms" : "dense"},
-               {"  equilibrium", equilibrium},
-               {"  tangent basis", basis},
-               {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
-               {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
-               {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}},
-              to);
+  std::vector<std::vector<std::string>> rows{
+      {"  matrices", sparse ? "sparse: many coordinates, few freedoms" : "dense"},
+      {"  equilibrium", equilibrium},
+      {"  tangent basis", basis},
+      {"  starting spectrum", "LAPACK QZ of the scaled companion pencil"},
+      {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
+      {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}};
+  if (route.work) rows.push_back({"  not projected", reason_of(route)});
+  print_table(rows, to);
 }
 
 Sizes sizes_at(const Model& model, const PathPoint& point) {
@@ -291,15 +293,13 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
   const Structure structure = model->structure(traced);
 
   if (!scene.title.empty()) std::fprintf(to, "%s\n", printable(scene.title).c_str());
-  if (is_large(*model, options)) {
+  const Route route = route_of(*model, options);
+  if (route.is_projected) {
     print_parameters(to, *model, traced);
     print_data(to, *model);
     print_effects(to, *model);
     print_states(to, *model);
-    const SparseFamily* family = large_family(*model, options);
-    print_route(family != nullptr ? estimate_projection(*family, options, solver)
-                                  : estimate_projection(*model, options, solver),
-                options, to);
+    print_route(route, estimate_projection(*model, options, solver), options, to);
     if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return;
   }
@@ -336,7 +336,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
     size = std::max(size, solved_size(parts->ranges[i]));
   print_solvers(to, *model, structure,
                 {size, modes, options.modes.is_all() && !apart, options.order.value_or(cheapest)},
-                !options.order, computed && point.equilibrium.linearization.K[0].is_sparse());
+                !options.order, computed && point.equilibrium.linearization.K[0].is_sparse(), route);
   if (!computed) throw InputError(scene.path + ": " + point.message);
   if (sensitivity) explain_sensitivity(to, scene, option_texts);
 }

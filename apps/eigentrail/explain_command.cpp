@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 #include "explain.hpp"
 #include "factor_team.hpp"
 #include "scene_arguments.hpp"

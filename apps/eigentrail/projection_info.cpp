@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "output.hpp"
 
 namespace eigentrail::app {
@@ -23,7 +24,16 @@ void print_projection(const Projection& projection, const std::string& parameter
   for (const std::string& note : projection.notes) std::printf("        %s\n", note.c_str());
 }
 
-void print_route(const ProjectionEstimate& estimate, const TraceOptions& options, std::FILE* to) {
+std::string reason_of(const Route& route) {
+  if (!route.work)
+    return "the dense engine holds " + std::to_string(limits::matrix_rows) + " coordinates at most";
+  const auto billions = [](double operations) { return rounded(1e-9 * operations, 2) + " billion"; };
+  return billions(route.work->projected) + " operations, " + billions(route.work->dense) +
+         " with all freedoms; taken from a ratio of " + rounded(worth_projecting, 2) + " on";
+}
+
+void print_route(const Route& route, const ProjectionEstimate& estimate, const TraceOptions& options,
+                 std::FILE* to) {
   const auto megabytes = [](double bytes) { return rounded(bytes / 1e6, 3) + " MB"; };
   const std::string followed = in_words(options.modes);
   const bool scene = estimate.coordinates > 0;
@@ -36,6 +46,7 @@ void print_route(const ProjectionEstimate& estimate, const TraceOptions& options
            (scene ? " nonzeros in M, C, K and A together" : " nonzeros in M, C and K together");
   std::vector<std::vector<std::string>> rows{
       {"  model", model},
+      {"  chosen", "the projection: " + reason_of(route)},
       {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
                            ", at both ends of the range of " + options.parameter +
                            " and where residuals are largest"},
@@ -46,10 +57,8 @@ void print_route(const ProjectionEstimate& estimate, const TraceOptions& options
     rows.push_back({"  equilibrium",
                     estimate.moves ? "of all coordinates, followed: such a factorization for each correction"
                                    : "of all coordinates, solved once"});
-    rows.push_back({"  trace",
-                    "of the scene on the motions of the projection, some tens, by the dense engine; a "
-                    "scene with less than " +
-                        std::to_string(smallest_large_scene) + " coordinates has all its freedoms there"});
+    rows.push_back(
+        {"  trace", "of the scene on the motions of the projection, some tens, by the dense engine"});
   } else {
     rows.push_back(
         {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"});

@@ -16,7 +16,7 @@
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/projection/large_spectrum.hpp"
-#include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 
 namespace eigentrail {
 namespace {

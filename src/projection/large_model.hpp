@@ -28,6 +28,9 @@ struct Bases {
   std::shared_ptr<const Matrix> right, left;
 };
 
+/// Throws InputError, for a model that is so large that only some of its modes can be followed.
+[[noreturn]] void refuse_all_modes(const Model& model);
+
 class LargeModel {
  public:
   LargeModel() = default;

@@ -124,10 +124,7 @@ class Projector {
 
   void check_choice() const {
     if (trace_.modes.count || trace_.modes.band) return;
-    throw InputError("a large model with " + std::to_string(large_.model().n_coordinates()) +
-                     (large_.model().n_constraints() > 0 ? " coordinates" : " freedoms") +
-                     ", of which all modes are asked for: follow some of them, with modes = 6 or modes = "
-                     "{ band = [\"0 Hz\", \"50 Hz\"] } in [trace], or --modes 6");
+    refuse_all_modes(large_.model());
   }
 
   Vector parameters_at(double p, const ParameterValues& line) const {

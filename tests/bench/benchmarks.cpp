@@ -19,6 +19,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"blades", blades},
                                           {"large_models", large_models},
                                           {"largest_models", largest_models},
+                                          {"crossover", crossover},
                                           {"threads", threads}};
   return all;
 }

@@ -45,6 +45,8 @@ Figures blades(const BenchOptions& options);
 // large_bench.cpp
 Figures large_models(const BenchOptions& options);
 Figures largest_models(const BenchOptions& options);
+// crossover_bench.cpp
+Figures crossover(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 #include "projection/family_pencils.hpp"
 #include "support/large_families.hpp"
 #include "support/scenes.hpp"

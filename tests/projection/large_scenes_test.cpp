@@ -3,54 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <sstream>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/projection/large_spectrum.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
 #include "support/large_families.hpp"
+#include "support/large_scenes.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-/// The cantilever of data/scenes/rotating_cantilever.toml with 100 elements of two nodes: 1212 coordinates.
 Setting cantilever(const OptionTexts& overrides, const std::string& weight = "0") {
-  return scene_setting("rotating_cantilever", overrides,
-                       {{"elements     = 10", "elements = 100\ndegree = 1"},
-                        {"slender = 1e-6", "slender = 1e-4\nweight = " + weight},
-                        {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}});
-}
-
-/// Two rails along x, clamped in the rotating frame, with rungs along y between bodies at the ends of every
-/// bay.
-std::string ladder(int bays) {
-  std::ostringstream text;
-  text << "[parameters]\nomega = 0\n[trace]\nparameter = \"omega\"\nfrom = 0\nto = 2\n"
-          "[frame]\nangular_velocity = [0, 0, \"omega\"]\n";
-  const auto beam = [&](const std::string& name, const std::string& from, const std::string& to,
-                        const std::string& y_axis) {
-    text << "[[beam]]\nname = \"" << name << "\"\nfrom = " << from << "\nto = " << to
-         << "\nelements = 4\ndegree = 1\ny_axis = " << y_axis
-         << "\nmass = 1\nEA = 1e4\nEI_flap = 1\nEI_lag = 2\nGJ = 1\n";
-  };
-  for (int bay = 1; bay <= bays; ++bay) {
-    std::string corner[2];
-    for (const int rail : {0, 1}) {
-      const std::string place = rail == 0 ? "-0.5" : "0.5";
-      const std::string number = std::to_string(rail) + std::to_string(bay);
-      corner[rail] = "\"corner " + number + "\"";
-      text << "[[body]]\nname = " << corner[rail]
-           << "\nmass = 0.01\ninertia = [1e-4, 1e-4, 1e-4]\nposition = [" << bay << ", " << place << ", 0]\n";
-      const std::string before = bay == 1
-                                     ? "[0, " + place + ", 0]"
-                                     : "\"corner " + std::to_string(rail) + std::to_string(bay - 1) + "\"";
-      beam("rail " + number, before, corner[rail], "[0, 1, 0]");
-    }
-    beam("rung " + std::to_string(bay), corner[0], corner[1], "[1, 0, 0]");
-  }
-  return text.str();
+  return slender_cantilever(100, overrides, weight);
 }
 
 /// The whole scene at a place, [M 0; 0 0], [C 0; 0 0], [K A^T; A 0], with an equilibrium of its own.
@@ -91,7 +58,7 @@ struct Traced {
 
 Traced project_and_trace(Setting setting) {
   Traced traced{std::move(setting), {}};
-  EXPECT_TRUE(is_large_scene(*traced.setting.model, traced.setting.options));
+  EXPECT_TRUE(is_large(*traced.setting.model, traced.setting.options));
   project_if_large(traced.setting.model, traced.setting.options);
   traced.record = record_trace(traced.setting);
   EXPECT_EQ(traced.record.result.status, TraceStatus::completed) << traced.record.result.message;
@@ -123,17 +90,6 @@ TEST(LargeScenes, ARotatingCantileverAgreesWithTheWholeScene) {
   EXPECT_EQ(traced.projection().freedoms, 600);
   // Flap of an Euler-Bernoulli cantilever; elements of second order, and a section of finite size.
   EXPECT_NEAR(traced.record.eigenvalues_of_node(0)[0].imag(), 3.5160152685, 1e-2);
-}
-
-TEST(LargeScenes, AreThoseOfAThousandCoordinatesWithSomeModes) {
-  const auto is_large = [](int bays, const OptionTexts& options) {
-    const Setting setting = make_setting(ladder(bays), options);
-    return is_large_scene(*setting.model, setting.options);
-  };
-  EXPECT_FALSE(is_large(4, {{"modes", "3"}}));
-  EXPECT_TRUE(is_large(5, {{"modes", "3"}}));
-  EXPECT_FALSE(is_large(5, {}));  // all modes: with all freedoms
-  EXPECT_THROW(is_large(26, {}), InputError);
 }
 
 TEST(LargeScenes, RedundantConstraintsAreRefusedInWords) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 #include "support/large_families.hpp"
 #include "support/scenes.hpp"
 
@@ -443,14 +444,6 @@ TEST(Projection, ModesInABandAreAllThere) {
     EXPECT_LT(nearest, 1e-7 * std::abs(mode.s)) << mode.s;
   }
   EXPECT_GE(in_band, 3);
-}
-
-TEST(Projection, SmallFamiliesAreLeftAsTheyAre) {
-  TraceSetup setup = large_setup(rotating_plate({8}), 0.0, 1.0, 4, 1e-6);
-  ASSERT_LE(setup.model->n_coordinates(), largest_dense_size);
-  const Model* before = setup.model.get();
-  project_if_large(setup.model, setup.options);
-  EXPECT_EQ(setup.model.get(), before);
 }
 
 }  // namespace

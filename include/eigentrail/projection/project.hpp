@@ -118,44 +118,6 @@ std::unique_ptr<Model> project(std::shared_ptr<const Model> scene, const TraceOp
 std::unique_ptr<Model> project_at(std::shared_ptr<const Model> scene, const TraceOptions& trace,
                                   const std::vector<double>& values, const ProjectionOptions& options = {});
 
-/// Up to this size the dense engine traces sparse families: it knows all modes, and takes less than a second
-/// for a few of them. The projection is as quick from about 60 freedoms on (docs, performance.md).
-inline constexpr Eigen::Index largest_dense_size = 150;
-
-/// The model as a sparse family that is to be projected; null if it is none, has at most `largest_dense_size`
-/// freedoms, or if all modes are asked for and the dense engine can hold it (limits::matrix_rows).
-const SparseFamily* large_family(const Model& model, const TraceOptions& trace);
-
-/// Scenes of bodies with fewer coordinates are solved with all their freedoms.
-inline constexpr Eigen::Index smallest_large_scene = 1000;
-
-/// Whether the model is a scene of bodies that is to be projected: one with at least `smallest_large_scene`
-/// coordinates of which some modes are followed. Throws InputError if all are asked for and it has more than
-/// limits::matrix_rows coordinates.
-bool is_large_scene(const Model& model, const TraceOptions& trace);
-
-/// Whether the model is to be projected.
-bool is_large(const Model& model, const TraceOptions& trace);
-
-/// What a projection will need, from the symbolic analysis of the pencil where the trace begins.
-struct ProjectionEstimate {
-  Eigen::Index freedoms = 0;
-  Eigen::Index coordinates = 0;    ///< of a scene; 0: a family
-  Eigen::Index nonzeros = 0;       ///< of M, C, K and A together
-  bool moves = false;              ///< the equilibrium is followed: a factorization per point of the trace
-  bool two_sided = false;          ///< left vectors are needed
-  std::string method;              ///< of the factorization
-  double factor_bytes = 0.0;       ///< of one factorization; one is kept at a time
-  double factor_operations = 0.0;  ///< of one factorization
-  double total_bytes = 0.0;        ///< with matrices, Arnoldi vectors and the space
-  double target = 0.0;             ///< error of the projection, relative to the eigenvalues
-};
-ProjectionEstimate estimate_projection(const SparseFamily& family, const TraceOptions& trace,
-                                       const SparseSolverMaker& solver = {});
-/// The same for a scene, at its starting guess.
-ProjectionEstimate estimate_projection(const Model& scene, const TraceOptions& trace,
-                                       const SparseSolverMaker& solver = {});
-
 /// Replaces a large model by its projection; leaves others as they are.
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                       const std::vector<ParameterValues>& lines = {}, const ProjectionOptions& options = {});
