@@ -29,7 +29,7 @@ std::string reason_of(const Route& route) {
     return "the dense engine holds " + std::to_string(limits::matrix_rows) + " coordinates at most";
   const auto billions = [](double operations) { return rounded(1e-9 * operations, 2) + " billion"; };
   return billions(route.work->projected) + " operations, " + billions(route.work->dense) +
-         " with all freedoms; taken from a ratio of " + rounded(worth_projecting, 2) + " on";
+         " with all freedoms; taken from a ratio of " + rounded(worth_projecting, 3) + " on";
 }
 
 void print_route(const Route& route, const ProjectionEstimate& estimate, const TraceOptions& options,
