@@ -1,5 +1,6 @@
 #include "eigentrail/modes/invariant_pair.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -22,6 +23,33 @@ ComplexMatrix normalization(const ComplexMatrix& W, const ComplexMatrix& Z, cons
 double scale_of_slopes(const ComplexMatrix& Lambda, double reference) {
   if (!Lambda.allFinite()) return reference;
   return std::max(reference, Lambda.norm() / std::sqrt(0.5 * static_cast<double>(Lambda.rows())));
+}
+
+/// Smallest share of Z in the orthonormal columns of [Z; Z Lambda / gamma] with which Z is normalized alone.
+/// Two vectors at right angles have 1 / sqrt(2) or more, whatever their eigenvalues, and two eigenvalues of
+/// one freedom have zero. With a smaller value, vectors that are nearly parallel have to be told apart by Z
+/// alone, and the certificate takes more pieces.
+constexpr double enough_of_Z = 0.7;
+
+/// Smallest share of one column of [Z; Z Lambda / gamma] beside those before it, of the largest, from which
+/// they tell a space. Below, as in a start that is far from a pair, the direction beside them is its error.
+constexpr double independent = 1e-3;
+
+using Reflections = Eigen::HouseholderQR<ComplexMatrix>;
+
+ComplexMatrix orthonormal_basis(const Reflections& qr) {
+  return qr.householderQ() * ComplexMatrix::Identity(qr.rows(), qr.cols());
+}
+
+bool are_independent(const Reflections& qr) {
+  const Vector shares = qr.matrixQR().diagonal().cwiseAbs();
+  return shares.minCoeff() > independent * shares.maxCoeff();
+}
+
+double smallest_singular_value(const ComplexMatrix& columns) {
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(columns.adjoint() * columns,
+                                                             Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(squares.eigenvalues()[0], 0.0));
 }
 
 }  // namespace
@@ -50,8 +78,14 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
   const double gamma = scale_of_slopes(Lambda, reference);
   ComplexMatrix both(2 * n, k);
   both << Z, Z * Lambda / gamma;
-  const Eigen::HouseholderQR<ComplexMatrix> qr(both);
-  W = qr.householderQ() * ComplexMatrix::Identity(2 * n, k);
+  const Reflections qr(both);
+  W = orthonormal_basis(qr);
+  // Where W1 takes part, series of the pair converge only as far as Lambda changes by about gamma. Where all
+  // eigenvalues of a block pass through zero that is not far, and depends on the error of their prediction.
+  if (are_independent(qr) && smallest_singular_value(W.topRows(n)) > enough_of_Z) {
+    W.topRows(n) = orthonormal_basis(Reflections(Z));
+    W.bottomRows(n).setZero();
+  }
   const ComplexMatrix R = W.adjoint() * both;
   const Eigen::PartialPivLU<ComplexMatrix> lu(R.transpose());
   Z = lu.solve(Z.transpose()).transpose();

@@ -239,6 +239,26 @@ TEST(Regrouping, DoesNotPartAPairOfWhichOneCouldNotDoAlone) {
   EXPECT_EQ(node.tracks.size(), 1U);
 }
 
+/// Both whirls of an isotropic shaft in its own frame, s = +-j (1 - p), where they meet in zero up to
+/// rounding. Each of them is a polynomial, also where rounding happens to leave no trace in the functions of
+/// the block; but the series of one of them alone would be rounding over their distance.
+TEST(Regrouping, DoesNotPartThoseWhoCountAsEqualAtThePoint) {
+  const Matrix unit = Matrix::Identity(2, 2);
+  Planted family({{unit}, {Matrix::Zero(2, 2), Matrix{{0.0, -2.0}, {2.0, 0.0}}}, {unit, 0.0 * unit, -unit}});
+  const auto both = [](double p) { return std::vector<Together>{{{(1.0 - p) * j, (p - 1.0) * j}}}; };
+  const PathNode left = family.point(0.75, both(0.75));
+  for (const double beside : {std::exp2(-40), 0.125}) {
+    PathNode node = family.point(1.0 - beside, both(1.0 - beside));
+    ComplexMatrix& functions = node.tracks[0].functions;
+    functions.setZero();
+    functions.row(1).head(3) << -beside * beside, 2.0 * beside, -1.0;  // -(beside - h)^2
+    node.tracks[0].roots = ComplexVector{{beside * j, -beside * j}};
+    part(family.problem(), &left, node, 0.01, node.p - left.p, {1.0, 1e-6}, family.counts);
+    ASSERT_EQ(node.tracks.size(), 1U);
+    EXPECT_EQ(node.tracks[0].size(), beside > 0.1 ? 1 : 2) << beside;
+  }
+}
+
 TEST(Regrouping, WhoIsWhoBehindAMeetingOutlivesJoiningAndParting) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, -1.0}, {2.5, 0.3}}));
   PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j}}, {{2.5 * j}}});

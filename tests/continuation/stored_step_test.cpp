@@ -5,6 +5,7 @@
 
 #include "continuation/planted_search.hpp"
 #include "continuation/step/step_certificate.hpp"
+#include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -89,6 +90,32 @@ TEST(Certify, GoesOnBehindATrackThatMayFail) {
             (std::vector<bool>{false, false, true}));
   tests.assign(3, TrackTest::none);
   EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts), std::vector<bool>(3, false));
+}
+
+/// A mode in the chart of s, and two eigenvalues, with their conjugates, in that of 1/s, whose mass goes to
+/// zero. How far these are from that one is a difference of reciprocals, in every unit of time.
+TEST(Certify, ClosesInBothChartsInAnyUnitOfTime) {
+  const Matrix light{{1.0, 0.0}, {0.0, 0.0}}, heavy{{0.0, 0.0}, {0.0, 1.0}};
+  const Matrix damping{{0.1, 0.05}, {0.05, 0.4}}, stiffness{{1.0, 0.2}, {0.2, 1.0}};
+  for (const double time : {1e-5, 1.0, 1e5}) {
+    const Matrix C = damping / time, K = stiffness / (time * time);
+    PlantedSearch planted(Planted({{light, heavy}, {C}, {K}}));
+    const auto tracks = [&](double p) {
+      const Spectrum spectrum = compute_spectrum(light + p * heavy, C, K);
+      Together fast{{}, Chart::reciprocal};
+      for (std::size_t i = 1; i < spectrum.modes.size(); ++i) {
+        fast.s.push_back(spectrum.modes[i].s);
+        if (fast.s.back().imag() != 0.0) fast.s.push_back(std::conj(fast.s.back()));
+      }
+      return std::vector<Together>{{{spectrum.modes[0].s}}, fast};
+    };
+    const PathNode left = planted.family.point(0.16, tracks(0.16));
+    const Step step = planted.step(left, 0.01, tracks(0.01));
+    RunCounts counts;
+    std::vector<TrackTest> tests = strict(2);
+    EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts), (std::vector<bool>{true, true}))
+        << time;
+  }
 }
 
 TEST(Certify, DoesNotDependOnTheNumberOfThreads) {

@@ -169,6 +169,24 @@ TEST(StrandSampler, OrderOfSamplingDoesNotMatter) {
   }
 }
 
+/// Two of three that cross in the middle of the step, which is sampled before the places behind it. There
+/// rounding decides which of them is which.
+TEST(StrandSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
+  const auto by_size = [](double p) {
+    Vector w{{2.0 + p, 2.2, 2.9 - p}};
+    std::sort(w.begin(), w.end());
+    return w;
+  };
+  const BlockStep step(uncoupled(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}), by_size, 0.0, 0.9);
+  for (int i = 0; i < 20; ++i) {
+    StrandSampler sampler = step.sampler();
+    sampler(0.025 * i);
+    sampler(0.5);
+    for (const double t : {0.5625, 0.625, 0.75, 1.0})
+      EXPECT_LT((sampler(t) - step.expected(t)).norm(), rounding) << t << " behind " << 0.025 * i;
+  }
+}
+
 TEST(StrandSampler, FirstCallMayBeAnywhere) {
   const BlockStep step = crossing();
   for (const double t : places) {

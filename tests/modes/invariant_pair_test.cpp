@@ -381,6 +381,31 @@ TEST(InvariantPair, NormalizationKeepsTheScaleOfZeroEigenvalues) {
   }
 }
 
+/// Both whirls of an isotropic shaft in its own frame, s = +-j (1 - p), at p = 1, with the second coordinate
+/// in another unit. Lambda is linear in p, whatever the prediction of its value zero: the vectors are
+/// constant. With slopes in units of that prediction its coefficients would grow by a factor of 60 from one
+/// to the next.
+TEST(InvariantPair, SeriesOfABlockOfZerosDoNotDependOnTheirPrediction) {
+  const double unit = 1.05;
+  const Matrix D = Vector{{1.0, unit}}.asDiagonal();
+  const Matrix turn{{0.0, -unit}, {unit, 0.0}};
+  const ReducedPencil pencil{{D * D}, {2.0 * turn, 2.0 * turn}, {Matrix::Zero(2, 2), -2.0 * D * D, -D * D}};
+  for (const double error : {1e-16, 1e-4, 1e-2}) {
+    SCOPED_TRACE(error);
+    InvariantPair start;
+    start.is_real = true;
+    start.Z = ComplexMatrix::Identity(2, 2);
+    start.Lambda = error * turn.inverse().cast<Complex>();
+    ModeCounts counts;
+    const InvariantPair pair = correct_pair(PencilAtPoint(pencil), start, 1e-3, {}, counts);
+    ASSERT_EQ(pair.status, PairStatus::converged);
+    EXPECT_EQ(pair.W.bottomRows(2).norm(), 0.0);
+    const PairSeries series = differentiate_pair(pencil, pair, 4, counts);
+    EXPECT_NEAR(series.Lambda[1].norm(), std::hypot(unit, 1.0 / unit), 1e-3);
+    for (std::size_t i = 2; i < series.Lambda.size(); ++i) EXPECT_LT(series.Lambda[i].norm(), 1e-12) << i;
+  }
+}
+
 /// A pair that is nearly defective beside a third eigenvalue: rounding of the residual moves Z by much more
 /// than its own rounding, so that corrections stay long. The residual tells that nothing is left to correct.
 TEST(InvariantPair, NearlyDefectiveBlockBesideAThirdEigenvalueConverges) {

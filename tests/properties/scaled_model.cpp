@@ -24,6 +24,12 @@ std::vector<Units> other_units() {
   return units;
 }
 
+double factorizations(const RunCounts& counts) {
+  return static_cast<double>(counts.modes.factorizations + counts.modes.modal_bases +
+                             counts.certificate_factorizations + counts.certificate_bases +
+                             counts.event_factorizations);
+}
+
 ScaledModel::ScaledModel(const Model& model, const Units& units)
     : Model(model.description()),
       model_(model),

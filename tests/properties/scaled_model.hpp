@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/continuation/path_node.hpp"
 #include "eigentrail/model/model.hpp"
 
 namespace eigentrail::test {
@@ -22,6 +23,9 @@ void PrintTo(const Units& units, std::ostream* out);
 
 /// Every unit by 10^+-6, lengths also beside angles.
 std::vector<Units> other_units();
+
+/// All that a trace has factored: for its modes, its certificate and its events.
+double factorizations(const RunCounts& counts);
 
 /// A model in other units: with x = L y, M' = m L M L, C' = m L C L / t, K' = m L K L / t^2, A' = A L. The
 /// equations keep their parameters. Keeps a reference to the model.

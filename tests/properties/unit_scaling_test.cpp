@@ -61,6 +61,18 @@ TEST_P(InUnits, HardCasesTakeAsManyPointsAndHaveTheSameEvents) {
   }
 }
 
+/// Blocks that pass through zero, and one that runs through infinity beside a finite mode.
+TEST_P(InUnits, BlocksOnTheirWayThroughZeroAndInfinityTakeAsManyFactorizations) {
+  for (const HardCase& hard_case : hard_cases()) {
+    const std::string& name = hard_case.name;
+    if (name != "whirl_through_zero" && name != "whirl_damped" && name != "mass_through_zero") continue;
+    const TraceResult own = traced(make_setting(hard_case.scene), {});
+    const TraceResult other = traced(make_setting(hard_case.scene), GetParam());
+    const double count = factorizations(own.counts);
+    EXPECT_NEAR(factorizations(other.counts), count, 0.2 * count) << name;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scaled, InUnits, testing::ValuesIn(other_units()),
                          [](const auto& tested) { return tested.param.name; });
 

@@ -25,12 +25,6 @@ TraceResult traced(const HardCase& hard_case, const std::string& tolerance, cons
   return record_trace(setting).result;
 }
 
-double factorizations(const RunCounts& counts) {
-  return static_cast<double>(counts.modes.factorizations + counts.modes.modal_bases +
-                             counts.certificate_factorizations + counts.certificate_bases +
-                             counts.event_factorizations);
-}
-
 bool changes(double own, double other) {
   constexpr double most = 0.2;
   return std::abs(other - own) > most * own;

@@ -163,8 +163,9 @@ struct InvariantPair {
 
 /// Changes the basis of a pair so that [Z; Z Lambda / gamma] has orthonormal columns, from which the
 /// normalization W is formed. gamma = max(|Lambda| / sqrt(k / 2), reference) balances the two halves;
-/// `reference` keeps eigenvalues that count as zero from making the lower half dominant. For a block of one
-/// mode W1 = 0 and |z| = 1. The eigenvalues of Lambda do not change.
+/// `reference` keeps eigenvalues that count as zero from making the lower half dominant. Where the columns of
+/// Z are independent by themselves, W1 = 0 and they are orthonormal; for a block of one mode |z| = 1. The
+/// eigenvalues of Lambda do not change.
 void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, double reference);
 
 /// Refines a pair by the chord-Newton method. `reference` > 0 is the magnitude below which an eigenvalue (1/s

@@ -25,7 +25,8 @@ double gap_of(const PathNode& node, std::size_t index) {
       const Track& other = node.tracks[j];
       if (j == index || other.pair.part != track.pair.part) continue;
       for (const Complex s : other.roots) {
-        const Complex here = other.pair.chart == track.pair.chart ? s : chart_value(s, other.pair.chart);
+        // Into either chart from the other one it is the reciprocal.
+        const Complex here = other.pair.chart == track.pair.chart ? s : chart_value(s, Chart::reciprocal);
         if (std::isfinite(here.real())) gap = std::min(gap, std::abs(here - root));
       }
     }

@@ -156,6 +156,12 @@ namespace {
 /// eigenvalue.
 constexpr double told_apart = 1e-5;
 
+/// Distance up to which eigenvalues of a block count as equal. `reference`: magnitude below which eigenvalues
+/// count as zero. It is the scale where a pair passes through the origin and the block itself is nearly zero.
+double rounding_of_eigenvalues(const Track& track, double reference) {
+  return told_apart * std::max(track.pair.Lambda.norm(), reference);
+}
+
 /// Indices with the same label, below their number, as lists.
 std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
   std::vector<std::vector<int>> result(labels.size());
@@ -166,9 +172,7 @@ std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
 }
 
 /// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
-/// connected by meetings within the reach of a step to either side. `reference`: magnitude below which
-/// eigenvalues count as zero. It is the scale where a pair passes through the origin and the block itself is
-/// nearly zero.
+/// connected by meetings within the reach of a step to either side.
 std::vector<std::vector<int>> groups(const Track& track, double reference, double h, double reach) {
   const Eigen::Index k = track.size();
   std::vector<int> group(static_cast<std::size_t>(k));
@@ -176,13 +180,12 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
   std::vector<ComplexVector> series;
   for (const Complex root : track.roots) series.push_back(root_series(track.functions, root));
   const double limit = reach * std::abs(h);
-  const double scale = std::max(track.pair.Lambda.norm(), reference);
+  const double equal = rounding_of_eigenvalues(track, reference);
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       const auto& a = series[static_cast<std::size_t>(i)];
       const auto& b = series[static_cast<std::size_t>(j)];
-      const bool apart =
-          std::abs(track.roots[i] - track.roots[j]) > told_apart * scale && a.size() > 0 && b.size() > 0;
+      const bool apart = std::abs(track.roots[i] - track.roots[j]) > equal && a.size() > 0 && b.size() > 0;
       // Meetings at places where the series are not accurate count, so that the eigenvalues stay together:
       // close to a meeting of three or more eigenvalues no series converges.
       const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit, Doubtful::counts) < limit ||
@@ -259,7 +262,9 @@ std::vector<std::vector<int>> without_bystanders(const Vector& errors, double ac
 
 /// Whether the groups can be separated. Eigenvalues of different groups whose distance is small against the
 /// norm of the centred Lambda (less the mean times the unit matrix) are nearly defective; then they cannot.
-bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& groups) {
+/// Nor can those that count as equal: in the series of a single one every term has the rounding of the term
+/// before it, divided by their distance.
+bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& groups, double reference) {
   // The condition of the eigenvectors is about the reciprocal of this share.
   constexpr double nearly_defective = 1e-4;
   ComplexMatrix N = block.pair.Lambda;
@@ -272,7 +277,7 @@ bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& gro
       }
     }
   }
-  return gap > nearly_defective * N.norm();
+  return gap > std::max(nearly_defective * N.norm(), rounding_of_eigenvalues(block, reference));
 }
 
 /// The tracks into which a block is separated; empty if one of them does not converge.
@@ -342,7 +347,7 @@ std::optional<Track> without(const PathProblem& problem, const PathNode& node, c
   for (int i = 0; i < static_cast<int>(track.size()); ++i) {
     if (std::find(members.begin(), members.end(), i) == members.end()) others.push_back(i);
   }
-  if (!are_told_apart(track, {members, others})) return std::nullopt;
+  if (!are_told_apart(track, {members, others}, problem.reference(track.pair.chart))) return std::nullopt;
   std::vector<Track> parts = parts_of(problem, node, track, {others}, counts);
   if (parts.empty()) return std::nullopt;
   return std::move(parts.front());
@@ -356,7 +361,8 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
     Track& track = node.tracks[i];
     std::vector<Track> parts;
     if (track.size() > 1) {
-      auto members = groups(track, problem.reference(track.pair.chart), h, rules.reach);
+      const double reference = problem.reference(track.pair.chart);
+      auto members = groups(track, reference, h, rules.reach);
       const bool comparable =
           left != nullptr && i < left->tracks.size() && left->tracks[i].size() == track.size();
       if (members.size() == 1 && comparable) {
@@ -367,7 +373,7 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
                                      share * rules.accepted);
       }
       members = with_mirrored(track, with_inseparable(track, std::move(members)));
-      if (members.size() > 1 && are_told_apart(track, members))
+      if (members.size() > 1 && are_told_apart(track, members, reference))
         parts = parts_of(problem, node, track, members, counts);
     }
     if (parts.empty()) {

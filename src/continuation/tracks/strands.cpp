@@ -40,12 +40,22 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
 
 StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
     : functions_(functions_on_step(left, right, index, length)) {
-  double position = 0.0;
   const Track& track = left.tracks[index];
-  ComplexVector roots = departing_roots(track, length, position);
+  ComplexVector roots = departing_roots(track, length, start_);
   rounding_ = coinciding * track.pair.Lambda.norm();
-  resolutions_ = root_resolutions(functions_(position), roots);
-  known_.emplace(position, std::move(roots));
+  resolutions_ = root_resolutions(functions_(start_), roots);
+  known_.emplace(start_, std::move(roots));
+}
+
+bool StrandSampler::are_distinct(const ComplexVector& roots) const {
+  const ComplexVector& start = known_.at(start_);
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double least = resolution(i, j);
+      if (std::abs(roots[i] - roots[j]) <= least && std::abs(start[i] - start[j]) > least) return false;
+    }
+  }
+  return true;
 }
 
 const ComplexVector& StrandSampler::operator()(double t) {
@@ -53,7 +63,10 @@ const ComplexVector& StrandSampler::operator()(double t) {
   const auto nearest = above == known_.begin() ? above : std::prev(above);
   if (nearest->first == t) return nearest->second;
   if (functions_.size() == 1) return single_ = functions_(t);
-  return known_.emplace(t, follow_roots(functions_, nearest->second, nearest->first, t)).first->second;
+  // At a place where two of them cross, rounding decides which is which: from there none can be followed.
+  auto from = nearest;
+  while (from != known_.begin() && !are_distinct(from->second)) --from;
+  return known_.emplace(t, follow_roots(functions_, from->second, from->first, t)).first->second;
 }
 
 double StrandSampler::resolution_at(double t, Eigen::Index i, Eigen::Index j) {

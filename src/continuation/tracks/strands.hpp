@@ -39,9 +39,13 @@ class StrandSampler {
   const ComplexVector& operator()(double t);
 
  private:
+  /// Whether eigenvalues that are distinct at the left end are so in another set of them, too.
+  bool are_distinct(const ComplexVector& roots) const;
+
   HermiteInterpolant functions_;
   double rounding_ = 0.0;                  ///< distance within which any two coincide
   Vector resolutions_;                     ///< of the eigenvalues at the left end (root_resolutions)
+  double start_ = 0.0;                     ///< t of the first ones, at the left end or beside it
   std::map<double, ComplexVector> known_;  ///< by t
   ComplexVector single_;                   ///< the root of a track that has one, at the last t
 };
