@@ -7,22 +7,27 @@
 #include "core/singular_vectors.hpp"
 
 namespace eigentrail {
+namespace {
 
-EnergyNorm::EnergyNorm(Matrix root, Matrix inverse_root)
-    : root_(std::move(root)), inverse_root_(std::move(inverse_root)) {}
-
-std::shared_ptr<const EnergyNorm> EnergyNorm::of(const PencilAtPoint& pencil, double shift) {
-  const SingularVectors<Matrix> of_P =
-      singular_vectors(Matrix(shift * shift * pencil.M + shift * pencil.C + pencil.K));
+/// H of P = Q H. Empty if P is singular or not finite.
+Matrix polar_factor(Matrix P) {
+  const SingularVectors<Matrix> of_P = singular_vectors(std::move(P));
   const Vector& values = of_P.values;
   const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(values.size());
   // Not a number is not above it either.
-  if (values.size() == 0 || !(values.minCoeff() > rounding * values.maxCoeff())) return nullptr;
-  const Vector roots = values.cwiseSqrt();
-  const auto with = [&](const Vector& diagonal) {
-    return product(Matrix(of_P.V * diagonal.asDiagonal()), Matrix(of_P.V.transpose()));
-  };
-  return std::shared_ptr<const EnergyNorm>(new EnergyNorm(with(roots), with(roots.cwiseInverse())));
+  if (values.size() == 0 || !(values.minCoeff() > rounding * values.maxCoeff())) return {};
+  return product(Matrix(of_P.V * values.asDiagonal()), Matrix(of_P.V.transpose()));
+}
+
+}  // namespace
+
+EnergyNorm::EnergyNorm(BandCholesky root) : root_(std::move(root)) {}
+
+std::shared_ptr<const EnergyNorm> EnergyNorm::of(const PencilAtPoint& pencil, double shift) {
+  Matrix P = shift * shift * pencil.M + shift * pencil.C + pencil.K;
+  BandCholesky root(0.5 * (P + P.transpose()));
+  if (!root.exists()) root = BandCholesky(polar_factor(std::move(P)));
+  return root.exists() ? std::shared_ptr<const EnergyNorm>(new EnergyNorm(std::move(root))) : nullptr;
 }
 
 }  // namespace eigentrail

@@ -20,15 +20,23 @@ class TubeNorm {
   /// From here on adapted; `norm` is one of the unknowns in the energy norm.
   void set_adapted(AdaptedNorm norm) { adapted_ = std::move(norm); }
 
-  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back.
-  /// Both maps are Hermitian.
+  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back;
+  /// and with what the adjoints of both maps make of it.
   template <class Columns>
   void to_energy(Columns& X) const {
-    if (energy_) scale(X, energy_->root(), factor_);
+    scale(X, &BandCholesky::apply, factor_);
   }
   template <class Columns>
   void from_energy(Columns& X) const {
-    if (energy_) scale(X, energy_->inverse_root(), 1.0 / factor_);
+    scale(X, &BandCholesky::solve, 1.0 / factor_);
+  }
+  template <class Columns>
+  void to_energy_adjoint(Columns& X) const {
+    scale(X, &BandCholesky::apply_transposed, factor_);
+  }
+  template <class Columns>
+  void from_energy_adjoint(Columns& X) const {
+    scale(X, &BandCholesky::solve_transposed, 1.0 / factor_);
   }
 
   /// Overwrites x with S x, S^H x, S^-1 x, S^-H x.
@@ -41,8 +49,16 @@ class TubeNorm {
   double largest_eigenvalue_part() const;
 
  private:
+  using MapOfVector = void (BandCholesky::*)(Complex*) const;
+  /// Overwrites every column of Z in every column of X with `factor` times what the map makes of it.
   template <class Columns>
-  void scale(Columns& X, const Matrix& root, double factor) const;
+  void scale(Columns& X, MapOfVector map, double factor) const {
+    if (!energy_) return;
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      for (Eigen::Index i = 0; i < k_; ++i) (energy_->root().*map)(X.col(j).data() + i * n_);
+    }
+    X.topRows(n_ * k_) *= factor;
+  }
 
   Eigen::Index n_, k_;
   std::shared_ptr<const EnergyNorm> energy_;

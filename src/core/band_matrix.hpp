@@ -1,0 +1,44 @@
+// Square matrices whose entries are zero away from the diagonal, in LAPACK's band storage: column j of the
+// matrix is column j of the storage, and its diagonal is a row of it. Models of beams, whose nodes are
+// numbered along them, have such matrices. Products and solutions take O(n width) multiplications.
+#pragma once
+
+#include "eigentrail/core/types.hpp"
+
+namespace eigentrail {
+
+/// The largest |i - j| of an entry that is not zero, or `least` if that is larger. Cost: reads A once.
+Eigen::Index band_width(const Matrix& A, Eigen::Index least = 0);
+
+/// The entries within `width` of the diagonal: A(i, j) in row width + i - j, (2 width + 1) x n.
+Matrix band_of(const Matrix& A, Eigen::Index width);
+
+/// A X and A^T X, where `band` holds A.
+ComplexMatrix band_product(const Matrix& band, const ComplexMatrix& X);
+ComplexMatrix transposed_band_product(const Matrix& band, const ComplexMatrix& X);
+
+/// Adds A x and A^H x to y, both of n entries.
+void add_band_product(const ComplexMatrix& band, const Complex* x, Complex* y);
+void add_adjoint_band_product(const ComplexMatrix& band, const Complex* x, Complex* y);
+
+/// The factor R of A = R^T R, upper triangular, of a symmetric positive definite matrix.
+class BandCholesky {
+ public:
+  /// The upper triangle of A is read. Cost: n width^2 / 2 multiplications.
+  explicit BandCholesky(const Matrix& A);
+
+  /// Whether A is positive definite, and not only by rounding. The maps are undefined if it is not.
+  bool exists() const { return exists_; }
+
+  /// Overwrites x (n) with R x, R^T x, R^-1 x, R^-T x.
+  void apply(Complex* x) const;
+  void apply_transposed(Complex* x) const;
+  void solve(Complex* x) const;
+  void solve_transposed(Complex* x) const;
+
+ private:
+  Matrix factor_;  ///< (width + 1) x n: the diagonal is the last row
+  bool exists_;
+};
+
+}  // namespace eigentrail
