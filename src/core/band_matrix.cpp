@@ -119,6 +119,23 @@ BandCholesky::BandCholesky(const Matrix& A) {
             (factor_.row(width).transpose().array().square() > rounding * A.diagonal().array()).all();
 }
 
+Matrix BandCholesky::full() const {
+  const Eigen::Index n = factor_.cols();
+  Matrix R = Matrix::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Index count = std::min(j, width()) + 1;
+    R.col(j).segment(j + 1 - count, count) = factor_.col(j).tail(count);
+  }
+  return R;
+}
+
+Matrix BandCholesky::full_inverse() const {
+  Matrix R = full();
+  const auto n = static_cast<lapack_int>(R.rows());
+  LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'U', 'N', n, R.data(), n);
+  return R;
+}
+
 void BandCholesky::apply(Complex* x) const {
   for_both_parts(dtbmv_, 'N', factor_, x);
 }

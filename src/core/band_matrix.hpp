@@ -10,6 +10,13 @@ namespace eigentrail {
 /// The largest |i - j| of an entry that is not zero, or `least` if that is larger. Cost: reads A once.
 Eigen::Index band_width(const Matrix& A, Eigen::Index least = 0);
 
+/// Whether products and solutions with bands of n columns are faster than with full matrices, or about as
+/// fast: from 64 columns on (smaller matrices are in the fastest cache as they are), and for at most a tenth
+/// of them on either side of the diagonal. It affects only the time.
+constexpr bool is_narrow_band(Eigen::Index width, Eigen::Index n) {
+  return n >= 64 && 10 * width <= n;
+}
+
 /// The entries within `width` of the diagonal: A(i, j) in row width + i - j, (2 width + 1) x n.
 Matrix band_of(const Matrix& A, Eigen::Index width);
 
@@ -29,6 +36,11 @@ class BandCholesky {
 
   /// Whether A is positive definite, and not only by rounding. The maps are undefined if it is not.
   bool exists() const { return exists_; }
+
+  Eigen::Index width() const { return factor_.rows() - 1; }
+  /// R and R^-1 as full matrices. Cost of the inverse: n^3 / 6 multiplications.
+  Matrix full() const;
+  Matrix full_inverse() const;
 
   /// Overwrites x (n) with R x, R^T x, R^-1 x, R^-T x.
   void apply(Complex* x) const;

@@ -29,9 +29,7 @@ Matrix value_of(const ReducedPencil& pencil, double shift) {
 Matrix root_of(const ReducedPencil& pencil, double shift) {
   const auto norm = EnergyNorm::of(PencilAtPoint(pencil), shift);
   if (!norm) throw std::runtime_error("there is no energy norm");
-  ComplexMatrix R = ComplexMatrix::Identity(pencil.size(), pencil.size());
-  for (Eigen::Index j = 0; j < R.cols(); ++j) norm->root().apply(R.col(j).data());
-  return R.real();
+  return norm->times(ComplexMatrix::Identity(pencil.size(), pencil.size())).real();
 }
 
 /// |P^-1 dP| in the energy norm of a pencil at a shift.
@@ -92,6 +90,21 @@ TEST(EnergyNorm, IsThatOfThePolarDecompositionWhereItIsNot) {
   const Matrix R = root_of(family, 1.3);
   const Matrix H = R.transpose() * R;
   EXPECT_LT((H * H - P.transpose() * P).norm(), 1e-12 * P.squaredNorm());
+}
+
+/// By bands and by full matrices, of the energy and of the polar decomposition.
+TEST(EnergyNorm, HasInversesAndTransposes) {
+  ReducedPencil indefinite = at(random_family(7, 3), 0.2);
+  indefinite.K[0].row(2) *= -3.0;
+  for (const ReducedPencil& pencil : {Chain(70, 50.0).pencil, Chain(6, 50.0).pencil, indefinite}) {
+    const auto norm = EnergyNorm::of(PencilAtPoint(pencil), 1.3);
+    ASSERT_TRUE(norm);
+    const ComplexMatrix I = ComplexMatrix::Identity(pencil.size(), pencil.size());
+    const ComplexMatrix R = norm->times(I);
+    EXPECT_LT((norm->inverse_times(R) - I).norm(), 1e-11);
+    EXPECT_LT((norm->transposed_times(I) - R.transpose()).norm(), 1e-13 * R.norm());
+    EXPECT_LT((norm->inverse_transposed_times(R.transpose()) - I).norm(), 1e-11);
+  }
 }
 
 /// A change of coordinates of a symmetric pencil changes the plain norm by the square of its condition, and

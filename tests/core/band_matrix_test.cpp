@@ -74,6 +74,9 @@ TEST(BandCholesky, IsATriangularRoot) {
     root.solve_transposed(y.data());
     root.solve(y.data());
     EXPECT_LT((y - x).norm(), 1e-13) << width;
+    EXPECT_EQ(root.width(), width);
+    EXPECT_LT((root.full().transpose() * root.full() - A).norm(), 1e-13 * A.norm());
+    EXPECT_LT((root.full() * root.full_inverse() - Matrix::Identity(8, 8)).norm(), 1e-13);
   }
 }
 

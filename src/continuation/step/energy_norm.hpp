@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/band_matrix.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
@@ -14,16 +15,24 @@ namespace eigentrail {
 /// energy; else the positive definite factor of the polar decomposition P = Q H.
 class EnergyNorm {
  public:
-  /// By a Cholesky factorization; if the symmetric part is not positive definite, after a singular value
+  /// By a Cholesky factorization; if the symmetric part is not positive definite, by a singular value
   /// decomposition in about 8 n^3 multiplications. Null if P is singular or not finite.
   static std::shared_ptr<const EnergyNorm> of(const PencilAtPoint& pencil, double shift);
 
-  const BandCholesky& root() const { return root_; }  ///< R
+  /// R X, R^T X, R^-1 X and R^-T X for the columns of X, n rows.
+  ComplexMatrix times(const ComplexMatrix& X) const;
+  ComplexMatrix transposed_times(const ComplexMatrix& X) const;
+  ComplexMatrix inverse_times(const ComplexMatrix& X) const;
+  ComplexMatrix inverse_transposed_times(const ComplexMatrix& X) const;
 
  private:
-  explicit EnergyNorm(BandCholesky root);
+  EnergyNorm(Matrix root, Matrix inverse_root);
+  explicit EnergyNorm(BandCholesky band);
+  /// Of the polar decomposition; null as above.
+  static std::shared_ptr<const EnergyNorm> of_polar_factor(Matrix P);
 
-  BandCholesky root_;
+  std::optional<BandCholesky> band_;  ///< R where it is banded
+  Matrix root_, inverse_root_;        ///< R and R^-1 where it is not
 };
 
 }  // namespace eigentrail

@@ -15,13 +15,6 @@ namespace {
 /// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
 constexpr std::size_t most_samples = 64;
 
-/// Bands are used where they are at most this share of the coordinates wide, on either side of the diagonal:
-/// products and solutions with wider ones would take longer than with full matrices.
-constexpr Eigen::Index share_of_band = 10;
-/// The same of the number of coordinates. Smaller matrices are in the fastest cache as they are. Both affect
-/// only the time.
-constexpr Eigen::Index least_banded = 64;
-
 /// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS or leave zeros out.
 MatrixSeries transformed(const MatrixSeries& G, const MatrixSeries& B, int order) {
   const auto count = static_cast<std::size_t>(order) + 1;
@@ -146,13 +139,13 @@ bool StepPencil::has_constant_leading_matrix() const {
 
 std::optional<Eigen::Index> StepPencil::find_width() const {
   const Eigen::Index n = left_pencil_.size();
-  if (n < least_banded || left_pencil_.chirality != 0) return std::nullopt;
+  if (!is_narrow_band(0, n) || left_pencil_.chirality != 0) return std::nullopt;
   Eigen::Index width = 0;
   for (const ReducedPencil* pencil : {&left_pencil_, &right_}) {
     for (const MatrixSeries* series : {&pencil->K, &pencil->C, &pencil->M}) {
       for (const Matrix& coefficient : *series) {
         width = band_width(coefficient, width);
-        if (share_of_band * width > n) return std::nullopt;
+        if (!is_narrow_band(width, n)) return std::nullopt;
       }
     }
   }

@@ -8,10 +8,7 @@ namespace eigentrail {
 
 void TubeNorm::set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z) {
   energy_ = std::move(energy);
-  if (!energy_) return;
-  ComplexMatrix RZ = Z;
-  for (Eigen::Index j = 0; j < RZ.cols(); ++j) energy_->root().apply(RZ.col(j).data());
-  factor_ = Z.norm() / RZ.norm();
+  if (energy_) factor_ = Z.norm() / energy_->times(Z).norm();
 }
 
 void TubeNorm::apply(ComplexVector& x) const {

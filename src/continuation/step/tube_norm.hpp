@@ -24,19 +24,19 @@ class TubeNorm {
   /// and with what the adjoints of both maps make of it.
   template <class Columns>
   void to_energy(Columns& X) const {
-    scale(X, &BandCholesky::apply, factor_);
+    scale(X, &EnergyNorm::times, factor_);
   }
   template <class Columns>
   void from_energy(Columns& X) const {
-    scale(X, &BandCholesky::solve, 1.0 / factor_);
+    scale(X, &EnergyNorm::inverse_times, 1.0 / factor_);
   }
   template <class Columns>
   void to_energy_adjoint(Columns& X) const {
-    scale(X, &BandCholesky::apply_transposed, factor_);
+    scale(X, &EnergyNorm::transposed_times, factor_);
   }
   template <class Columns>
   void from_energy_adjoint(Columns& X) const {
-    scale(X, &BandCholesky::solve_transposed, 1.0 / factor_);
+    scale(X, &EnergyNorm::inverse_transposed_times, 1.0 / factor_);
   }
 
   /// Overwrites x with S x, S^H x, S^-1 x, S^-H x.
@@ -49,15 +49,15 @@ class TubeNorm {
   double largest_eigenvalue_part() const;
 
  private:
-  using MapOfVector = void (BandCholesky::*)(Complex*) const;
+  using Map = ComplexMatrix (EnergyNorm::*)(const ComplexMatrix&) const;
   /// Overwrites every column of Z in every column of X with `factor` times what the map makes of it.
   template <class Columns>
-  void scale(Columns& X, MapOfVector map, double factor) const {
+  void scale(Columns& X, Map map, double factor) const {
     if (!energy_) return;
-    for (Eigen::Index j = 0; j < X.cols(); ++j) {
-      for (Eigen::Index i = 0; i < k_; ++i) (energy_->root().*map)(X.col(j).data() + i * n_);
+    for (Eigen::Index i = 0; i < k_; ++i) {
+      auto block = X.middleRows(i * n_, n_);
+      block = factor * ((*energy_).*map)(block);
     }
-    X.topRows(n_ * k_) *= factor;
   }
 
   Eigen::Index n_, k_;
