@@ -2,8 +2,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "eigentrail/modes/invariant_pair.hpp"
+#include "modes/bordered_band.hpp"
 
 namespace eigentrail {
 
@@ -69,12 +71,41 @@ ComplexMatrix bordered_matrix(const PencilAtPoint& pencil, Complex mu, const Com
 
 }  // namespace
 
-BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X,
-                       const ComplexMatrix& Y, const ComplexMatrix& D)
-    : n_(pencil.size()),
-      k_(D.rows()),
-      chirality_(pencil.chirality),
-      lu_(bordered_matrix(pencil, mu, X, Y, D)) {}
+BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& Z,
+                       const ComplexMatrix& X, const ComplexMatrix& Y, const ComplexMatrix& D)
+    : n_(pencil.size()), k_(D.rows()), chirality_(pencil.chirality) {
+  if (pencil.bands && chirality_ == 0) {
+    auto factors = std::make_shared<const BorderedBand>(pencil.bands.sum(mu * mu, mu, 1.0), Z, X, Y, D);
+    if (factors->is_accurate()) banded_ = std::move(factors);
+  }
+  if (!banded_) lu_.emplace(bordered_matrix(pencil, mu, X, Y, D));
+}
+
+template <class Vectors, class Solve>
+void BorderedLu::solve(Vectors& b, const Solve& by) const {
+  if (banded_) return by(*banded_, b);
+  if (chirality_ == 0) return by(*lu_, b);
+  Vectors within = restricted(b);
+  by(*lu_, within);
+  b.topRows(n_) = from_chiral_coordinates(within.topRows(n_ / 2), chirality_);
+  b.bottomRows(k_) = within.bottomRows(k_);
+}
+
+void BorderedLu::solve_in_place(ComplexVector& b) const {
+  solve(b, [](const auto& factors, ComplexVector& x) { factors.solve_in_place(x); });
+}
+
+void BorderedLu::solve_in_place(ComplexMatrix& B) const {
+  solve(B, [](const auto& factors, ComplexMatrix& X) { factors.solve_in_place(X); });
+}
+
+void BorderedLu::solve_adjoint_in_place(ComplexVector& b) const {
+  solve(b, [](const auto& factors, ComplexVector& x) { factors.solve_adjoint_in_place(x); });
+}
+
+void BorderedLu::solve_adjoint_in_place(ComplexMatrix& B) const {
+  solve(B, [](const auto& factors, ComplexMatrix& X) { factors.solve_adjoint_in_place(X); });
+}
 
 ComplexMatrix BorderedLu::restricted(const ComplexMatrix& b) const {
   ComplexMatrix within(n_ / 2 + k_, b.cols());
@@ -94,10 +125,12 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
     T = schur.matrixT().triangularView<Eigen::Upper>();
     ZU = Z * schur.matrixU();
     WU = W * schur.matrixU();
-    coupling_ = {pencil.M, pencil.C, schur.matrixU(), T, T * T, ZU, WU.bottomRows(n)};
+    const auto full = [&](const Matrix& B) { return pencil.bands ? Matrix() : B; };
+    coupling_ = {full(pencil.M),  full(pencil.C), pencil.bands, schur.matrixU(), T, T * T, ZU,
+                 WU.bottomRows(n)};
   }
-  const ComplexMatrix MZ = multiply(pencil.M, ZU);
-  const ComplexMatrix CZ = multiply(pencil.C, ZU);
+  const ComplexMatrix MZ = multiply(pencil.M, pencil.bands.M, ZU);
+  const ComplexMatrix CZ = multiply(pencil.C, pencil.bands.C, ZU);
   const ComplexMatrix WZ = WU.bottomRows(n).adjoint() * ZU;
   // The border is scaled by the sum of the norms of the terms of P. For n = 1 the norm of P itself is zero at
   // an eigenvalue.
@@ -108,12 +141,13 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const double slope = (2.0 * MZ * T + CZ).norm();
   slope_scale_ = slope > 0.0 ? size / slope : size;
   border_scale_ = size;
-  if (k == 1 && pencil.chirality == 0 && factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ))
+  if (k == 1 && pencil.chirality == 0 && !pencil.bands &&
+      factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ))
     return;
   columns_.reserve(static_cast<std::size_t>(k));
   for (Eigen::Index j = 0; j < k; ++j) {
     const Complex t = T(j, j);
-    columns_.emplace_back(pencil, t, slope_scale_ * (MZ * (T + t * ComplexMatrix::Identity(k, k)) + CZ),
+    columns_.emplace_back(pencil, t, ZU, slope_scale_ * (MZ * (T + t * ComplexMatrix::Identity(k, k)) + CZ),
                           border_scale_ * (WU.topRows(n).adjoint() + t * WU.bottomRows(n).adjoint()),
                           border_scale_ * slope_scale_ * WZ);
   }
@@ -221,7 +255,7 @@ void PairFactorization::from_schur_form(const InSchurForm& columns, ComplexMatri
 }
 
 void PairFactorization::solve_block(ComplexMatrix& B) const {
-  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
+  const auto& [M, C, bands, U, T, T2, Z, W1] = *coupling_;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const Eigen::Index m = B.cols();
@@ -239,7 +273,7 @@ void PairFactorization::solve_block(ComplexMatrix& B) const {
         Xt2 += T2(i, j) * X.middleCols(i * m, m);
         Yt += T(i, j) * Y.middleCols(i * m, m);
       }
-      Xj -= multiply(M, Xt2 + Z.lazyProduct(Yt)) + multiply(C, Xt);
+      Xj -= multiply(M, bands.M, Xt2 + Z.lazyProduct(Yt)) + multiply(C, bands.C, Xt);
       Yj -= W1.adjoint() * Xt;
     }
     column << Xj, border_scale_ * Yj;
@@ -251,7 +285,7 @@ void PairFactorization::solve_block(ComplexMatrix& B) const {
 }
 
 void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
-  const auto& [M, C, U, T, T2, Z, W1] = *coupling_;
+  const auto& [M, C, bands, U, T, T2, Z, W1] = *coupling_;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
   const Eigen::Index m = B.cols();
@@ -266,8 +300,8 @@ void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
     X.middleCols(j * m, m) = Xj;
     Y.middleCols(j * m, m) = Yj;
     if (j == 0) break;
-    const ComplexMatrix MX = transposed_multiply(M, Xj);
-    const ComplexMatrix Xt = transposed_multiply(C, Xj) + W1.lazyProduct(Yj);
+    const ComplexMatrix MX = transposed_multiply(M, bands.M, Xj);
+    const ComplexMatrix Xt = transposed_multiply(C, bands.C, Xj) + W1.lazyProduct(Yj);
     const ComplexMatrix ZMX = Z.adjoint() * MX;
     for (Eigen::Index i = 0; i < j; ++i) {
       X.middleCols(i * m, m) -= std::conj(T2(i, j)) * MX + std::conj(T(i, j)) * Xt;

@@ -1,7 +1,9 @@
 #include "eigentrail/modes/pencil_at_point.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/band_matrix.hpp"
 #include "core/products.hpp"
 
 namespace eigentrail {
@@ -65,6 +67,15 @@ Matrix leading_matrix(const Matrix& M, const Matrix& C, double per_mass) {
   return leading;
 }
 
+ComplexMatrix multiply(const Matrix& B, const std::shared_ptr<const Matrix>& band, const ComplexMatrix& Z) {
+  return band ? band_product(*band, Z) : multiply(B, Z);
+}
+
+ComplexMatrix transposed_multiply(const Matrix& B, const std::shared_ptr<const Matrix>& band,
+                                  const ComplexMatrix& Z) {
+  return band ? transposed_band_product(*band, Z) : transposed_multiply(B, Z);
+}
+
 PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)
     : M(chart == Chart::finite ? pencil.M[0] : pencil.K[0]),
       C(pencil.C[0]),
@@ -81,7 +92,17 @@ PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
       norm_M(chart == Chart::finite ? finite.norm_M : finite.norm_K),
       norm_C(finite.norm_C),
       norm_K(chart == Chart::finite ? finite.norm_K : finite.norm_M),
-      chirality(finite.chirality) {}
+      chirality(finite.chirality),
+      bands(finite.bands) {
+  if (chart == Chart::reciprocal) std::swap(bands.M, bands.K);
+}
+
+ComplexMatrix PencilBands::sum(Complex a, Complex b, double c) const {
+  ComplexMatrix sum(M->rows(), M->cols());
+  sum.real() = a.real() * *M + b.real() * *C + c * *K;
+  sum.imag() = a.imag() * *M + b.imag() * *C;
+  return sum;
+}
 
 ComplexMatrix PencilAtPoint::matrix(Complex mu) const {
   ComplexMatrix P(M.rows(), M.cols());

@@ -16,6 +16,7 @@
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/regroup.hpp"
 #include "support/families.hpp"
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
@@ -133,6 +134,46 @@ TEST(Certificate, StaysOpenWhereTheEndIsAnotherMode) {
   EXPECT_FALSE(step.certified(0));
   EXPECT_FALSE(step.certified(1));
   EXPECT_TRUE(step.certified(2));
+}
+
+/// A damped chain of masses, whose matrices have bands of width one, or its coordinates turned by a
+/// reflection, which fills the matrices and leaves all norms as they are.
+Setting chain_family(bool is_turned) {
+  constexpr Eigen::Index n = 70;
+  const auto springs = [](const auto& stiffness) {
+    Matrix K = Matrix::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double k = stiffness(static_cast<double>(i));
+      K(i, i) += k;
+      if (i > 0) K.block(i - 1, i - 1, 2, 2) += Matrix{{k, -k}, {-k, 0.0}};
+    }
+    return K;
+  };
+  Matrix Q = Matrix::Identity(n, n);
+  if (is_turned) Q -= Matrix::Constant(n, n, 2.0 / n);
+  const auto turned = [&](const Matrix& A) { return Matrix(Q.transpose() * A * Q); };
+  const Matrix damping = springs([](double i) { return 0.01 * (1.0 + std::sin(i)); });
+  const Matrix stiffness = springs([](double i) { return 10.0 + i; });
+  const Matrix change = springs([](double i) { return std::cos(i); });
+  return make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = " +
+                      text({turned(Matrix::Identity(n, n))}) + "\nC = " + text({turned(damping)}) +
+                      "\nK = " + text({turned(stiffness), turned(change)}) + "\n");
+}
+
+/// The factors of a banded pencil are others, and the certificate is the same.
+TEST(Certificate, IsTheSameByBandsAsByFullMatrices) {
+  Step banded(chain_family(false), 0.0, 0.03);
+  Step full(chain_family(true), 0.0, 0.03);
+  ASSERT_TRUE(StepPencil(banded.left, banded.right, 0.03).at(0.5)->at.bands);
+  ASSERT_FALSE(StepPencil(full.left, full.right, 0.03).at(0.5)->at.bands);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_TRUE(banded.certified(i)) << i;
+    EXPECT_TRUE(full.certified(i)) << i;
+  }
+  EXPECT_EQ(banded.counts.certificate_factorizations, full.counts.certificate_factorizations);
+  std::swap(banded.right.tracks[2], banded.right.tracks[3]);
+  EXPECT_FALSE(banded.certified(2));
+  EXPECT_FALSE(banded.certified(3));
 }
 
 struct NarrowVeering {

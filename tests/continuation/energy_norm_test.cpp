@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <array>
 #include <limits>
+#include <stdexcept>
 
 #include "continuation/step/tube_norm.hpp"
 #include "support/families.hpp"
@@ -23,10 +25,17 @@ Matrix value_of(const ReducedPencil& pencil, double shift) {
   return shift * shift * pencil.M[0] + shift * pencil.C[0] + pencil.K[0];
 }
 
+/// R of a pencil's norm at a shift. Fails if there is none.
+Matrix root_of(const ReducedPencil& pencil, double shift) {
+  const auto norm = EnergyNorm::of(PencilAtPoint(pencil), shift);
+  if (!norm) throw std::runtime_error("there is no energy norm");
+  return norm->times(ComplexMatrix::Identity(pencil.size(), pencil.size())).real();
+}
+
 /// |P^-1 dP| in the energy norm of a pencil at a shift.
 double change(const ReducedPencil& pencil, const Matrix& dP, double of_P, double shift) {
-  const auto norm = EnergyNorm::of(PencilAtPoint(pencil), shift);
-  return largest(norm->root() * value_of(pencil, of_P).lu().solve(dP) * norm->inverse_root());
+  const Matrix R = root_of(pencil, shift);
+  return largest(R * value_of(pencil, of_P).lu().solve(dP) * R.inverse());
 }
 
 /// A chain of masses on springs, fixed at one end. Every other spring is `ratio` times stiffer.
@@ -54,22 +63,48 @@ struct Chain {
 
 TEST(EnergyNorm, OfAPositiveDefinitePencilIsItsRoot) {
   const Chain chain(6, 50.0);
-  const auto norm = EnergyNorm::of(PencilAtPoint(chain.pencil), 0.7);
-  ASSERT_TRUE(norm);
+  const Matrix R = root_of(chain.pencil, 0.7);
   const Matrix P = value_of(chain.pencil, 0.7);
-  EXPECT_LT((norm->root() * norm->root() - P).norm(), 1e-13 * P.norm());
-  EXPECT_LT((norm->root() * norm->inverse_root() - Matrix::Identity(6, 6)).norm(), 1e-12);
+  EXPECT_LT((R.transpose() * R - P).norm(), 1e-13 * P.norm());
 }
 
-/// Of any pencil R^4 = P^T P.
-TEST(EnergyNorm, IsThatOfThePolarDecomposition) {
-  const ReducedPencil family = at(random_family(7, 3), 0.2);
-  const auto norm = EnergyNorm::of(PencilAtPoint(family), 1.3);
-  ASSERT_TRUE(norm);
+/// Gyroscopic and circulatory forces do no work that is stored: x^T P x is the energy all the same.
+TEST(EnergyNorm, IsTheEnergyWhereThatIsPositive) {
+  Chain chain(6, 50.0);
+  std::mt19937_64 engine(4);
+  const Matrix any = random_matrix(6, 6, engine);
+  chain.pencil.C[0] += any - any.transpose();
+  chain.pencil.K[0] += 5.0 * (any - any.transpose());
+  const Matrix R = root_of(chain.pencil, 0.7);
+  const Vector x = random_matrix(6, 1, engine);
+  const double energy = x.dot(value_of(chain.pencil, 0.7) * x);
+  EXPECT_NEAR((R * x).squaredNorm(), energy, 1e-12 * energy);
+}
+
+/// Otherwise (R^T R)^2 = P^T P.
+TEST(EnergyNorm, IsThatOfThePolarDecompositionWhereItIsNot) {
+  ReducedPencil family = at(random_family(7, 3), 0.2);
+  family.K[0].row(2) *= -3.0;
   const Matrix P = value_of(family, 1.3);
-  const Matrix square = norm->root() * norm->root();
-  EXPECT_LT((square * square - P.transpose() * P).norm(), 1e-12 * P.squaredNorm());
-  EXPECT_LT((norm->root() - norm->root().transpose()).norm(), 1e-13 * norm->root().norm());
+  ASSERT_LT(Vector((P + P.transpose()).eigenvalues().real()).minCoeff(), 0.0);
+  const Matrix R = root_of(family, 1.3);
+  const Matrix H = R.transpose() * R;
+  EXPECT_LT((H * H - P.transpose() * P).norm(), 1e-12 * P.squaredNorm());
+}
+
+/// By bands and by full matrices, of the energy and of the polar decomposition.
+TEST(EnergyNorm, HasInversesAndTransposes) {
+  ReducedPencil indefinite = at(random_family(7, 3), 0.2);
+  indefinite.K[0].row(2) *= -3.0;
+  for (const ReducedPencil& pencil : {Chain(70, 50.0).pencil, Chain(6, 50.0).pencil, indefinite}) {
+    const auto norm = EnergyNorm::of(PencilAtPoint(pencil), 1.3);
+    ASSERT_TRUE(norm);
+    const ComplexMatrix I = ComplexMatrix::Identity(pencil.size(), pencil.size());
+    const ComplexMatrix R = norm->times(I);
+    EXPECT_LT((norm->inverse_times(R) - I).norm(), 1e-11);
+    EXPECT_LT((norm->transposed_times(I) - R.transpose()).norm(), 1e-13 * R.norm());
+    EXPECT_LT((norm->inverse_transposed_times(R.transpose()) - I).norm(), 1e-11);
+  }
 }
 
 /// A change of coordinates of a symmetric pencil changes the plain norm by the square of its condition, and

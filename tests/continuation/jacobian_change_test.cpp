@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/band_matrix.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr Eigen::Index n = 20;  // products by BLAS
 constexpr double scale = 0.3;
+constexpr Eigen::Index width = 3;  // of bands
 
 struct Pair {
   ComplexMatrix Z, Lambda;
@@ -35,6 +37,7 @@ struct Place {
   std::string name;
   int k;
   bool constant_mass;
+  bool banded = false;
 };
 
 void PrintTo(const Place& place, std::ostream* out) {
@@ -46,14 +49,34 @@ class ChangeOfJacobian : public testing::TestWithParam<Place> {
   ChangeOfJacobian() {
     if (GetParam().constant_mass) there.M = here.M;
     if (k == 1) W1.setZero();
+    if (!GetParam().banded) return;
+    for (PencilAtPoint* pencil : {&pencil_here, &pencil_there}) pencil->bands = bands_of(*pencil);
+  }
+
+  /// The pencil's matrices are cut to a band.
+  static ReducedPencil family(unsigned seed) {
+    ReducedPencil family = random_family(n, seed);
+    if (!GetParam().banded) return family;
+    for (Matrix* B : {&family.M[0], &family.C[0], &family.K[0]}) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = 0; i < n; ++i) {
+          if (std::abs(i - j) > width) (*B)(i, j) = 0.0;
+        }
+      }
+    }
+    return family;
+  }
+  static PencilBands bands_of(const PencilAtPoint& pencil) {
+    const auto band = [](const Matrix& B) { return std::make_shared<const Matrix>(band_of(B, width)); };
+    return {band(pencil.M), band(pencil.C), band(pencil.K)};
   }
 
   Pair random_pair() { return {random_complex(n, k, engine), random_complex(k, k, engine)}; }
 
   int k = GetParam().k;
   std::mt19937_64 engine{11};
-  ReducedPencil here = random_family(n, 1);
-  ReducedPencil there = random_family(n, 2);
+  ReducedPencil here = family(1);
+  ReducedPencil there = family(2);
   ComplexMatrix W1 = random_complex(n, k, engine);
   Pair from = random_pair(), to = random_pair();
   PencilAtPoint pencil_here{here}, pencil_there{there};
@@ -109,7 +132,8 @@ TEST_P(ChangeOfJacobian, IsNothingFromAPlaceToItself) {
 INSTANTIATE_TEST_SUITE_P(Pairs, ChangeOfJacobian,
                          testing::Values(Place{"mode", 1, false}, Place{"mode_constant_mass", 1, true},
                                          Place{"two", 2, false}, Place{"two_constant_mass", 2, true},
-                                         Place{"three", 3, false}),
+                                         Place{"three", 3, false}, Place{"banded_mode", 1, false, true},
+                                         Place{"banded_two", 2, false, true}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -45,7 +45,7 @@ class StepPencil {
 
     Vector weights;        ///< Hermite weights of the series coefficients: left end, then right end
     ReducedPencil pencil;  ///< M, C and K as series of order 0
-    PencilAtPoint at;      ///< the same pencil in the finite chart, with its norms
+    PencilAtPoint at;  ///< the same pencil in the finite chart, with its norms, and bands where it has them
   };
   /// The sample at t in [0, 1].
   std::shared_ptr<const Sample> at(double t) const;
@@ -60,6 +60,8 @@ class StepPencil {
 
  private:
   std::shared_ptr<const Sample> sample(double t) const;
+  /// Width of the bands of the pencils at both ends; empty where they are not banded.
+  std::optional<Eigen::Index> find_width() const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
   /// Brings the right pencil of a part into the reduced coordinates of the left point.
   void turn_part(const TangentBasis& left, const TangentBasis& right, std::size_t part);
@@ -76,6 +78,8 @@ class StepPencil {
   /// Samples by t. The certificates of all tracks of a step use the same values of t.
   mutable std::map<double, std::shared_ptr<const Sample>> samples_;
   mutable std::optional<std::shared_ptr<const EnergyNorm>> energy_norm_;
+  /// What find_width found, once it was asked for.
+  mutable std::optional<std::optional<Eigen::Index>> width_;
 };
 
 /// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.

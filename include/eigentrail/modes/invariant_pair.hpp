@@ -25,6 +25,8 @@
 
 namespace eigentrail {
 
+class BorderedBand;
+
 struct CorrectorOptions {
   double tolerance = 1e-14;  ///< stop when the last correction is below this, relative; > 0
   /// Ratio of two corrections above which the equations are factored again, 0 < . < 1.
@@ -49,38 +51,31 @@ struct ModeCounts {
 
 /// LU factors of a bordered matrix with n + k rows. In a complex part (chirality.hpp) it is restricted to the
 /// n / 2 dimensions of its vectors: the solution is the inverse there, and what is beside them is dropped.
+/// Where the pencil is banded, so are the factors.
 class BorderedLu {
  public:
   /// Factors [P, X; Y, D]: `pencil` at mu, n x n, the columns X (n x k), the rows Y (k x n) and D (k x k).
-  BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X, const ComplexMatrix& Y,
-             const ComplexMatrix& D);
+  /// The columns of Z (n x k) span about the vectors for which P is singular.
+  BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& Z, const ComplexMatrix& X,
+             const ComplexMatrix& Y, const ComplexMatrix& D);
 
   Eigen::Index size() const { return n_ + k_; }
   /// Overwrites b with the solution, or with that of the adjoint equations; vectors, or the columns of a
   /// matrix, of n + k rows.
-  template <class Vectors>
-  void solve_in_place(Vectors& b) const {
-    solve(b, [this](Vectors& x) { lu_.solve_in_place(x); });
-  }
-  template <class Vectors>
-  void solve_adjoint_in_place(Vectors& b) const {
-    solve(b, [this](Vectors& x) { lu_.solve_adjoint_in_place(x); });
-  }
+  void solve_in_place(ComplexVector& b) const;
+  void solve_in_place(ComplexMatrix& B) const;
+  void solve_adjoint_in_place(ComplexVector& b) const;
+  void solve_adjoint_in_place(ComplexMatrix& B) const;
 
  private:
   template <class Vectors, class Solve>
-  void solve(Vectors& b, const Solve& by_factors) const {
-    if (chirality_ == 0) return by_factors(b);
-    Vectors within = restricted(b);
-    by_factors(within);
-    b.topRows(n_) = from_chiral_coordinates(within.topRows(n_ / 2), chirality_);
-    b.bottomRows(k_) = within.bottomRows(k_);
-  }
+  void solve(Vectors& b, const Solve& by_factors) const;
   ComplexMatrix restricted(const ComplexMatrix& b) const;
 
   Eigen::Index n_, k_;
   int chirality_;
-  ComplexLu lu_;
+  std::shared_ptr<const BorderedBand> banded_;  ///< null where the pencil is not banded
+  std::optional<ComplexLu> lu_;                 ///< empty where it is
 };
 
 /// LU factors of the linearized equations at an invariant pair.
@@ -109,7 +104,8 @@ class PairFactorization {
  private:
   /// Data that couple the columns of a block of several modes: Lambda = U T U^H, T2 = T^2, Z U and W1 U.
   struct Coupling {
-    Matrix M, C;
+    Matrix M, C;  ///< empty where there are bands
+    PencilBands bands;
     ComplexMatrix U, T, T2, Z, W1;
   };
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "eigentrail/modes/pencil_bands.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
@@ -34,6 +35,7 @@ struct PencilAtPoint {
   const Matrix& K;
   double norm_M, norm_C, norm_K;  ///< Frobenius norms
   int chirality;                  ///< of a complex part (chirality.hpp); else 0
+  PencilBands bands = {};         ///< the same matrices: products with them and factors take less time
 
   explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);
   /// The pencil is referenced, not copied.
@@ -56,5 +58,9 @@ ComplexMatrix multiply(const SparseMatrix& B, const ComplexMatrix& Z);
 ComplexMatrix multiply(const SystemMatrix& B, const ComplexMatrix& Z);
 /// B^T Z.
 ComplexMatrix transposed_multiply(const Matrix& B, const ComplexMatrix& Z);
+/// The same by the band of B, unless that is null.
+ComplexMatrix multiply(const Matrix& B, const std::shared_ptr<const Matrix>& band, const ComplexMatrix& Z);
+ComplexMatrix transposed_multiply(const Matrix& B, const std::shared_ptr<const Matrix>& band,
+                                  const ComplexMatrix& Z);
 
 }  // namespace eigentrail

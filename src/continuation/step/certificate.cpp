@@ -48,6 +48,9 @@ constexpr double most_work = 2.5e8;
 /// as many products, which are several times slower, and the shares of the step's energy norm and of the
 /// pencils at the samples. Only the budget of the certificate depends on it.
 constexpr double vectors_of_piece = 200.0;
+/// Multiplications with an entry of a band take so many times as long as those of an LU, all that is done for
+/// a piece taken together. The same holds for it.
+constexpr double time_of_band_entry = 8.0;
 
 /// Number of unknowns n k + k^2 up to which one LU of the whole Jacobian takes less time than k systems of
 /// size n + k. Affects only the time.
@@ -148,18 +151,21 @@ class Tube {
     const auto samples = samples_of(begin, middle, end);
     const bool is_chiral = centre.pencil.chirality != 0;  // the whole matrix may be singular
     if (!is_chiral && centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
-      count(1, centre.Z.size() + centre.Lambda.size());
+      count(1, centre.Z.size() + centre.Lambda.size(), centre.pencil);
       return closes_about(centre, WholeInverse(centre.place, W_, scale), scale, samples, Z1);
     }
-    count(W_.cols(), (is_chiral ? centre.Z.rows() / 2 : centre.Z.rows()) + W_.cols());
+    count(W_.cols(), (is_chiral ? centre.Z.rows() / 2 : centre.Z.rows()) + W_.cols(), centre.pencil);
     return closes_about(centre, TriangularInverse(centre.place, W_, W1_, scale), scale, samples, Z1);
   }
 
   /// Counts LUs of a size, with the solutions for the bounds.
-  void count(Eigen::Index factorizations, Eigen::Index size) {
+  void count(Eigen::Index factorizations, Eigen::Index size, const PencilAtPoint& pencil) {
     const auto n = static_cast<double>(size);
+    const double row =
+        pencil.bands ? std::min(n, time_of_band_entry * static_cast<double>(pencil.bands.M->rows())) : n;
     counts_.certificate_factorizations += static_cast<std::uint64_t>(factorizations);
-    counts_.certificate_work += static_cast<double>(factorizations) * n * n * (n / 3.0 + vectors_of_piece);
+    counts_.certificate_work +=
+        static_cast<double>(factorizations) * n * row * (row / 3.0 + vectors_of_piece);
   }
 
   /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies

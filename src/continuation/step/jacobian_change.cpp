@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/band_matrix.hpp"
 #include "core/products.hpp"
 
 namespace eigentrail {
@@ -20,11 +21,11 @@ PairAtPlace::PairAtPlace(const PencilAtPoint& its_pencil, const ComplexMatrix& i
     : pencil(its_pencil),
       Z(its_Z),
       Lambda(its_Lambda),
-      MZ(multiply(pencil.M, Z)),
-      slope(MZ.lazyProduct(Lambda) + multiply(pencil.C, Z)) {}
+      MZ(multiply(pencil.M, pencil.bands.M, Z)),
+      slope(MZ.lazyProduct(Lambda) + multiply(pencil.C, pencil.bands.C, Z)) {}
 
 ComplexMatrix PairAtPlace::residual() const {
-  return slope.lazyProduct(Lambda) + multiply(pencil.K, Z);
+  return slope.lazyProduct(Lambda) + multiply(pencil.K, pencil.bands.K, Z);
 }
 
 /// The n x n block (i, j) maps column j of Z to column i of the residual. It is (Lambda^2)(j, i) M +
@@ -63,7 +64,9 @@ JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, c
       Z_(to.Z - from.Z),
       Lambda_(to.Lambda - from.Lambda),
       slope_(to.slope - from.slope) {
-  if (Z_.cols() == 1) {
+  if (from.pencil.bands && to.pencil.bands) {
+    set_bands();
+  } else if (Z_.cols() == 1) {
     set_pencil();
   } else {
     set_terms();
@@ -87,6 +90,19 @@ void JacobianChange::set_pencil() {
                     square_b.imag() * M_b - square_a.imag() * M_a + s_b.imag() * C_b - s_a.imag() * C_a};
   }
   of_eigenvalue_ = scale_ * (s_b * to_.MZ - s_a * from_.MZ + slope_);
+}
+
+void JacobianChange::set_bands() {
+  const Eigen::Index k = Z_.cols();
+  const ComplexMatrix square_a = from_.Lambda * from_.Lambda;
+  const ComplexMatrix square_b = to_.Lambda * to_.Lambda;
+  for (Eigen::Index j = 0; j < k; ++j) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const double own = i == j ? 1.0 : 0.0;
+      bands_.push_back(to_.pencil.bands.sum(square_b(j, i), to_.Lambda(j, i), own) -
+                       from_.pencil.bands.sum(square_a(j, i), from_.Lambda(j, i), own));
+    }
+  }
 }
 
 void JacobianChange::set_terms() {
@@ -131,19 +147,58 @@ Columns JacobianChange::adjoint_times_of_mode(const Columns& V) const {
   return result;
 }
 
+ComplexMatrix JacobianChange::pencil_times(const ComplexMatrix& X) const {
+  const Eigen::Index n = Z_.rows();
+  const Eigen::Index k = Z_.cols();
+  ComplexMatrix R = ComplexMatrix::Zero(n, X.cols());
+  if (!bands_.empty()) {
+    for (Eigen::Index first = 0; first < X.cols(); first += k)
+      for (std::size_t at = 0; at < bands_.size(); ++at) {
+        const auto entry = static_cast<Eigen::Index>(at);
+        add_band_product(bands_[at], X.col(first + entry / k).data(), R.col(first + entry % k).data());
+      }
+    return R;
+  }
+  const ComplexMatrix BX = multiply(B_, X);
+  for (Eigen::Index first = 0; first < X.cols(); first += k)
+    for (std::size_t i = 0; i < L_.size(); ++i)
+      R.middleCols(first, k) += BX.block(static_cast<Eigen::Index>(i) * n, first, n, k).lazyProduct(L_[i]);
+  return R;
+}
+
+ComplexMatrix JacobianChange::pencil_adjoint_times(const ComplexMatrix& R) const {
+  const Eigen::Index n = Z_.rows();
+  const Eigen::Index k = Z_.cols();
+  if (!bands_.empty()) {
+    ComplexMatrix X = ComplexMatrix::Zero(n, R.cols());
+    for (Eigen::Index first = 0; first < R.cols(); first += k)
+      for (std::size_t at = 0; at < bands_.size(); ++at) {
+        const auto entry = static_cast<Eigen::Index>(at);
+        add_adjoint_band_product(bands_[at], R.col(first + entry % k).data(),
+                                 X.col(first + entry / k).data());
+      }
+    return X;
+  }
+  ComplexMatrix RL(B_.rows(), R.cols());
+  for (std::size_t i = 0; i < L_.size(); ++i) {
+    for (Eigen::Index first = 0; first < R.cols(); first += k)
+      RL.block(static_cast<Eigen::Index>(i) * n, first, n, k) =
+          R.middleCols(first, k).lazyProduct(L_[i].adjoint());
+  }
+  return transposed_multiply(B_, RL);
+}
+
 ComplexMatrix JacobianChange::times_of_block(const ComplexMatrix& V) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
   const Eigen::Index m = V.cols();
   const ComplexMatrix X = V.topRows(n * k).reshaped(n, k * m);
-  const ComplexMatrix BX = multiply(B_, X);
+  const ComplexMatrix PX = pencil_times(X);
   ComplexMatrix result(V.rows(), m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const ComplexMatrix Y = scale_ * V.col(j).tail(k * k).reshaped(k, k);
-    ComplexMatrix R =
-        to_.MZ.lazyProduct(Y * to_.Lambda) - from_.MZ.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
-    for (std::size_t i = 0; i < L_.size(); ++i)
-      R += BX.block(static_cast<Eigen::Index>(i) * n, j * k, n, k).lazyProduct(L_[i]);
+    const ComplexMatrix R = PX.middleCols(j * k, k) + to_.MZ.lazyProduct(Y * to_.Lambda) -
+                            from_.MZ.lazyProduct(Y * from_.Lambda) + slope_.lazyProduct(Y);
     const ComplexMatrix N = W1_.adjoint() * (X.middleCols(j * k, k).lazyProduct(Lambda_) + Z_.lazyProduct(Y));
     result.col(j) << R.reshaped(), N.reshaped();
   }
@@ -155,18 +210,12 @@ ComplexMatrix JacobianChange::adjoint_times_of_block(const ComplexMatrix& V) con
   const Eigen::Index k = Z_.cols();
   const Eigen::Index m = V.cols();
   const ComplexMatrix R = V.topRows(n * k).reshaped(n, k * m);
-  ComplexMatrix RL(B_.rows(), k * m);
-  for (std::size_t i = 0; i < L_.size(); ++i) {
-    for (Eigen::Index j = 0; j < m; ++j)
-      RL.block(static_cast<Eigen::Index>(i) * n, j * k, n, k) =
-          R.middleCols(j * k, k).lazyProduct(L_[i].adjoint());
-  }
-  const ComplexMatrix BRL = transposed_multiply(B_, RL);
+  const ComplexMatrix PR = pencil_adjoint_times(R);
   ComplexMatrix result(V.rows(), m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const auto Rj = R.middleCols(j * k, k);
     const ComplexMatrix W1N = W1_.lazyProduct(V.col(j).tail(k * k).reshaped(k, k));
-    const ComplexMatrix X = BRL.middleCols(j * k, k) + W1N.lazyProduct(Lambda_.adjoint());
+    const ComplexMatrix X = PR.middleCols(j * k, k) + W1N.lazyProduct(Lambda_.adjoint());
     const ComplexMatrix Y = (to_.MZ.adjoint() * Rj) * to_.Lambda.adjoint() -
                             (from_.MZ.adjoint() * Rj) * from_.Lambda.adjoint() + slope_.adjoint() * Rj +
                             Z_.adjoint() * W1N;
@@ -176,19 +225,19 @@ ComplexMatrix JacobianChange::adjoint_times_of_block(const ComplexMatrix& V) con
 }
 
 ComplexVector JacobianChange::times(const ComplexVector& v) const {
-  return Z_.cols() == 1 ? times_of_mode(v) : ComplexVector(times_of_block(v));
+  return P_.size() > 0 ? times_of_mode(v) : ComplexVector(times_of_block(v));
 }
 
 ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
-  return Z_.cols() == 1 ? adjoint_times_of_mode(v) : ComplexVector(adjoint_times_of_block(v));
+  return P_.size() > 0 ? adjoint_times_of_mode(v) : ComplexVector(adjoint_times_of_block(v));
 }
 
 ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
-  return Z_.cols() == 1 ? times_of_mode(V) : times_of_block(V);
+  return P_.size() > 0 ? times_of_mode(V) : times_of_block(V);
 }
 
 ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
-  return Z_.cols() == 1 ? adjoint_times_of_mode(V) : adjoint_times_of_block(V);
+  return P_.size() > 0 ? adjoint_times_of_mode(V) : adjoint_times_of_block(V);
 }
 
 }  // namespace eigentrail

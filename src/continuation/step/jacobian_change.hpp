@@ -34,7 +34,8 @@ ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, dou
 
 /// J(to) - J(from) as a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Keeps references to its
 /// arguments. For a single mode the change is stored as a matrix, for a block as a sum of products, because
-/// the matrix would have k^2 times the entries of the pencil.
+/// the matrix would have k^2 times the entries of the pencil. Where the pencil is banded this is no
+/// hindrance.
 class JacobianChange {
  public:
   /// W1 (n x k) is the lower half of the normalization W.
@@ -50,6 +51,11 @@ class JacobianChange {
  private:
   void set_pencil();
   void set_terms();
+  void set_bands();
+  /// For all blocks X of k columns, side by side: the change of M X Lambda^2 + C X Lambda + K X, and the
+  /// adjoint of this map.
+  ComplexMatrix pencil_times(const ComplexMatrix& X) const;
+  ComplexMatrix pencil_adjoint_times(const ComplexMatrix& R) const;
   ComplexMatrix times_of_block(const ComplexMatrix& V) const;
   ComplexMatrix adjoint_times_of_block(const ComplexMatrix& V) const;
   /// The maps of a single mode, for a vector or the columns of a matrix.
@@ -68,6 +74,8 @@ class JacobianChange {
   /// takes less time than several small ones.
   Matrix B_;
   std::vector<ComplexMatrix> L_;
+  /// In band storage: the change of X -> column i of the residual by column j of X, as entry i + k j.
+  std::vector<ComplexMatrix> bands_;
 };
 
 }  // namespace eigentrail

@@ -74,10 +74,10 @@ AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const TubeNorm& en
     return Y;
   };
   const auto adjoint_times = [&](ComplexMatrix X) {
-    energy.to_energy(X);
+    energy.to_energy_adjoint(X);
     B.apply_adjoint(X);
     ComplexMatrix Y = A.adjoint_times(X);
-    energy.from_energy(Y);
+    energy.from_energy_adjoint(Y);
     return Y;
   };
   ComplexMatrix Q(first.size(), std::min(directions, first.size()));

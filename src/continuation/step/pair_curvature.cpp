@@ -14,8 +14,8 @@ ComplexVector PairCurvature::times(const ComplexVector& v) const {
   const Eigen::Index k = at_.Z.cols();
   const ComplexMatrix X = v.head(n * k).reshaped(n, k);
   const ComplexMatrix L = scale_ * v.tail(k * k).reshaped(k, k);
-  const ComplexMatrix R = multiply(at_.pencil.M, X).lazyProduct(EL_) +
-                          multiply(at_.pencil.C, X).lazyProduct(E_) +
+  const ComplexMatrix R = multiply(at_.pencil.M, at_.pencil.bands.M, X).lazyProduct(EL_) +
+                          multiply(at_.pencil.C, at_.pencil.bands.C, X).lazyProduct(E_) +
                           at_.MZ.lazyProduct(0.5 * (L * E_ + E_ * L));
   const ComplexMatrix N = (W1_.adjoint() * X) * E_;
   ComplexVector result(v.size());
@@ -28,9 +28,10 @@ ComplexVector PairCurvature::adjoint_times(const ComplexVector& v) const {
   const Eigen::Index k = at_.Z.cols();
   const ComplexMatrix R = v.head(n * k).reshaped(n, k);
   const ComplexMatrix N = v.tail(k * k).reshaped(k, k);
-  const ComplexMatrix X = transposed_multiply(at_.pencil.M, R.lazyProduct(EL_.adjoint())) +
-                          transposed_multiply(at_.pencil.C, R.lazyProduct(E_.adjoint())) +
-                          W1_.lazyProduct(N * E_.adjoint());
+  const ComplexMatrix X =
+      transposed_multiply(at_.pencil.M, at_.pencil.bands.M, R.lazyProduct(EL_.adjoint())) +
+      transposed_multiply(at_.pencil.C, at_.pencil.bands.C, R.lazyProduct(E_.adjoint())) +
+      W1_.lazyProduct(N * E_.adjoint());
   const ComplexMatrix of_R = 0.5 * (at_.MZ.adjoint() * R);
   const ComplexMatrix L = scale_ * (of_R * E_.adjoint() + E_.adjoint() * of_R);
   ComplexVector result(v.size());

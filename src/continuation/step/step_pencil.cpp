@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "continuation/step/energy_norm.hpp"
+#include "core/band_matrix.hpp"
 #include "core/diagonal_blocks.hpp"
 #include "core/matrix_series.hpp"
 #include "core/products.hpp"
@@ -136,6 +137,21 @@ bool StepPencil::has_constant_leading_matrix() const {
   return constant_M && (constant_C || state_size(left_pencil_.M[0]) == 2 * left_pencil_.size());
 }
 
+std::optional<Eigen::Index> StepPencil::find_width() const {
+  const Eigen::Index n = left_pencil_.size();
+  if (!is_narrow_band(0, n) || left_pencil_.chirality != 0) return std::nullopt;
+  Eigen::Index width = 0;
+  for (const ReducedPencil* pencil : {&left_pencil_, &right_}) {
+    for (const MatrixSeries* series : {&pencil->K, &pencil->C, &pencil->M}) {
+      for (const Matrix& coefficient : *series) {
+        width = band_width(coefficient, width);
+        if (!is_narrow_band(width, n)) return std::nullopt;
+      }
+    }
+  }
+  return width;
+}
+
 Matrix StepPencil::interpolate(const MatrixSeries& left, const MatrixSeries& right,
                                const Vector& weights) const {
   if (left.size() == 1 && right.size() == 1) return left[0];
@@ -163,7 +179,13 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
                        {interpolate(left_pencil_.C, right_.C, weights)},
                        {interpolate(left_pencil_.K, right_.K, weights)}};
   pencil.chirality = left_pencil_.chirality;
-  return std::make_shared<const Sample>(std::move(weights), std::move(pencil));
+  auto sample = std::make_shared<Sample>(std::move(weights), std::move(pencil));
+  if (!width_) width_ = find_width();
+  if (const auto& width = *width_) {
+    const auto band = [&](const Matrix& B) { return std::make_shared<const Matrix>(band_of(B, *width)); };
+    sample->at.bands = {band(sample->at.M), band(sample->at.C), band(sample->at.K)};
+  }
+  return sample;
 }
 
 std::shared_ptr<const StepPencil::Sample> StepPencil::at(double t) const {

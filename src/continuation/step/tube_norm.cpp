@@ -4,25 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "core/products.hpp"
-
 namespace eigentrail {
 
 void TubeNorm::set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z) {
   energy_ = std::move(energy);
-  if (energy_) factor_ = Z.norm() / product(energy_->root(), Z).norm();
+  if (energy_) factor_ = Z.norm() / energy_->times(Z).norm();
 }
-
-template <class Columns>
-void TubeNorm::scale(Columns& X, const Matrix& root, double factor) const {
-  for (Eigen::Index i = 0; i < k_; ++i) {
-    const ComplexMatrix block = X.middleRows(i * n_, n_);
-    X.middleRows(i * n_, n_) = factor * product(root, block);
-  }
-}
-
-template void TubeNorm::scale(ComplexVector&, const Matrix&, double) const;
-template void TubeNorm::scale(ComplexMatrix&, const Matrix&, double) const;
 
 void TubeNorm::apply(ComplexVector& x) const {
   adapted_.apply(x);
@@ -30,7 +17,7 @@ void TubeNorm::apply(ComplexVector& x) const {
 }
 
 void TubeNorm::apply_adjoint(ComplexVector& x) const {
-  from_energy(x);
+  from_energy_adjoint(x);
   adapted_.apply(x);
 }
 
@@ -41,7 +28,7 @@ void TubeNorm::apply_inverse(ComplexVector& x) const {
 
 void TubeNorm::apply_inverse_adjoint(ComplexVector& x) const {
   adapted_.apply_inverse(x);
-  to_energy(x);
+  to_energy_adjoint(x);
 }
 
 double TubeNorm::largest_eigenvalue_part() const {

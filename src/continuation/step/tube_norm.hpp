@@ -20,15 +20,23 @@ class TubeNorm {
   /// From here on adapted; `norm` is one of the unknowns in the energy norm.
   void set_adapted(AdaptedNorm norm) { adapted_ = std::move(norm); }
 
-  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back.
-  /// Both maps are Hermitian.
+  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back;
+  /// and with what the adjoints of both maps make of it.
   template <class Columns>
   void to_energy(Columns& X) const {
-    if (energy_) scale(X, energy_->root(), factor_);
+    scale(X, &EnergyNorm::times, factor_);
   }
   template <class Columns>
   void from_energy(Columns& X) const {
-    if (energy_) scale(X, energy_->inverse_root(), 1.0 / factor_);
+    scale(X, &EnergyNorm::inverse_times, 1.0 / factor_);
+  }
+  template <class Columns>
+  void to_energy_adjoint(Columns& X) const {
+    scale(X, &EnergyNorm::transposed_times, factor_);
+  }
+  template <class Columns>
+  void from_energy_adjoint(Columns& X) const {
+    scale(X, &EnergyNorm::inverse_transposed_times, 1.0 / factor_);
   }
 
   /// Overwrites x with S x, S^H x, S^-1 x, S^-H x.
@@ -41,8 +49,16 @@ class TubeNorm {
   double largest_eigenvalue_part() const;
 
  private:
+  using Map = ComplexMatrix (EnergyNorm::*)(const ComplexMatrix&) const;
+  /// Overwrites every column of Z in every column of X with `factor` times what the map makes of it.
   template <class Columns>
-  void scale(Columns& X, const Matrix& root, double factor) const;
+  void scale(Columns& X, Map map, double factor) const {
+    if (!energy_) return;
+    for (Eigen::Index i = 0; i < k_; ++i) {
+      auto block = X.middleRows(i * n_, n_);
+      block = factor * ((*energy_).*map)(block);
+    }
+  }
 
   Eigen::Index n_, k_;
   std::shared_ptr<const EnergyNorm> energy_;
