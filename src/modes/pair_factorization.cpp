@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/columns.hpp"
 #include "eigentrail/modes/invariant_pair.hpp"
 #include "modes/bordered_band.hpp"
 
@@ -14,16 +15,6 @@ namespace {
 /// Relative imaginary parts below this are neglected in the real factors. The error then decreases by about
 /// this factor per correction.
 constexpr double unreal = 1e-6;
-
-/// Overwrites every column of B with what `map` makes of it.
-template <class Map>
-void for_each_column(ComplexMatrix& B, Map map) {
-  for (Eigen::Index j = 0; j < B.cols(); ++j) {
-    ComplexVector column = B.col(j);
-    map(column);
-    B.col(j) = column;
-  }
-}
 
 /// Overwrites b with what `map` makes of it as a matrix of one column.
 template <class Map>
