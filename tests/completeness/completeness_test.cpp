@@ -55,7 +55,7 @@ TEST_P(FewModesOfRandomFamily, HaveTheEventsOfATraceOfAll) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FewModesOfRandomFamily, testing::Values(6, 14, 19, 28, 97, 98, 119, 150),
+INSTANTIATE_TEST_SUITE_P(Seeds, FewModesOfRandomFamily, testing::Values(6, 14, 19, 28, 97, 98, 119, 150, 176),
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace

@@ -122,16 +122,28 @@ InvariantPair upper_member(InvariantPair pair) {
   return is_lower ? conjugated(pair) : pair;
 }
 
+/// The problem with thresholds that tell whether a guest is a mode that is followed. An inaccurate start may
+/// converge to one. Where two have just met, their eigenvalues differ from those of the guest by the root of
+/// rounding, relative to the pencil, whose measure is the largest eigenvalue; the spaces agree.
+PathProblem for_comparison_with_guests(PathProblem problem, const PathNode& node, const Track& track) {
+  double& distance = problem.thresholds.identity.merged_distance;
+  distance = std::max(same, distance);
+  if (!track.departure) return problem;
+  for (const Track& other : node.tracks) {
+    for (const Complex root : other.roots) {
+      const double magnitude = std::abs(chart_value(root, other.pair.chart));
+      if (std::isfinite(magnitude)) problem.s_ref = std::max(problem.s_ref, magnitude);
+    }
+  }
+  return problem;
+}
+
 }  // namespace
 
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
   if (node.pencil.of(node.tracks[track].pair.part).size() > most_freedoms) return;
   const StageTimer timer(counts.matching_seconds);
-  // An inaccurate start may converge to a pair that is followed. Where that has just met, its eigenvalues
-  // differ from those of the guest by the root of rounding; the spaces agree.
-  PathProblem beside_meetings = problem;
-  beside_meetings.thresholds.identity.merged_distance =
-      std::max(same, problem.thresholds.identity.merged_distance);
+  const PathProblem compared = for_comparison_with_guests(problem, node, node.tracks[track]);
   const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
@@ -140,7 +152,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     if (pair.status != PairStatus::converged) continue;
     Track guest = differentiate_track(problem, node, upper_member(std::move(pair)), counts);
     if (!guest.functions.allFinite()) continue;
-    if (is_followed(beside_meetings, node, guest)) continue;
+    if (is_followed(compared, node, guest)) continue;
     guest.roots = in_order_of(group.roots, guest.roots);
     guest.modes.assign(group.modes.size(), Track::guest);
     node.tracks.push_back(std::move(guest));
