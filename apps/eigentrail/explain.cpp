@@ -283,8 +283,8 @@ Sizes sizes_at(const Model& model, const PathPoint& point) {
 
 }  // namespace
 
-void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity,
-             const SparseSolverMaker& solver) {
+Route explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_texts, bool sensitivity,
+              const SparseSolverMaker& solver) {
   const auto& [scene, options, model] = setup;
   check_parameter_name(scene, options.parameter);
   if (sensitivity && is_matrix_family(scene))
@@ -301,7 +301,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
     print_states(to, *model);
     print_route(route, estimate_projection(*model, options, solver), options, to);
     if (sensitivity) explain_sensitivity(to, scene, option_texts);
-    return;
+    return route;
   }
   const PathProblem problem = problem_along(*model, options.parameter);
   RunCounts counts;
@@ -339,6 +339,7 @@ void explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_t
                 !options.order, computed && point.equilibrium.linearization.K[0].is_sparse(), route);
   if (!computed) throw InputError(scene.path + ": " + point.message);
   if (sensitivity) explain_sensitivity(to, scene, option_texts);
+  return route;
 }
 
 }  // namespace eigentrail::app

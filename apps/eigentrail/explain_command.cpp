@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "eigentrail/projection/route.hpp"
 #include "explain.hpp"
 #include "factor_team.hpp"
 #include "scene_arguments.hpp"
@@ -21,8 +20,8 @@ int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solv
   const OptionTexts options{arguments.options.begin(), arguments.options.end()};
   const TraceSetup setup = prepare_trace(given_scene(arguments), options);
   warn_of_unused(setup.scene, *setup.model);
-  explain(stdout, setup, options, arguments.sensitivity, solver);
-  if (!is_large(*setup.model, setup.options))
+  const Route route = explain(stdout, setup, options, arguments.sensitivity, solver);
+  if (!route.is_projected)
     std::printf("next: eigentrail trace %s -o %s\n", setup.scene.path.c_str(),
                 std::filesystem::path(setup.scene.path).stem().replace_extension(".h5").c_str());
   return done;

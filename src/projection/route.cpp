@@ -71,11 +71,11 @@ ProjectionEstimate estimate_of_scene(const Model& scene, const TraceOptions& tra
   estimate.coordinates = scene.n_coordinates();
   estimate.moves = !structure.fixed_equilibrium && !structure.known_equilibrium;
   // Series of the matrices and of the basis, at both ends of a step and at a point that is tried.
-  constexpr double points = 3.0, coefficients = 6.0, coordinates_per_mode = 6.0;
+  constexpr double kept_points = 3.0, coefficients = 6.0, most_coordinates_per_mode = 6.0;
   estimate.total_bytes +=
-      points * coefficients *
+      kept_points * coefficients *
       (static_cast<double>(estimate.nonzeros) * entry_bytes +
-       coordinates_per_mode * kept_modes(trace) * static_cast<double>(pencil.size()) * sizeof(double));
+       most_coordinates_per_mode * kept_modes(trace) * static_cast<double>(pencil.size()) * sizeof(double));
   return estimate;
 }
 

@@ -27,7 +27,7 @@ struct ProjectionEstimate {
 };
 
 /// The estimate for a sparse family, or for a scene of bodies at its starting guess. Throws NotProjected
-/// where the scene's equations have no finite values, and std::bad_cast for other models.
+/// where the scene's equations have no finite values, and std::bad_variant_access for dense matrices.
 ProjectionEstimate estimate_projection(const Model& model, const TraceOptions& trace,
                                        const SparseSolverMaker& solver = {});
 
