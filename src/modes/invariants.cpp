@@ -149,6 +149,16 @@ Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, c
   return Vector::Constant(2, errors[0] + (apart > of_root ? errors[1] / apart : of_root));
 }
 
+bool are_told_apart(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors) {
+  const Vector known = root_errors(functions, roots, errors);
+  for (Eigen::Index i = 0; i < roots.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (!(std::abs(roots[i] - roots[j]) > known[i] + known[j])) return false;
+    }
+  }
+  return true;
+}
+
 Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roots) {
   // relative, of the corrector and of the basis that both ends of a step share
   constexpr double rounding = 1e-13;

@@ -47,6 +47,9 @@ struct Track {
   bool unproven = false;
   bool passed = false;   ///< accepted as extrapolated from the last step, without correction
   std::vector<int> met;  ///< indices of the roots that coincide at the point or have a narrow veering there
+  /// Distance from the point, in the path's coordinate, within which rounding hides the members that meet
+  /// there: a k-fold eigenvalue is known to the k-th root of rounding.
+  double hidden_within = 0.0;
 
   Eigen::Index size() const { return pair.size(); }
 };

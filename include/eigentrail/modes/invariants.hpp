@@ -40,6 +40,10 @@ double root_error(const ComplexVector& functions, const Vector& errors, double l
 /// (first order where it holds; Henrici, Numer. Math. 4, 1962, where it does not).
 Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
 
+/// Whether any two eigenvalues of a block differ by more than their errors, for given errors of its functions
+/// (root_errors).
+bool are_told_apart(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
+
 /// Distances (1/s) below which the eigenvalues of a block cannot be distinguished, in the order of `roots`:
 /// two of them below the lesser one. Nonzero only for blocks of three and more whose `roots` all coincide
 /// within rounding, for example several rigid-body modes or an exceptional point of that order. A matrix of

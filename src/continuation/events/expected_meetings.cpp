@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
+#include "continuation/events/common_collision.hpp"
+#include "continuation/events/meeting_resolution.hpp"
 #include "continuation/events/roots_on_step.hpp"
 #include "continuation/step/shared_basis.hpp"
 #include "continuation/tracks/members.hpp"
@@ -84,6 +87,37 @@ double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t tr
 
 }  // namespace
 
+namespace {
+
+/// The stretch of a step on which rounding does not hide the eigenvalues of a track one by one: not beside a
+/// meeting of all of them at either end.
+Stretch where_told_apart(const Track& left, const Track& right, double length) {
+  return {left.hidden_within / std::abs(length), 1.0 - right.hidden_within / std::abs(length)};
+}
+
+/// Where all eigenvalues of a track collide on a step; empty where they do not. What they do at the left end
+/// is known.
+std::optional<PlaceOnStep> common_place(const Track& track, const StrandSampler& sampler) {
+  // In steps: nearer to the left end it is the known one.
+  constexpr double behind_a_meeting = 1e-3;
+  const double lambda = rounding_of(track, track.series.Lambda).lambda;
+  const double behind = track.hidden_within > 0.0 ? behind_a_meeting : 0.0;
+  for (const PlaceOnStep& place : common_collisions_on_step(sampler.functions(), lambda)) {
+    if (place.t > behind) return place;
+  }
+  return std::nullopt;
+}
+
+ExpectedMeeting expected_of_all(const Track& track, std::size_t index, double position) {
+  ExpectedMeeting meeting{{index, {}}, {index, {}}, position};
+  meeting.a.members.resize(static_cast<std::size_t>(track.size()));
+  std::iota(meeting.a.members.begin(), meeting.a.members.end(), 0);
+  meeting.is_of_all = true;
+  return meeting;
+}
+
+}  // namespace
+
 MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length, bool all) {
   // In steps: roots nearer to the left end are the known meeting there.
   constexpr double behind_a_meeting = 1e-4;
@@ -93,6 +127,13 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
     const Track& track = left.tracks[i];
     if (track.size() < 2) continue;
     StrandSampler sampler(left, right, i, length);
+    Stretch stretch = where_told_apart(track, right.tracks[i], length);
+    if (const std::optional<PlaceOnStep> place = common_place(track, sampler)) {
+      meetings.push_back(expected_of_all(track, i, place->t * length));
+      first_roots.found(place->t);
+      stretch.to = std::min(stretch.to, place->t - place->hidden_within);
+    }
+    if (stretch.from >= stretch.to) continue;
     const std::vector<Strand> strands = strands_of(track, i, sampler);
     const double zero = zero_level(track, left);
     for (std::size_t a = 0; a < strands.size(); ++a) {
@@ -100,12 +141,20 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
         const double first = has_just_met ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero);
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero,
+                          stretch);
         std::vector<double> found;
         for (const Complex t : all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
-        add_near_left_end(track, strands[a].members, strands[b].members, length, found);
+        if (stretch.from == 0.0)
+          add_near_left_end(track, strands[a].members, strands[b].members, length, found);
+        if (!stretch.is_whole()) {
+          std::erase_if(found, [&](double position) {
+            const double t = position / length;
+            return t < stretch.from || t > stretch.to;
+          });
+        }
         for (const double position : found) {
           meetings.push_back({strands[b], strands[a], position});
           meetings.back().doubt = doubt_of_root(left, right, i, length, position);
@@ -337,6 +386,8 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       strands.push_back({i, {0}});
       continue;
     }
+    const Stretch stretch = where_told_apart(track, right.tracks[i], length);
+    if (stretch.from >= stretch.to) continue;
     StrandSampler sampler(left, right, i, length);
     const std::size_t before = strands.size();
     for (Strand& strand : strands_of(track, i, sampler)) {
@@ -347,7 +398,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          widest / std::abs(length), zero);
+                          widest / std::abs(length), zero, stretch);
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }

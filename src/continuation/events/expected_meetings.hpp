@@ -15,6 +15,7 @@ struct ExpectedMeeting {
   bool has_just_met = false;  ///< the two take part in a meeting at the left end
   /// The series at either end are no more than a hint of it.
   bool is_rough = false;
+  bool is_of_all = false;  ///< all eigenvalues of the block, those of `a`, meet in one point
 };
 
 /// Meetings on a step.

@@ -134,6 +134,11 @@ class MeetingLanding {
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
   RealSight look_from(double distance, const ExpectedMeeting& expected, bool trusting, StrandSampler& strands,
                       double& earlier, double& rounding);
+  Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
+    return expected.is_of_all
+               ? meeting_of_all(track, step_.h)
+               : nearest_meeting(track, expected.a.members, expected.b.members, step_.h, thresholds_);
+  }
   std::optional<Meeting> meeting_at_end(const ExpectedMeeting& expected) const;
   bool is_left_end(const ExpectedMeeting& expected, double distance) const;
   bool attempt(double distance);
@@ -161,8 +166,7 @@ bool MeetingLanding::attempt(double distance) {
 std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& expected) const {
   const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
   const Meeting meeting =
-      beyond_rounding(nearest_meeting(track, expected.a.members, expected.b.members, step_.h, thresholds_),
-                      solver_.points().frame().coordinate_range());
+      beyond_rounding(seen_from(track, expected), solver_.points().frame().coordinate_range());
   if (!meeting.found || std::abs(meeting.offset) > std::max(at_point_, meeting.rounding) ||
       meeting.half_width > thresholds_.narrow * std::abs(step_.h))
     return std::nullopt;
@@ -207,15 +211,15 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
     if (!point) return {RealSight::Kind::failed};
     there = std::move(point->node.tracks.front());
   }
-  there.roots = in_order_of(strands(distance / h), there.roots);
-  const Meeting meeting = nearest_meeting(there, expected.a.members, expected.b.members, h, thresholds_);
+  if (!expected.is_of_all) there.roots = in_order_of(strands(distance / h), there.roots);
+  const Meeting meeting = seen_from(there, expected);
   if (!meeting.found) return {RealSight::Kind::absent};
   rounding = meeting.rounding;
   const double move = std::abs(meeting.offset);
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
   if (is_wide && move < near_veering * meeting.half_width) return {RealSight::Kind::absent};
-  const bool near = move <= std::max(seen_well * std::abs(h), at_point_);
+  const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
   earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
   const double share = (distance + meeting.offset) / h;
   const bool trusted =

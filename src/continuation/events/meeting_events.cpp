@@ -91,8 +91,9 @@ FoundEvents meeting_events(const EventSearch& search, const PathNode& node,
 
 void mark_meetings(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
   for (const MeetingOnEnd& found : meetings) {
-    std::vector<int>& met = node.tracks[found.track].met;
-    met = united(met, found.meeting.members);
+    Track& track = node.tracks[found.track];
+    track.met = united(track.met, found.meeting.members);
+    track.hidden_within = std::max(track.hidden_within, found.meeting.hidden_within);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "continuation/events/common_collision.hpp"
 #include "continuation/events/meeting_resolution.hpp"
 #include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
@@ -215,52 +216,6 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
   return meeting;
 }
 
-/// The collision of all m eigenvalues of a part in one exceptional point. The product of their differences
-/// from the mean has a simple root there, while each of them varies like the m-th root of the distance; or
-/// like the square root, where several equal parts have a collision of two each. Empty if this does not hold
-/// near the point.
-std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double reach) {
-  constexpr double on_axis = 1e-3;  // of the reach: about the error of the linear approximation of the root
-  // The m-th power of the radius of the eigenvalues about their mean at the root, as a share of that beside
-  // it. In exact arithmetic the first is zero; the linear approximation leaves about a thousandth.
-  constexpr double closes_in = 1e-2;
-  const auto product = [&](double h) { return centred(part, h).determinant(); };
-  const auto radius = [&](double h) {
-    return Eigen::ComplexEigenSolver<ComplexMatrix>(centred(part, h), false)
-        .eigenvalues()
-        .cwiseAbs()
-        .maxCoeff();
-  };
-  const double width = difference_step * std::abs(reach);
-  const Complex slope = (product(width) - product(-width)) / (2.0 * width);
-  if (slope == 0.0) return std::nullopt;
-  const Complex root = -product(0.0) / slope;
-  const double share = std::pow(closes_in, 1.0 / static_cast<double>(part[0].rows()));
-  const bool near = std::abs(root.imag()) <= on_axis * std::abs(reach) && std::abs(root) <= std::abs(reach);
-  if (!near || !(radius(root.real()) < share * radius(root.real() + width))) return std::nullopt;
-  // The radius grows by 2^(1/cycle) when the distance is doubled; by 2 where the eigenvalues cross.
-  const Eigen::Index size = part[0].rows();
-  const double growth = std::log2(radius(root.real() + 2.0 * width) / radius(root.real() + width));
-  constexpr double nearer_to_a_square_root = 0.4;
-  constexpr double nearer_to_a_crossing = 0.75;
-  if (!(growth < nearer_to_a_crossing)) return std::nullopt;
-  Meeting meeting;
-  meeting.found = true;
-  meeting.kind = EventKind::collision;
-  meeting.offset = root.real();
-  meeting.cycle = static_cast<int>(size);
-  meeting.puiseux = std::pow((size % 2 == 0 ? -1.0 : 1.0) * slope, 1.0 / static_cast<double>(size));
-  if (size % 2 == 0 && size > 2 && growth > nearer_to_a_square_root) {
-    const auto square = [&](double h) {
-      const ComplexMatrix N = centred(part, h);
-      return N.cwiseProduct(N.transpose()).sum() / static_cast<double>(size);
-    };
-    meeting.cycle = 2;
-    meeting.puiseux = std::sqrt((square(root.real() + width) - square(root.real() - width)) / (2.0 * width));
-  }
-  return meeting;
-}
-
 /// The meeting of all eigenvalues of a cluster in one point; empty if there is none, or if the cluster has no
 /// more eigenvalues than `members`.
 std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vector<int>& members,
@@ -268,8 +223,9 @@ std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vecto
   if (cluster.size() == members.size()) return std::nullopt;
   const std::vector<ComplexMatrix> part = part_of_track(track, cluster);
   if (part.empty()) return std::nullopt;
-  auto meeting = common_crossing(part, rounding_of(track, part), reach);
-  if (!meeting) meeting = common_collision(part, reach);
+  const PartRounding rounding = rounding_of(track, part);
+  auto meeting = common_crossing(part, rounding, reach);
+  if (!meeting) meeting = common_collision(part, rounding.lambda, reach);
   if (meeting) meeting->members = cluster;
   return meeting;
 }
@@ -294,6 +250,14 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
   const std::vector<ComplexMatrix> second = part_of_track(track, b);
   if (first.empty() || second.empty()) return {};
   return discriminant_series(mean_series(first), mean_series(second));
+}
+
+Meeting meeting_of_all(const Track& track, double reach) {
+  const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
+  Meeting meeting = common_collision(Lambda, rounding_of(track, Lambda).lambda, reach).value_or(Meeting{});
+  meeting.members.resize(static_cast<std::size_t>(track.size()));
+  std::iota(meeting.members.begin(), meeting.members.end(), 0);
+  return meeting;
 }
 
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,

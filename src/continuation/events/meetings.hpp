@@ -30,6 +30,8 @@ struct Meeting {
   /// Error of the offset of a single root by rounding. Two collisions close to each other are known less well
   /// than others, because the discriminant has little slope there.
   double rounding = 0.0;
+  /// Distance from the meeting within which rounding hides its members, where these are many.
+  double hidden_within = 0.0;
   /// Whether rounding leaves no doubt that a crossing is none of a narrow veering, in which the modes would
   /// turn back instead of going straight on.
   bool is_certain = true;
@@ -41,6 +43,9 @@ struct Meeting {
 /// count.
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds = {});
+
+/// The collision of all eigenvalues of a block of three or more in one exceptional point. `reach` as above.
+Meeting meeting_of_all(const Track& track, double reach);
 
 /// Offset of the farthest meeting on the real axis between the beginning of a step of signed length h and the
 /// point, as far as the series at the point is accurate. Zero when there is none.

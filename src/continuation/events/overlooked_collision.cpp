@@ -17,12 +17,7 @@ constexpr double rounding_margin = 10.0;
 /// nearly coincide are known to a high root of rounding only.
 std::optional<Eigen::Index> count_real(const ComplexVector& functions, const ComplexVector& roots,
                                        const Vector& rounding) {
-  const Vector errors = root_errors(functions, roots, rounding_margin * rounding);
-  for (Eigen::Index i = 0; i < roots.size(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (!(std::abs(roots[i] - roots[j]) > errors[i] + errors[j])) return std::nullopt;
-    }
-  }
+  if (!are_told_apart(functions, roots, rounding_margin * rounding)) return std::nullopt;
   return (roots.array().imag() == 0.0).count();
 }
 

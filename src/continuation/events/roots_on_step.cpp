@@ -25,7 +25,7 @@ constexpr int most_pieces = 300;
 }  // namespace
 
 std::vector<Complex> RootsOnStep::find() {
-  if (!of_two_has_none() && !are_zero()) search(0.0, 1.0);
+  if (!of_two_has_none() && !are_zero()) search(stretch_.from, stretch_.to);
   return std::move(roots_);
 }
 

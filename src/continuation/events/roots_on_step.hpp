@@ -26,15 +26,22 @@ struct FirstRoots {
   void found(double t) { up_to = std::min(up_to, t + behind); }
 };
 
+/// A part of a step, in shares of it.
+struct Stretch {
+  double from = 0.0, to = 1.0;
+
+  bool is_whole() const { return from == 0.0 && to == 1.0; }
+};
+
 /// Chebyshev interpolants of the gap of two eigenvalues. Where the gap is not smooth, because one of the two
 /// meets a third eigenvalue, the step is halved repeatedly. On such a piece only roots up to half its length
 /// off the real axis are found.
 class RootsOnStep {
  public:
   /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `zero`: up to
-  /// which eigenvalues are rounding.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero)
-      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero) {}
+  /// which eigenvalues are rounding. `stretch`: what is looked at of the step.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero, const Stretch& stretch)
+      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero), stretch_(stretch) {}
 
   /// All roots, in shares of the step.
   std::vector<Complex> find();
@@ -65,6 +72,7 @@ class RootsOnStep {
   StrandSampler& sampler_;
   int a_, b_;
   double off_axis_, zero_;
+  Stretch stretch_;
   double from_ = 0.0;
   FirstRoots* first_ = nullptr;
   int pieces_ = 0;

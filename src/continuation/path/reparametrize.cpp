@@ -88,6 +88,7 @@ void reparametrize(PathNode& node, const PathPlane& plane, int traced) {
     compose(track.series.Z, table);
     compose(track.series.Lambda, table);
     if (track.departure) track.departure->distance *= sigma[1];
+    track.hidden_within *= std::abs(sigma[1]);
   }
 }
 

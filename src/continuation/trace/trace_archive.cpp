@@ -33,9 +33,9 @@ static void fields(Self& self, Visit& visit) {
 template <SameAs<Track> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
-         unproven, passed, met] = self;
+         unproven, passed, met, hidden_within] = self;
   visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
-        unproven, passed, met);
+        unproven, passed, met, hidden_within);
 }
 
 template <SameAs<Linearization> Self, class Visit>
@@ -144,8 +144,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<StepMemory> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [joins, ended, towards_pole, patience, longest_step, turned_step] = self;
-  visit(joins, ended, towards_pole, patience, longest_step, turned_step);
+  auto& [joins, ended, lengthened, towards_pole, patience, longest_step, turned_step] = self;
+  visit(joins, ended, lengthened, towards_pole, patience, longest_step, turned_step);
 }
 
 template <SameAs<ModeNumbers> Self, class Visit>

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
+#include "continuation/events/common_collision.hpp"
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/events/growth_check.hpp"
 #include "continuation/events/meeting_events.hpp"
@@ -55,6 +57,10 @@ constexpr double uncertified_error = 30.0;
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
+/// A step that ends where rounding hides eigenvalues becomes longer by this factor, at most so many times in
+/// a row. A larger factor is rejected more often, with fewer attempts a short step stays there.
+constexpr double lengthening = 4.0;
+constexpr int most_lengthenings = 8;
 /// A step towards a place of infinity covers this share of the way. A larger one lets the eigenvalue that
 /// runs there grow more on the step, and its series converge less; a smaller one costs points.
 constexpr double share_of_way_to_infinity = 0.9;
@@ -306,11 +312,17 @@ bool TraceLoop::advance() {
   Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
   while (attempted.step && notices_rounding(problem_, options_, *attempted.step, verdict, state_))
     verdict = judge(*attempted.step, if_uncertified(h));
+  {
+    std::fprintf(stderr, "p=%.12g h=%.3g kind=%d track=%d err=%.3g :", state_.origin.node.p, h, (int)verdict.kind, verdict.track, verdict.error);
+    for (const Track& t : state_.origin.node.tracks) std::fprintf(stderr, " %d%s", (int)t.size(), t.pair.chart == Chart::reciprocal ? "r" : "");
+    std::fprintf(stderr, " %s\n", verdict.reason.c_str());
+  }
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
     if (!may_be_taken) return shorten(verdict, length);
   }
+  if (lengthen(*attempted.step)) return true;
   StepSolver solver = steps();
   std::optional<LandedStep> landed =
       land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
@@ -362,6 +374,19 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
     std::vector<Track> tracks = std::exchange(step->right.tracks, {});
     state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->right)};
   }
+  return true;
+}
+
+/// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
+/// hides them: from there none could be followed. Returns whether it does.
+bool TraceLoop::lengthen(const Step& step) {
+  const double length = std::abs(step.h);
+  const bool hides = std::any_of(step.right.tracks.begin(), step.right.tracks.end(),
+                                 [&](const Track& track) { return are_hidden(track, length); });
+  if (!hides || state_.steps.lengthened >= most_lengthenings) return false;
+  ++state_.steps.lengthened;
+  state_.origin.tried.reset();
+  state_.control.restart(lengthening * length);
   return true;
 }
 
@@ -511,6 +536,7 @@ void TraceLoop::move_on(Step step) {
   memory.longest_step = std::max(std::abs(step.h), forgetting * memory.longest_step);
   memory.joins = 0;
   memory.ended = 0;
+  memory.lengthened = 0;
   state_.branches.tries = 0;
   const bool grows = grows_towards_pole(frame, origin.node, step.right);
   origin.previous = std::move(origin.node.tracks);
@@ -519,6 +545,10 @@ void TraceLoop::move_on(Step step) {
   origin.last_step = frame.plane ? 0.0 : step.h;
   origin.tried.reset();
   note_size(problem_.model, origin.node, frame);
+  for (const Track& track : origin.node.tracks) {
+    // Where eigenvalues of the next step can be told apart is on it.
+    if (state_.control.step() < 2.0 * track.hidden_within) state_.control.restart(2.0 * track.hidden_within);
+  }
   if (leaves_path_at(origin.node)) return;
   if (renew_plane(frame, origin.node)) ++state_.result.regroupings.planes;
   if (const auto turned =

@@ -387,7 +387,8 @@ std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const P
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& track = node.tracks[i];
     if (!meets[i]) continue;
-    track.departure = Track::Departure{distance, block_roots(evaluate_series(track.functions, distance))};
+    const double beside = std::copysign(std::max(std::abs(distance), track.hidden_within), distance);
+    track.departure = Track::Departure{beside, block_roots(evaluate_series(track.functions, beside))};
     if (track.pair.is_real) {
       const std::vector<Birth> born = settle_real_block(track, modes_of(node.tracks), numbers);
       births.insert(births.end(), born.begin(), born.end());

@@ -118,12 +118,13 @@ std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, M
     track.departure.reset();
     if (!meets[i]) continue;
     const HermiteInterpolant functions = functions_on_step(*step.left, step.right, i, step.h);
-    const double distance = beside_meeting * step.h;
+    const double share = std::max(beside_meeting, track.hidden_within / std::abs(step.h));
+    const double distance = share * step.h;
     double from = 0.0;
     const ComplexVector start = departing_roots(step.left->tracks[i], step.h, from);
-    const double near = 1.0 - beside_meeting;
+    const double near = 1.0 - share;
     const ComplexVector before = follow_roots(functions, start, from, near, &track.told_apart);
-    const ComplexVector earlier = follow_roots(functions, before, near, 1.0 - 2.0 * beside_meeting);
+    const ComplexVector earlier = follow_roots(functions, before, near, near - share);
     // Linear extrapolation is right at a crossing. Behind an exceptional point no assignment is better than
     // another.
     const ComplexVector expected = before + 2.0 * (before - earlier);

@@ -11,6 +11,7 @@
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
+#include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
 namespace {
@@ -97,6 +98,14 @@ void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, 
   for (std::size_t i = first, end = all.size(); i < end; ++i) all.push_back(std::conj(all[i]));
 }
 
+InvariantPair subspace_of(const PathNode& node, int part, Chart chart, const ComplexVector& values, bool is_real) {
+  const ComplexVector s = chart == Chart::finite ? values : ComplexVector(values.cwiseInverse());
+  const Complex centre = is_real ? Complex(s.mean().real()) : s.mean();
+  InvariantPair pair = invariant_subspace(node.pencil.of(part), centre, s.size(), is_real);
+  pair.part = part;
+  return chart == Chart::finite ? pair : in_other_chart(pair);
+}
+
 }  // namespace
 
 bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
@@ -138,7 +147,9 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   Track joined;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
-  if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts)) return false;
+  if (!settle(problem, node, join_pairs(parts, make_real), values, modes, joined, counts) &&
+      !settle(problem, node, subspace_of(node, parts.front()->part, node.tracks[index].pair.chart, values, make_real), values, modes, joined, counts))
+    return false;
   joined.met = std::move(met);
   joined.inseparable = inseparable(node, members);
   if (departure) {

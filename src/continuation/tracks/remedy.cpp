@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "continuation/tracks/silent_partners.hpp"
 
@@ -84,6 +85,16 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : rules.has_shrunk(h))) {
     remedy.tried_to_join = true;
     if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
+  }
+  if (!remedy.helps() && (verdict.kind == Verdict::Kind::inaccurate || (uncertified && node.tracks[track].size() > 2)) && std::abs(h) < (uncertified ? 0.25 : 0.1) * rules.longest_step) {
+    const std::optional<Partner> nearest = nearest_partner(node, track);
+    if (nearest) {
+    remedy.tried_to_join = true;
+    const bool ok = join(problem, node, track, {*nearest}, counts);
+    std::fprintf(stderr, "join nearest %zu with %zu: %d\n", track, nearest->track, ok);
+    if (ok) {++remedy.changes.joined;
+    node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept_together * nearest->distance);}
+    }
   }
   if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
     remedy.tried_to_join = true;

@@ -29,7 +29,8 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
   if (!track.departure) return track.roots;
   const Track::Departure& departure = *track.departure;
   position = departure.distance / h;
-  if (std::abs(position) <= farthest_departure * (1.0 + length_rounding)) return departure.roots;
+  const bool is_close = std::abs(position) <= farthest_departure * (1.0 + length_rounding);
+  if (is_close || track.hidden_within > 0.0) return departure.roots;
   // Towards the point, the differences of the eigenvalues shrink linearly or like a square root of the
   // distance. The order therefore follows from linear interpolation between the point and the departure.
   const double share = much_closer * farthest_departure / std::abs(position);
