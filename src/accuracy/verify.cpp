@@ -248,13 +248,21 @@ Vector discrepancies(const LociFile& loci, const LociFile::Position& position, c
 }
 
 /// The eigenvalues, and of pairs within rounding of the real axis both members: two equal real eigenvalues
-/// may come as such a pair.
-std::vector<Complex> as_pairs_or_real(const std::vector<Complex>& exact) {
+/// may come as such a pair. Of two that may be one, which rounding has split, their mean as well: it is known
+/// to rounding, they only to its root.
+std::vector<Complex> with_double_roots(const std::vector<Complex>& exact) {
   constexpr double rounding_of_double_root = 1e-7;  // root of rounding times a few
   std::vector<Complex> result = exact;
   for (const Complex s : exact) {
     if (s.imag() != 0.0 && std::abs(s.imag()) <= rounding_of_double_root * std::abs(s))
       result.push_back(std::conj(s));
+  }
+  const std::size_t all = result.size();
+  for (std::size_t i = 0; i < all; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(result[i] - result[j]) <= rounding_of_double_root * std::abs(result[i]))
+        result.insert(result.end(), 2, 0.5 * (result[i] + result[j]));  // for both
+    }
   }
   return result;
 }
@@ -325,7 +333,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
       }
       Eigen::Index mode = 0;
       const double worst =
-          discrepancies(loci, position, s, as_pairs_or_real(exact), report.tolerance, reference)
+          discrepancies(loci, position, s, with_double_roots(exact), report.tolerance, reference)
               .maxCoeff(&mode);
       if (report.worst.mode < 0 || worst > report.worst.relative)
         report.worst = {worst, p, static_cast<int>(mode)};

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/matching.hpp"
@@ -14,6 +15,30 @@ Eigen::Index block_size(Eigen::Index functions) {
   return functions <= 2 ? functions
                         : static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(functions))));
 }
+
+namespace {
+
+/// Whether two eigenvalues of a block are one wherever its series hold: every coefficient of delta, the sum of
+/// products of the coefficients of Lambda - tau I, is rounding of these products. Near a collision or a
+/// crossing, the first or the second coefficient is not.
+bool are_one(const std::vector<ComplexMatrix>& Lambda, const ComplexVector& delta) {
+  constexpr double rounding = 1e-14;  // of the products: some fifty machine epsilons
+  std::vector<double> sizes;
+  for (ComplexMatrix N : Lambda) {
+    N.diagonal().array() -= 0.5 * N.trace();
+    sizes.push_back(N.norm());
+  }
+  // tau is subtracted from the diagonal of Lambda, and rounding of Lambda itself is left.
+  sizes[0] = std::max(sizes[0], std::numeric_limits<double>::epsilon() * Lambda[0].norm());
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    double products = 0.0;
+    for (std::size_t i = 0; i <= k; ++i) products += sizes[i] * sizes[k - i];
+    if (std::abs(delta[static_cast<Eigen::Index>(k)]) > rounding * products) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda) {
   const auto count = static_cast<Eigen::Index>(Lambda.size());
@@ -27,7 +52,8 @@ ComplexMatrix block_functions(const std::vector<ComplexMatrix>& Lambda) {
   // delta is formed from Lambda - tau I, not from tau^2 - det: near a meeting the latter would cancel its
   // digits.
   functions.row(0) = mean_series(Lambda).transpose();
-  functions.row(1) = discriminant_series(Lambda, 1).transpose();
+  const ComplexVector delta = discriminant_series(Lambda, 1);
+  if (!are_one(Lambda, delta)) functions.row(1) = delta.transpose();
   return functions;
 }
 

@@ -194,6 +194,9 @@ Track make_track(InvariantPair pair, PairSeries series) {
   track.pair = std::move(pair);
   track.functions = block_functions(series.Lambda);
   track.roots = pair_eigenvalues(track.pair);
+  // Of two that are one, rounding makes two that differ by its root.
+  const bool are_one = track.size() == 2 && track.functions.row(1).isZero(0.0);
+  if (are_one) track.roots.setConstant(track.functions(0, 0));
   track.modes.assign(static_cast<std::size_t>(track.size()), Track::no_mode);
   track.series = std::move(series);
   return track;

@@ -101,9 +101,18 @@ void note_rounding(const Track& track, double seen, PathFrame& frame) {
   }
 }
 
+bool series_are_exact(const PathProblem& problem, double tolerance, const Step& step, std::size_t i) {
+  constexpr double negligible = 0.1;  // of the accepted error
+  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  const auto last = static_cast<int>(step.left->tracks[i].functions.cols()) - 1;
+  for (const double end : {0.0, 1.0}) {
+    const Vector terms = dense.series(end, last).rightCols(2).cwiseAbs().rowwise().sum();
+    if (!(worst_ratio(problem, tolerance, step, i, dense, terms, 0.0) <= negligible)) return false;
+  }
+  return true;
+}
+
 double observed_rounding(const PathProblem& problem, double tolerance, const Step& step, std::size_t i) {
-  // Of the accepted error: up to here the terms of the series are negligible.
-  constexpr double negligible = 0.1;
   // What is seen on one step may be twice as large on the next.
   constexpr double margin = 2.0;
   // Relative, for a condition of one: some hundred and eighty machine epsilons. More is no rounding.
@@ -112,13 +121,8 @@ double observed_rounding(const PathProblem& problem, double tolerance, const Ste
   // condition.
   constexpr Eigen::Index most_members = 2;
   const Track& track = step.left->tracks[i];
-  if (track.size() > most_members) return 0.0;
+  if (track.size() > most_members || !series_are_exact(problem, tolerance, step, i)) return 0.0;
   const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
-  const auto last = static_cast<int>(track.functions.cols()) - 1;
-  for (const double end : {0.0, 1.0}) {
-    const Vector terms = dense.series(end, last).rightCols(2).cwiseAbs().rowwise().sum();
-    if (!(worst_ratio(problem, tolerance, step, i, dense, terms, 0.0) <= negligible)) return 0.0;
-  }
   // The ratio is to what is accepted of one eigenvalue of the track; the largest bounds it.
   const double ratio = worst_ratio(problem, tolerance, step, i, dense, estimated_errors(dense, track), 0.0);
   const double scale = std::max(track.roots.cwiseAbs().maxCoeff(), problem.reference(track.pair.chart));

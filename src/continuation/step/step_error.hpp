@@ -23,10 +23,13 @@ constexpr double least_relative_gap = 0.1;
 double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,
                    std::size_t track);
 
+/// Whether a step is so short that the last terms of the series of a track at both its ends are far below the
+/// accepted error: what is left of its error does not become less on a shorter step.
+bool series_are_exact(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
+
 /// Rounding of eigenvalues, relative to their condition and size, where a track of one or two modes shows it
-/// on a step that is too inaccurate: the step is so short that the terms of the series at both ends are far
-/// below the accepted error, and the two ends still disagree by more, but by no more than rounding can be.
-/// Zero elsewhere.
+/// on a step that is too inaccurate: its series are exact there, and the two ends still disagree, but by no
+/// more than rounding can be. Zero elsewhere.
 double observed_rounding(const PathProblem& problem, double tolerance, const Step& step, std::size_t track);
 
 /// The rounding that is known of the modes of a track, and what becomes known of them. Modes keep it when

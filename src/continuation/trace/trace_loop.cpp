@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -312,11 +311,6 @@ bool TraceLoop::advance() {
   Verdict verdict = attempted.step ? judge(*attempted.step, if_uncertified(h)) : attempted.verdict;
   while (attempted.step && notices_rounding(problem_, options_, *attempted.step, verdict, state_))
     verdict = judge(*attempted.step, if_uncertified(h));
-  {
-    std::fprintf(stderr, "p=%.12g h=%.3g kind=%d track=%d err=%.3g :", state_.origin.node.p, h, (int)verdict.kind, verdict.track, verdict.error);
-    for (const Track& t : state_.origin.node.tracks) std::fprintf(stderr, " %d%s", (int)t.size(), t.pair.chart == Chart::reciprocal ? "r" : "");
-    std::fprintf(stderr, " %s\n", verdict.reason.c_str());
-  }
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "continuation/step/step_error.hpp"
 #include "continuation/tracks/silent_partners.hpp"
 
 namespace eigentrail {
@@ -28,21 +28,45 @@ bool one_is_at_infinity(const Track& a, const Track& b) {
   return of_a.maxCoeff() < much_closer * of_b.minCoeff() || of_b.maxCoeff() < much_closer * of_a.minCoeff();
 }
 
-/// Joins a track that is not certified with the nearest other one, and keeps both together. A block for which
-/// this was done before, without effect, is not made larger.
-bool join_nearest(const PathProblem& problem, const JoiningRules& rules, PathNode& node, std::size_t track,
-                  RunCounts& counts) {
-  if (node.tracks[track].unproven) return false;
+/// The nearest other track, if a block with it may be formed.
+std::optional<Partner> nearest_to_join(const JoiningRules& rules, const PathNode& node, std::size_t track) {
   const std::optional<Partner> nearest = nearest_partner(node, track);
-  if (!nearest || node.tracks[nearest->track].unproven) return false;
-  if (one_is_at_infinity(node.tracks[track], node.tracks[nearest->track])) return false;
+  if (!nearest || one_is_at_infinity(node.tracks[track], node.tracks[nearest->track])) return std::nullopt;
   const Eigen::Index size = node.tracks[track].size() + node.tracks[nearest->track].size();
-  if (!rules.follows_all && size > most_of_few) return false;
-  if (!join(problem, node, track, {*nearest}, counts)) return false;
-  Track& joined = node.tracks.back();
-  joined.inseparable = std::max(joined.inseparable, kept_together * nearest->distance);
-  joined.unproven = true;
+  if (!rules.follows_all && size > most_of_few) return std::nullopt;
+  return nearest;
+}
+
+/// Joins a track with another one, and keeps both together.
+bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
+                   RunCounts& counts) {
+  if (!join(problem, node, track, {partner}, counts)) return false;
+  double& inseparable = node.tracks.back().inseparable;
+  inseparable = std::max(inseparable, kept_together * partner.distance);
   return true;
+}
+
+/// Joins a track that is not certified with the nearest other one. A block for which this was done before,
+/// without effect, is not made larger.
+bool join_unproven(const PathProblem& problem, const JoiningRules& rules, PathNode& node, std::size_t track,
+                   RunCounts& counts) {
+  if (node.tracks[track].unproven) return false;
+  const std::optional<Partner> nearest = nearest_to_join(rules, node, track);
+  if (!nearest || node.tracks[nearest->track].unproven) return false;
+  if (!join_and_keep(problem, node, track, *nearest, counts)) return false;
+  node.tracks.back().unproven = true;
+  return true;
+}
+
+/// Whether rounding keeps a block from being accurate, or certified, on any step: it is of three or more, steps
+/// have become short, and shorter ones would not help, since the terms of its series vanish already. Then it
+/// is a part of a larger one, with vectors that are nearly parallel to those of the rest.
+bool are_hidden_by_rounding(const PathProblem& problem, const JoiningRules& rules, const Verdict& verdict,
+                            double h, const Step* step, const Track& track) {
+  if (track.size() < 3 || !rules.has_shrunk(h)) return false;
+  if (verdict.kind == Verdict::Kind::uncertified) return true;
+  return verdict.kind == Verdict::Kind::inaccurate && step != nullptr &&
+         series_are_exact(problem, rules.tolerance, *step, static_cast<std::size_t>(verdict.track));
 }
 
 }  // namespace
@@ -86,19 +110,14 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     remedy.tried_to_join = true;
     if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
   }
-  if (!remedy.helps() && (verdict.kind == Verdict::Kind::inaccurate || (uncertified && node.tracks[track].size() > 2)) && std::abs(h) < (uncertified ? 0.25 : 0.1) * rules.longest_step) {
-    const std::optional<Partner> nearest = nearest_partner(node, track);
-    if (nearest) {
+  if (!remedy.helps() && are_hidden_by_rounding(problem, rules, verdict, h, step, node.tracks[track])) {
     remedy.tried_to_join = true;
-    const bool ok = join(problem, node, track, {*nearest}, counts);
-    std::fprintf(stderr, "join nearest %zu with %zu: %d\n", track, nearest->track, ok);
-    if (ok) {++remedy.changes.joined;
-    node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept_together * nearest->distance);}
-    }
+    const std::optional<Partner> nearest = nearest_to_join(rules, node, track);
+    if (nearest && join_and_keep(problem, node, track, *nearest, counts)) ++remedy.changes.joined;
   }
   if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
     remedy.tried_to_join = true;
-    if (join_nearest(problem, rules, node, track, counts)) ++remedy.changes.joined;
+    if (join_unproven(problem, rules, node, track, counts)) ++remedy.changes.joined;
   }
   return remedy;
 }
