@@ -52,25 +52,19 @@ double refine_pair(const ExtendedPencil& pencil, const InvariantPair& pair, doub
   });
 }
 
-/// Eigenvalues of a block. For three and more the mean is computed with 113 bits and the distances from it in
-/// double precision.
+/// Eigenvalues of a block. Those of a real block are exactly real or conjugate.
 std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bool real) {
   const Eigen::Index k = Lambda.rows();
   if (k == 1) return {Lambda(0, 0)};
-  const ExtendedComplex mean = Lambda.trace() / ExtendedComplex(static_cast<double>(k));
-  if (k == 2) {
-    const ExtendedComplex half = (Lambda(0, 0) - Lambda(1, 1)) / ExtendedComplex(2.0);
-    const ExtendedComplex root = std::sqrt(half * half + Lambda(0, 1) * Lambda(1, 0));
-    return {mean + root, mean - root};
-  }
-  const ComplexMatrix apart = rounded(Lambda - mean * ExtendedComplexMatrix::Identity(k, k));
-  // A real block has exactly real or conjugate eigenvalues.
-  const ComplexVector distances =
-      real ? ComplexVector(Eigen::EigenSolver<Matrix>(Matrix(apart.real()), false).eigenvalues())
-           : ComplexVector(Eigen::ComplexEigenSolver<ComplexMatrix>(apart, false).eigenvalues());
+  // The distances from the mean keep more digits.
+  ExtendedComplex mean = Lambda.trace() / ExtendedComplex(static_cast<double>(k));
+  if (real) mean = mean.real();
+  const ExtendedComplexMatrix apart = Lambda - mean * ExtendedComplexMatrix::Identity(k, k);
+  const auto distances =
+      real ? Eigen::EigenSolver<ExtendedMatrix>(ExtendedMatrix(apart.real()), false).eigenvalues()
+           : Eigen::ComplexEigenSolver<ExtendedComplexMatrix>(apart, false).eigenvalues();
   std::vector<ExtendedComplex> result;
-  for (const Complex distance : distances)
-    result.push_back(mean + ExtendedComplex(distance.real(), distance.imag()));
+  for (const ExtendedComplex& distance : distances) result.push_back(mean + distance);
   return result;
 }
 

@@ -70,9 +70,27 @@ ComplexVector eigenvalues(const ComplexMatrix& Lambda) {
   return Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues();
 }
 
-/// Whether rounding leaves the eigenvalues of a part distinct.
-bool tells_apart(const ComplexMatrix& Lambda) {
-  return are_told_apart(Lambda.reshaped(), eigenvalues(Lambda), rounding_margin * function_rounding(Lambda));
+/// Number of different eigenvalues of a part.
+Eigen::Index count_different(const ComplexVector& s) {
+  constexpr double one = 1e-6;  // of the radius: equal ones that rounding has split
+  const double radius = (s.array() - s.mean()).abs().maxCoeff();
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (((s.head(i).array() - s[i]).abs() > one * radius).all()) ++count;
+  }
+  return count;
+}
+
+/// Whether rounding leaves the eigenvalues of a part distinct at a distance from their collision. Those of
+/// equal parts are equal everywhere; then it is enough that their radius there, `from`, is exceeded.
+bool tells_apart(const std::vector<ComplexMatrix>& part, double place, double width, double from) {
+  constexpr double exceeded = 3.0;
+  const ComplexMatrix Lambda = evaluate_series(part, place + width);
+  const ComplexVector s = eigenvalues(Lambda);
+  if (are_told_apart(Lambda.reshaped(), s, rounding_margin * function_rounding(Lambda))) return true;
+  const Eigen::Index different = count_different(s);
+  return different < s.size() && (s.array() - s.mean()).abs().maxCoeff() > exceeded * from &&
+         count_different(eigenvalues(evaluate_series(part, place + 2.0 * width))) == different;
 }
 
 }  // namespace
@@ -85,12 +103,12 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   const Eigen::Index size = part[0].rows();
   const std::optional<double> root = common_place(part, lambda, reach);
   if (!root) return std::nullopt;
+  const auto radius = [&](double h) { return eigenvalues(centred(part, h)).cwiseAbs().maxCoeff(); };
   double width = difference_step * std::abs(reach);
-  while (!tells_apart(evaluate_series(part, *root + width))) {
+  while (!tells_apart(part, *root, width, radius(*root))) {
     width *= 2.0;
     if (width > farthest * std::abs(reach)) return std::nullopt;
   }
-  const auto radius = [&](double h) { return eigenvalues(centred(part, h)).cwiseAbs().maxCoeff(); };
   const double order = 1.0 / static_cast<double>(size);
   if (!(radius(*root) < std::pow(closes_in, order) * radius(*root + width))) return std::nullopt;
   // The radius grows by 2^(1/cycle) when the distance is doubled; by 2 where the eigenvalues cross.

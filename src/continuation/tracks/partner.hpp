@@ -15,7 +15,7 @@ namespace eigentrail {
 
 /// Largest number of eigenvalues of a block that is formed on the way. Bounds its cost: a block of k
 /// eigenvalues takes k factorizations, and its dense output has k^2 functions.
-inline constexpr Eigen::Index largest_block = 40;
+inline constexpr Eigen::Index largest_block = 16;
 
 /// Eigenvalues that are joined because they are close, and not because they are seen to meet, stay together
 /// up to this multiple of their distance. With a smaller one they are joined again soon; a larger one keeps

@@ -8,9 +8,10 @@
 namespace eigentrail {
 
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
-/// change the node, if the block does not converge or would be too large.
+/// change the node, if the block does not converge to the eigenvalues of its members or would have more than
+/// `largest`.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
-          RunCounts& counts);
+          RunCounts& counts, Eigen::Index largest = largest_block);
 
 /// Some members of a block as a track of their own. Empty if they are too close to the other eigenvalues or
 /// the corrector fails.

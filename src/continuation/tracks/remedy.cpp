@@ -19,6 +19,9 @@ constexpr double join_reach = 1.0;
 /// is lost.
 constexpr Eigen::Index most_of_few = 4;
 
+/// Largest block that is formed where rounding hides its members: nothing smaller can be followed there.
+constexpr Eigen::Index largest_where_hidden = 40;
+
 /// Of two tracks on their way to infinity, whether one is so much closer to it that nothing but infinity
 /// itself can keep it from being certified: a tenth of |1/s|, so that they part further on any step to it.
 bool one_is_at_infinity(const Track& a, const Track& b) {
@@ -39,8 +42,8 @@ std::optional<Partner> nearest_to_join(const JoiningRules& rules, const PathNode
 
 /// Joins a track with another one, and keeps both together.
 bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
-                   RunCounts& counts) {
-  if (!join(problem, node, track, {partner}, counts)) return false;
+                   RunCounts& counts, Eigen::Index largest = largest_block) {
+  if (!join(problem, node, track, {partner}, counts, largest)) return false;
   double& inseparable = node.tracks.back().inseparable;
   inseparable = std::max(inseparable, kept_together * partner.distance);
   return true;
@@ -113,7 +116,8 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   if (!remedy.helps() && are_hidden_by_rounding(problem, rules, verdict, h, step, node.tracks[track])) {
     remedy.tried_to_join = true;
     const std::optional<Partner> nearest = nearest_to_join(rules, node, track);
-    if (nearest && join_and_keep(problem, node, track, *nearest, counts)) ++remedy.changes.joined;
+    if (nearest && join_and_keep(problem, node, track, *nearest, counts, largest_where_hidden))
+      ++remedy.changes.joined;
   }
   if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
     remedy.tried_to_join = true;
