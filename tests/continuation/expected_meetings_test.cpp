@@ -138,7 +138,7 @@ TEST(ExpectedInBlocks, TheFirstIsEnoughWhereGapsHaveKinks) {
   ASSERT_FALSE(all.meetings.empty());
   EXPECT_EQ(all.complete_to, INFINITY);
   EXPECT_NEAR(step.places(all.meetings).back().real(), 0.35, 1e-3);
-  const MeetingsOnStep first = expected_in_blocks(step.left, step.right, step.length, false);
+  const MeetingsOnStep first = expected_in_blocks(step.left, step.right, step.length, {false, true});
   ASSERT_FALSE(first.meetings.empty());
   EXPECT_EQ(first.meetings.front().position, all.meetings.front().position);
   EXPECT_NEAR(step.places(first.meetings).back().real(), 0.1, 1e-3);

@@ -70,6 +70,13 @@ ComplexVector eigenvalues(const ComplexMatrix& Lambda) {
   return Eigen::ComplexEigenSolver<ComplexMatrix>(Lambda, false).eigenvalues();
 }
 
+/// Whether the eigenvalues of a centred part may all be zero, within the error of Lambda.
+bool is_one(const ComplexMatrix& N, double lambda) {
+  const ComplexVector s = eigenvalues(N);
+  const Vector errors = Vector::Constant(N.size(), rounding_margin * lambda / std::sqrt(N.size()));
+  return s.cwiseAbs().maxCoeff() <= root_errors(N.reshaped(), s, errors).maxCoeff();
+}
+
 /// Number of different eigenvalues of a part.
 Eigen::Index count_different(const ComplexVector& s) {
   constexpr double one = 1e-6;  // of the radius: equal ones that rounding has split
@@ -99,6 +106,7 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   // The m-th power of the radius of the eigenvalues about their mean at the root, as a share of that beside
   // it. In exact arithmetic the first is zero; the linear approximation leaves about a thousandth.
   constexpr double closes_in = 1e-2;
+  constexpr double there = 1e-6;    // of the reach: from here rounding alone keeps them apart
   constexpr double farthest = 2.0;  // of the reach: where the eigenvalues are looked at at most
   const Eigen::Index size = part[0].rows();
   const std::optional<double> root = common_place(part, lambda, reach);
@@ -109,6 +117,8 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
     width *= 2.0;
     if (width > farthest * std::abs(reach)) return std::nullopt;
   }
+  const bool is_there = std::abs(*root) <= there * std::abs(reach);
+  if (is_there && !is_one(centred(part, *root), lambda)) return std::nullopt;
   const double order = 1.0 / static_cast<double>(size);
   if (!(radius(*root) < std::pow(closes_in, order) * radius(*root + width))) return std::nullopt;
   // The radius grows by 2^(1/cycle) when the distance is doubled; by 2 where the eigenvalues cross.

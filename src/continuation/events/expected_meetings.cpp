@@ -118,7 +118,8 @@ ExpectedMeeting expected_of_all(const Track& track, std::size_t index, double po
 
 }  // namespace
 
-MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length, bool all) {
+MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length,
+                                  const MeetingSearch& search) {
   // In steps: roots nearer to the left end are the known meeting there.
   constexpr double behind_a_meeting = 1e-4;
   std::vector<ExpectedMeeting> meetings;
@@ -128,7 +129,7 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
     if (track.size() < 2) continue;
     StrandSampler sampler(left, right, i, length);
     Stretch stretch = where_told_apart(track, right.tracks[i], length);
-    if (const std::optional<PlaceOnStep> place = common_place(track, sampler)) {
+    if (const auto place = search.common ? common_place(track, sampler) : std::nullopt) {
       meetings.push_back(expected_of_all(track, i, place->t * length));
       first_roots.found(place->t);
       stretch.to = std::min(stretch.to, place->t - place->hidden_within);
@@ -144,7 +145,7 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero,
                           stretch);
         std::vector<double> found;
-        for (const Complex t : all ? roots.find() : roots.find_first(first, first_roots)) {
+        for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
         if (stretch.from == 0.0)

@@ -24,11 +24,19 @@ struct MeetingsOnStep {
   double complete_to = INFINITY;          ///< share of the step beyond which some may be left out
 };
 
+/// Which meetings are looked for.
+struct MeetingSearch {
+  /// Of eigenvalues that meet others as well, also those that lie behind the first meeting. Where many meet in
+  /// quick succession, the step ends at the first.
+  bool all = true;
+  /// Also of all eigenvalues of a block in one point. Two of them are then not looked for where these hide
+  /// them.
+  bool common = true;
+};
+
 /// Meetings, on or close to the real axis, of eigenvalues of one block. `length`: signed length of the step.
-/// Without `all`, of eigenvalues that meet others as well only those that lie little behind the first
-/// meeting: where many meet in quick succession, the step ends there.
 MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length,
-                                  bool all = true);
+                                  const MeetingSearch& search = {});
 
 /// Meetings of any two eigenvalues at positions up to about `width` off the real axis, in no particular
 /// order. Within a block, those close to the axis are left out: expected_in_blocks has them.

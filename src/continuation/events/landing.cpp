@@ -154,6 +154,7 @@ class MeetingLanding {
   double at_point_;  ///< threshold of the same name, in the coordinate along the path
   std::optional<Step> cut_;
   std::vector<MeetingOnEnd> meetings_;
+  bool denies_common_ = false;  ///< a meeting of all eigenvalues of a block was expected, and is none
 };
 
 /// Computes the step that ends at a distance. False if the point there is not found.
@@ -345,6 +346,7 @@ bool MeetingLanding::land_on_first(const std::vector<ExpectedMeeting>& expected,
     std::optional<Step> kept = std::exchange(cut_, std::nullopt);
     int looks = 0;
     const Cut cut = cut_at(expected[i], distance, looks);
+    if (expected[i].is_of_all && cut != Cut::done) denies_common_ = true;
     if (cut == Cut::failed) return false;
     if (cut == Cut::none || (first && distance / place >= 1.0)) {
       cut_ = std::move(kept);
@@ -364,15 +366,21 @@ bool MeetingLanding::land_on_first(const std::vector<ExpectedMeeting>& expected,
 }
 
 bool MeetingLanding::land() {
-  for (const bool all : {false, true}) {
-    const MeetingsOnStep expected = expected_in_blocks(*step_.left, step_.right, step_.h, all);
+  MeetingSearch search{false, true};
+  while (true) {
+    const MeetingsOnStep expected = expected_in_blocks(*step_.left, step_.right, step_.h, search);
     double place = step_.h;
-    if (!land_on_first(expected.meetings, place)) return false;
-    if (place / step_.h + worth_a_look <= expected.complete_to) return true;
+    const bool has_landed = land_on_first(expected.meetings, place);
+    if (search.common && denies_common_) {
+      search.common = false;  // what it seemed to hide is looked for
+    } else if (!has_landed || search.all || place / step_.h + worth_a_look <= expected.complete_to) {
+      return has_landed;
+    } else {
+      search.all = true;
+    }
     cut_.reset();
     meetings_.clear();
   }
-  return true;
 }
 
 }  // namespace
