@@ -32,7 +32,7 @@ TEST(OrderDeparture, KeepsTheDirectionThroughACrossing) {
   Step step = planted.step(left, 0.3, {{{2.3 * j, 2.3 * j}}});
   order_arrival(step);
   ModeNumbers numbers{2};
-  EXPECT_TRUE(order_departure(step, {true}, numbers).empty());
+  EXPECT_TRUE(order_departure(step, {true}, numbers, {}).empty());
   const Track& track = step.right.tracks[0];
   ASSERT_TRUE(track.departure);
   for (int i = 0; i < 2; ++i) {

@@ -126,8 +126,8 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   constexpr double nearer_to_a_square_root = 0.4;
   constexpr double nearer_to_a_crossing = 0.75;
   if (!(growth < nearer_to_a_crossing)) return std::nullopt;
-  const auto slope_of = [&](const auto& function) {
-    return (function(*root + width) - function(*root - width)) / (2.0 * width);
+  const auto slope_of = [&](const auto& function, double w) {
+    return (function(*root + w) - function(*root - w)) / (2.0 * w);
   };
   Meeting meeting;
   meeting.found = true;
@@ -136,12 +136,13 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   meeting.hidden_within = width;
   if (size > 2 && growth > nearer_to_a_square_root) {
     meeting.cycle = 2;
-    meeting.puiseux = std::sqrt(slope_of([&](double h) {
+    const auto mean_square = [&](double h) {
       return sum_of_powers(centred(part, h), 2) / static_cast<double>(size);
-    }));
+    };
+    meeting.puiseux = std::sqrt(slope_of(mean_square, difference_step * std::abs(reach)));
   } else {
     meeting.cycle = static_cast<int>(size);
-    const Complex slope = slope_of([&](double h) { return centred(part, h).determinant(); });
+    const Complex slope = slope_of([&](double h) { return centred(part, h).determinant(); }, width);
     meeting.puiseux = std::pow((size % 2 == 0 ? -1.0 : 1.0) * slope, order);
   }
   return meeting;

@@ -13,12 +13,24 @@ namespace {
 /// Safety factor on the bounds of rounding errors.
 constexpr double rounding_margin = 10.0;
 
+Eigen::Index count_real(const ComplexVector& roots) {
+  return (roots.array().imag() == 0.0).count();
+}
+
 /// Number of real eigenvalues of a block; empty where two are no farther apart than they are known. Many that
 /// nearly coincide are known to a high root of rounding only.
 std::optional<Eigen::Index> count_real(const ComplexVector& functions, const ComplexVector& roots,
                                        const Vector& rounding) {
   if (!are_told_apart(functions, roots, rounding_margin * rounding)) return std::nullopt;
-  return (roots.array().imag() == 0.0).count();
+  return count_real(roots);
+}
+
+/// The same of a track at the left end of a step. Where eigenvalues coincide there, they are looked at a
+/// little behind it; where rounding hides them, they were solved for.
+std::optional<Eigen::Index> count_real(const Track& left) {
+  if (left.departure && left.hidden_within > 0.0) return count_real(left.departure->roots);
+  const ComplexVector begin = evaluate_series(left.functions, left.departure ? left.departure->distance : 0.0);
+  return count_real(begin, block_roots(begin), function_rounding(left.pair.Lambda));
 }
 
 }  // namespace
@@ -29,10 +41,7 @@ bool overlooks_collision(const Step& step) {
     const Track& right = step.right.tracks[i];
     const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
     if (meets || !left.pair.is_real || left.size() < 2) continue;
-    // Where eigenvalues coincide at the left end, they are looked at a little behind it.
-    const double aside = left.departure ? left.departure->distance : 0.0;
-    const ComplexVector begin = evaluate_series(left.functions, aside);
-    const auto before = count_real(begin, block_roots(begin), function_rounding(left.pair.Lambda));
+    const auto before = count_real(left);
     const auto behind = count_real(right.functions.col(0), right.roots, function_rounding(right.pair.Lambda));
     if (before && behind && *before != *behind) return true;
   }

@@ -478,7 +478,11 @@ void TraceLoop::settle_events(LandedStep& landed) {
   // If the trace leaves its path here, leave_path orders the modes on the other path.
   std::vector<Birth> births;
   if (!leaves_path_at(step.right))
-    births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers);
+    births = order_departure(step, coinciding_tracks(step.right, landed.meetings), state_.numbers,
+                             [&](std::size_t track, double distance) {
+                               const auto point = points_.follow(one_track(step.right, track), distance);
+                               return point ? point->node.tracks.front().roots : ComplexVector();
+                             });
   mark_doubtful(landed.meetings, step.right);
   name_births(births, met);
   number_modes(state_, step.right);

@@ -111,7 +111,8 @@ void order_arrival(Step& step) {
   }
 }
 
-std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers) {
+std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers,
+                                   const SolveBehind& solve) {
   std::vector<Birth> births;
   for (std::size_t i = 0; i < step.right.tracks.size(); ++i) {
     Track& track = step.right.tracks[i];
@@ -129,7 +130,9 @@ std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, M
     // another.
     const ComplexVector expected = before + 2.0 * (before - earlier);
     track.roots = in_order_of(before, track.roots);
-    track.departure = Track::Departure{distance, in_order_of(expected, roots_beside(track, distance))};
+    ComplexVector behind = track.hidden_within > 0.0 ? solve(i, distance) : ComplexVector();
+    if (behind.size() == 0) behind = roots_beside(track, distance);
+    track.departure = Track::Departure{distance, in_order_of(expected, behind)};
     if (!track.pair.is_real) continue;
     const std::vector<Birth> born = settle_real_block(track, modes_of(step.right.tracks), numbers);
     births.insert(births.end(), born.begin(), born.end());

@@ -5,6 +5,7 @@
 // the real axis a complex pair becomes two modes, or two real modes become one complex pair.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -30,9 +31,14 @@ struct Birth {
 /// beginning, and takes over the mode numbers. Sets Track::told_apart.
 void order_arrival(Step& step);
 
+/// Solves for the eigenvalues of a track of a point at a signed distance from it; empty if that fails.
+using SolveBehind = std::function<ComplexVector(std::size_t track, double distance)>;
+
 /// Assigns modes behind the end of a step in blocks whose eigenvalues coincide there (`meets`, per track),
-/// and sets Track::departure. Returns the modes that begin there.
-std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers);
+/// and sets Track::departure. Returns the modes that begin there. Where rounding hides the eigenvalues so far
+/// that the series behind the end are not accurate enough, they are solved for.
+std::vector<Birth> order_departure(Step& step, const std::vector<bool>& meets, ModeNumbers& numbers,
+                                   const SolveBehind& solve);
 
 /// The same for `node`, the branch point as a start on another path. `arrived`: the branch point at the end
 /// of the trace's own path, with the same tracks. `next_step`: signed length of the first step.
