@@ -29,6 +29,7 @@ int run_verify(const VerifyArguments& arguments) {
   const VerifyReport report = verify_loci(loci, arguments.options);
   std::printf("  %d random values of %s, each solved afresh %s", report.samples, loci.parameter.c_str(),
               report.large ? "by shift-invert of the whole model" : "by QZ");
+  if (report.refined > 0) std::printf(", at %d of them refined in extended precision", report.refined);
   if (report.unsolved > 0) std::printf("; %d could not be solved", report.unsolved);
   std::printf("\n");
   if (report.worst.mode >= 0) {

@@ -351,7 +351,10 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
       Vector off = off_from(exact);
       if (off.maxCoeff() > report.tolerance) {
         const std::vector<Complex> refined = solver.in_extended_precision(position, p);
-        if (!refined.empty()) off = off_from(refined);
+        if (!refined.empty()) {
+          off = off_from(refined);
+          ++report.refined;
+        }
       }
       Eigen::Index mode = 0;
       const double worst = off.maxCoeff(&mode);

@@ -18,8 +18,8 @@ Eigen::Index block_size(Eigen::Index functions) {
 
 namespace {
 
-/// Whether two eigenvalues of a block are one wherever its series hold: every coefficient of delta, the sum of
-/// products of the coefficients of Lambda - tau I, is rounding of these products. Near a collision or a
+/// Whether two eigenvalues of a block are one wherever its series hold: every coefficient of delta, the sum
+/// of products of the coefficients of Lambda - tau I, is rounding of these products. Near a collision or a
 /// crossing, the first or the second coefficient is not.
 bool are_one(const std::vector<ComplexMatrix>& Lambda, const ComplexVector& delta) {
   constexpr double rounding = 1e-14;  // of the products: some fifty machine epsilons

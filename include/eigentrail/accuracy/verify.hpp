@@ -1,7 +1,9 @@
 // Independent check of a loci file. At random parameter values the stored scene is solved again and its
 // whole spectrum is computed by QZ. Each value of the dense output is compared with the eigenvalue assigned
-// to it, one to one. Of a large model, which was projected for the trace, the whole model is solved by
-// shift-invert iterations for the eigenvalues nearest to the followed ones.
+// to it, one to one. Where one is off, the spectrum is refined in extended precision before it is judged: of
+// close eigenvalues, and where entries differ by orders of magnitude, QZ has larger errors than a trace. Of a
+// large model, which was projected for the trace, the whole model is solved by shift-invert iterations for
+// the eigenvalues nearest to the followed ones.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +34,7 @@ struct [[nodiscard]] VerifyReport {
   bool large = false;  ///< the model was projected for the trace, and is solved as a whole here
   int samples = 0;
   int unsolved = 0;  ///< number of places without an equilibrium or a spectrum
+  int refined = 0;   ///< number of places that were solved in extended precision as well
   Discrepancy worst;
   int missing = 0;          ///< largest number of eigenvalues that no mode has, where all modes are followed
   double missing_at = 0.0;  ///< the parameter there

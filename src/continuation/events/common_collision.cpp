@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "continuation/events/meeting_resolution.hpp"
 #include "core/matrix_series.hpp"
@@ -145,6 +146,14 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
     const Complex slope = slope_of([&](double h) { return centred(part, h).determinant(); }, width);
     meeting.puiseux = std::pow((size % 2 == 0 ? -1.0 : 1.0) * slope, order);
   }
+  return meeting;
+}
+
+Meeting meeting_of_all(const Track& track, double reach) {
+  const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
+  Meeting meeting = common_collision(Lambda, rounding_of(track, Lambda).lambda, reach).value_or(Meeting{});
+  meeting.members.resize(static_cast<std::size_t>(track.size()));
+  std::iota(meeting.members.begin(), meeting.members.end(), 0);
   return meeting;
 }
 

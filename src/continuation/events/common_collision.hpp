@@ -11,8 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/events/meetings.hpp"
+#include "continuation/events/meeting.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/continuation/path_node.hpp"
 
 namespace eigentrail {
 
@@ -20,6 +21,9 @@ namespace eigentrail {
 /// `lambda` by rounding. Empty if there is none within `reach`, in the path's coordinate, that the series
 /// show.
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double lambda, double reach);
+
+/// The same of all eigenvalues of a block, from its series at a point. `found` is false where there is none.
+Meeting meeting_of_all(const Track& track, double reach);
 
 /// A place on a step, in shares of it, with the distance within which rounding hides the eigenvalues.
 struct PlaceOnStep {

@@ -26,8 +26,8 @@ struct MeetingsOnStep {
 
 /// Which meetings are looked for.
 struct MeetingSearch {
-  /// Of eigenvalues that meet others as well, also those that lie behind the first meeting. Where many meet in
-  /// quick succession, the step ends at the first.
+  /// Of eigenvalues that meet others as well, also those that lie behind the first meeting. Where many meet
+  /// in quick succession, the step ends at the first.
   bool all = true;
   /// Also of all eigenvalues of a block in one point. Two of them are then not looked for where these hide
   /// them.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/events/common_collision.hpp"
 #include "continuation/events/overlooked_collision.hpp"
 #include "continuation/events/walk.hpp"
 #include "eigentrail/modes/invariants.hpp"

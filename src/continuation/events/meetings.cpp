@@ -252,14 +252,6 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
   return discriminant_series(mean_series(first), mean_series(second));
 }
 
-Meeting meeting_of_all(const Track& track, double reach) {
-  const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
-  Meeting meeting = common_collision(Lambda, rounding_of(track, Lambda).lambda, reach).value_or(Meeting{});
-  meeting.members.resize(static_cast<std::size_t>(track.size()));
-  std::iota(meeting.members.begin(), meeting.members.end(), 0);
-  return meeting;
-}
-
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds) {
   const std::vector<int> members = both(a, b);

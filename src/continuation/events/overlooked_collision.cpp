@@ -29,7 +29,8 @@ std::optional<Eigen::Index> count_real(const ComplexVector& functions, const Com
 /// little behind it; where rounding hides them, they were solved for.
 std::optional<Eigen::Index> count_real(const Track& left) {
   if (left.departure && left.hidden_within > 0.0) return count_real(left.departure->roots);
-  const ComplexVector begin = evaluate_series(left.functions, left.departure ? left.departure->distance : 0.0);
+  const ComplexVector begin =
+      evaluate_series(left.functions, left.departure ? left.departure->distance : 0.0);
   return count_real(begin, block_roots(begin), function_rounding(left.pair.Lambda));
 }
 

@@ -168,6 +168,19 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   return true;
 }
 
+/// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
+/// hides them: from there none could be followed. Returns whether it does.
+bool is_lengthened(const Step& step, TraceState& state) {
+  const double length = std::abs(step.h);
+  const bool hides = std::any_of(step.right.tracks.begin(), step.right.tracks.end(),
+                                 [&](const Track& track) { return are_hidden(track, length); });
+  if (!hides || state.steps.lengthened >= most_lengthenings) return false;
+  ++state.steps.lengthened;
+  state.origin.tried.reset();
+  state.control.restart(lengthening * length);
+  return true;
+}
+
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -316,7 +329,7 @@ bool TraceLoop::advance() {
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
     if (!may_be_taken) return shorten(verdict, length);
   }
-  if (lengthen(*attempted.step)) return true;
+  if (is_lengthened(*attempted.step, state_)) return true;
   StepSolver solver = steps();
   std::optional<LandedStep> landed =
       land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
@@ -368,19 +381,6 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
     std::vector<Track> tracks = std::exchange(step->right.tracks, {});
     state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->right)};
   }
-  return true;
-}
-
-/// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
-/// hides them: from there none could be followed. Returns whether it does.
-bool TraceLoop::lengthen(const Step& step) {
-  const double length = std::abs(step.h);
-  const bool hides = std::any_of(step.right.tracks.begin(), step.right.tracks.end(),
-                                 [&](const Track& track) { return are_hidden(track, length); });
-  if (!hides || state_.steps.lengthened >= most_lengthenings) return false;
-  ++state_.steps.lengthened;
-  state_.origin.tried.reset();
-  state_.control.restart(lengthening * length);
   return true;
 }
 

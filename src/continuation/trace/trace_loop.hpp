@@ -37,7 +37,6 @@ class TraceLoop final : private Checkpoint {
   /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if
   /// they were solved. Returns whether something was changed, so that the step shall be tried again.
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
-  bool lengthen(const Step& step);
   bool shorten(const Verdict& verdict, double length);
   bool commit(LandedStep landed, const std::vector<bool>& certified);
   void settle_events(LandedStep& landed);

@@ -98,8 +98,8 @@ void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, 
   for (std::size_t i = first, end = all.size(); i < end; ++i) all.push_back(std::conj(all[i]));
 }
 
-/// The block with these eigenvalues in the chart and the part of `one`, by inverse iteration. Where vectors are
-/// parallel to rounding, only their space can be computed, not the vectors one by one.
+/// The block with these eigenvalues in the chart and the part of `one`, by inverse iteration. Where vectors
+/// are parallel to rounding, only their space can be computed, not the vectors one by one.
 InvariantPair subspace_of(const PathNode& node, const InvariantPair& one, const ComplexVector& values,
                           bool is_real) {
   const ComplexVector s = one.chart == Chart::finite ? values : ComplexVector(values.cwiseInverse());
@@ -112,8 +112,8 @@ InvariantPair subspace_of(const PathNode& node, const InvariantPair& one, const 
 /// Whether a block has the eigenvalues that its members had, as far as these were known.
 bool has_eigenvalues(const Track& block, const ComplexVector& known) {
   constexpr double rounding = 1e4;  // in units of that of a matrix: errors of the corrector, with a margin
-  const Vector errors = root_errors(block.functions.col(0), block.roots,
-                                    rounding * function_rounding(block.pair.Lambda));
+  const Vector errors =
+      root_errors(block.functions.col(0), block.roots, rounding * function_rounding(block.pair.Lambda));
   return ((block.roots - known).cwiseAbs().array() <= errors.array()).all();
 }
 
@@ -153,7 +153,8 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
                      [](int mode) { return mode >= 0 ? Track::no_mode : Track::guest; });
     }
   }
-  if (static_cast<Eigen::Index>(known.size()) > largest_block_of(node.pencil.of(pairs[0].part).size(), largest))
+  if (static_cast<Eigen::Index>(known.size()) >
+      largest_block_of(node.pencil.of(pairs[0].part).size(), largest))
     return false;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
@@ -161,7 +162,8 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   const auto settles = [&](const InvariantPair& start) {
     return settle(problem, node, start, values, modes, joined, counts) && has_eigenvalues(joined, values);
   };
-  if (!settles(join_pairs(parts, make_real)) && !settles(subspace_of(node, *parts.front(), values, make_real)))
+  if (!settles(join_pairs(parts, make_real)) &&
+      !settles(subspace_of(node, *parts.front(), values, make_real)))
     return false;
   joined.met = std::move(met);
   joined.inseparable = inseparable(node, members);

@@ -61,9 +61,9 @@ bool join_unproven(const PathProblem& problem, const JoiningRules& rules, PathNo
   return true;
 }
 
-/// Whether rounding keeps a block from being accurate, or certified, on any step: it is of three or more, steps
-/// have become short, and shorter ones would not help, since the terms of its series vanish already. Then it
-/// is a part of a larger one, with vectors that are nearly parallel to those of the rest.
+/// Whether rounding keeps a block from being accurate, or certified, on any step: it is of three or more,
+/// steps have become short, and shorter ones would not help, since the terms of its series vanish already.
+/// Then it is a part of a larger one, with vectors that are nearly parallel to those of the rest.
 bool are_hidden_by_rounding(const PathProblem& problem, const JoiningRules& rules, const Verdict& verdict,
                             double h, const Step* step, const Track& track) {
   if (track.size() < 3 || !rules.has_shrunk(h)) return false;
