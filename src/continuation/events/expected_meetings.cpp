@@ -139,7 +139,6 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
     const double zero = zero_level(track, left);
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
-        if (!stands_for_a_mode(track, strands[a]) && !stands_for_a_mode(track, strands[b])) continue;
         const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
         const double first = has_just_met ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero,

@@ -122,6 +122,12 @@ InvariantPair upper_member(InvariantPair pair) {
   return is_lower ? conjugated(pair) : pair;
 }
 
+/// Whether a track is followed by its eigenvalues with Im s < 0: in the chart 1/s, those with Im (1/s) > 0 are.
+bool is_followed_below(const PathNode& node, const Track& track) {
+  return !track.pair.is_real && node.pencil.of(track.pair.part).chirality == 0 &&
+         chart_value(track.roots.mean(), track.pair.chart).imag() < 0.0;
+}
+
 /// The problem with thresholds that tell whether a guest is a mode that is followed. An inaccurate start may
 /// converge to one. Where two have just met, their eigenvalues differ from those of the guest by the root of
 /// rounding, relative to the pencil, whose measure is the largest eigenvalue; the spaces agree.
@@ -145,6 +151,7 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
   const StageTimer timer(counts.matching_seconds);
   const PathProblem compared = for_comparison_with_guests(problem, node, node.tracks[track]);
   const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
+  const bool is_below = is_followed_below(node, node.tracks[track]);
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
     InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
@@ -153,6 +160,9 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     Track guest = differentiate_track(problem, node, upper_member(std::move(pair)), counts);
     if (!guest.functions.allFinite()) continue;
     if (is_followed(compared, node, guest)) continue;
+    // It meets the track in the half-plane in which that is followed.
+    if (is_below && guest.size() == 1 && !guest.pair.is_real)
+      guest = differentiate_track(problem, node, conjugated(guest.pair), counts);
     guest.roots = in_order_of(group.roots, guest.roots);
     guest.modes.assign(group.modes.size(), Track::guest);
     node.tracks.push_back(std::move(guest));
