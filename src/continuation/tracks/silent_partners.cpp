@@ -66,6 +66,13 @@ RitzPairs ritz_pairs(const InvariantPair& pair) {
   return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
 }
 
+/// The vector of a real eigenvalue, which is real but for its phase.
+ComplexVector real_vector(const ComplexVector& z) {
+  Eigen::Index largest = 0;
+  z.cwiseAbs().maxCoeff(&largest);
+  return (z * (std::abs(z[largest]) / z[largest])).real().cast<Complex>();
+}
+
 /// The eigenvalues about `centre`, one of a track, by inverse iteration: with a real subspace about a real
 /// one.
 Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Complex centre) {
@@ -84,9 +91,7 @@ Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Comple
       z = z.conjugate();
     }
     if (!is_chiral && s.imag() <= real_axis * std::abs(s)) {
-      Eigen::Index largest = 0;
-      z.cwiseAbs().maxCoeff(&largest);
-      z = (z * (std::abs(z[largest]) / z[largest])).real().cast<Complex>();
+      z = real_vector(z);
       s = s.real();
     }
     const bool is_known = std::any_of(spectrum.modes.begin(), spectrum.modes.end(), [&](const auto& mode) {
@@ -116,13 +121,26 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
 }
 
 /// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
-/// followed mode would be taken for another one.
-InvariantPair upper_member(InvariantPair pair) {
-  const bool is_lower = pair.size() == 1 && !pair.is_real && pair.eigenvalue().imag() < 0.0;
-  return is_lower ? conjugated(pair) : pair;
+/// followed mode would be taken for another one. A complex start may have led to a real eigenvalue: in a
+/// complex block that one could not be told from its conjugate where the block meets its own.
+InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool is_chiral, double s_ref,
+                           const CorrectorOptions& options, ModeCounts& counts) {
+  if (pair.size() != 1 || pair.is_real) return pair;
+  const Complex s = pair.eigenvalue();
+  if (!is_chiral && std::abs(s.imag()) <= real_axis * std::abs(s)) {
+    InvariantPair start = pair;
+    start.Z = real_vector(pair.Z.col(0));
+    start.Lambda = s.real() * ComplexMatrix::Identity(1, 1);
+    start.is_real = true;
+    start.factors.reset();
+    InvariantPair real = correct_pair(pencil, start, s_ref, options, counts);
+    if (real.status == PairStatus::converged) return real;
+  }
+  return s.imag() < 0.0 ? conjugated(pair) : pair;
 }
 
-/// Whether a track is followed by its eigenvalues with Im s < 0: in the chart 1/s, those with Im (1/s) > 0 are.
+/// Whether a track is followed by its eigenvalues with Im s < 0: in the chart 1/s, those with Im (1/s) > 0
+/// are.
 bool is_followed_below(const PathNode& node, const Track& track) {
   return !track.pair.is_real && node.pencil.of(track.pair.part).chirality == 0 &&
          chart_value(track.roots.mean(), track.pair.chart).imag() < 0.0;
@@ -154,10 +172,12 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
   const bool is_below = is_followed_below(node, node.tracks[track]);
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
-    InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
-                                      problem.s_ref, problem.corrector, counts.modes);
+    const PencilAtPoint pencil(node.pencil.of(group.pair.part));
+    InvariantPair pair = correct_pair(pencil, group.pair, problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
-    Track guest = differentiate_track(problem, node, upper_member(std::move(pair)), counts);
+    pair = upper_member(pencil, std::move(pair), node.pencil.of(group.pair.part).chirality != 0,
+                        problem.s_ref, problem.corrector, counts.modes);
+    Track guest = differentiate_track(problem, node, std::move(pair), counts);
     if (!guest.functions.allFinite()) continue;
     if (is_followed(compared, node, guest)) continue;
     // It meets the track in the half-plane in which that is followed.
