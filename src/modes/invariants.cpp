@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/matching.hpp"
@@ -18,21 +17,20 @@ Eigen::Index block_size(Eigen::Index functions) {
 
 namespace {
 
-/// Whether two eigenvalues of a block are one wherever its series hold: every coefficient of delta, the sum
-/// of products of the coefficients of Lambda - tau I, is rounding of these products. Near a collision or a
-/// crossing, the first or the second coefficient is not.
+/// Whether two eigenvalues of a block are one wherever its series hold: every coefficient of delta, a sum of
+/// products of the coefficients of N = Lambda - tau I, is what rounding of those of Lambda makes of it. Near
+/// a collision or a crossing, the first or the second coefficient is more.
 bool are_one(const std::vector<ComplexMatrix>& Lambda, const ComplexVector& delta) {
-  constexpr double rounding = 1e-14;  // of the products: some fifty machine epsilons
-  std::vector<double> sizes;
+  constexpr double rounding = 1e-14;  // of Lambda: some fifty machine epsilons
+  std::vector<double> sizes, centred;
   for (ComplexMatrix N : Lambda) {
-    N.diagonal().array() -= 0.5 * N.trace();
     sizes.push_back(N.norm());
+    N.diagonal().array() -= 0.5 * N.trace();
+    centred.push_back(N.norm());
   }
-  // tau is subtracted from the diagonal of Lambda, and rounding of Lambda itself is left.
-  sizes[0] = std::max(sizes[0], std::numeric_limits<double>::epsilon() * Lambda[0].norm());
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     double products = 0.0;
-    for (std::size_t i = 0; i <= k; ++i) products += sizes[i] * sizes[k - i];
+    for (std::size_t i = 0; i <= k; ++i) products += centred[i] * sizes[k - i];
     if (std::abs(delta[static_cast<Eigen::Index>(k)]) > rounding * products) return false;
   }
   return true;

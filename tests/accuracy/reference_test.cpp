@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "eigentrail/modes/spectrum.hpp"
 #include "support/scenes.hpp"
@@ -99,6 +100,41 @@ TEST(Reference, DoubleModesAreRefinedTogether) {
   const Setting setting = family("[[[3, 0], [0, 3]], [[1, 0], [0, 1]]]");
   const ExtendedComplex s = undamped(Extended(3.0) + Extended(0.3));
   expect_spectrum(reference_of(setting, 0.3), {s, s}, agreement);
+}
+
+/// Six real eigenvalues 1e-4 apart, in coordinates in which rounding makes pairs of some: none is lost.
+TEST(Reference, CloseRealEigenvaluesAreAllThere) {
+  constexpr int n = 6;
+  std::string K = "[[", one = "[[";
+  const auto entry = [](int i, int k) {  // an upper triangular matrix, eigenvalues on its diagonal
+    return i == k ? 2.0 + 1e-4 * i : k > i ? 0.01 * ((3 * i + 5 * k) % 7 - 3) : 0.0;
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      std::ostringstream text;
+      text.precision(17);
+      text << (k == 0 ? "" : ", ") << entry(i, k);
+      K += text.str();
+      one += std::string(k == 0 ? "" : ", ") + (i == k ? "1" : "0");
+    }
+    K += i + 1 < n ? "], [" : "]]";
+    one += i + 1 < n ? "], [" : "]]";
+  }
+  const Setting setting = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[" +
+      std::string("[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], "
+                  "[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]]]\nC = [") +
+      one + "]\nK = [" + K + ", " + one + "]\n");
+  const ReferenceSpectrum found = reference_of(setting, 0.5);
+  ASSERT_EQ(found.status, ReferenceStatus::converged);
+  ASSERT_EQ(found.s.size(), 6U);
+  std::vector<double> s;
+  for (const ExtendedComplex& one_of_them : found.s) {
+    EXPECT_LT(std::abs(to_double(one_of_them).imag()), 1e-13);
+    s.push_back(-to_double(one_of_them).real());
+  }
+  std::sort(s.begin(), s.end());
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(s[static_cast<std::size_t>(i)], 2.5 + 1e-4 * i, 1e-14);
 }
 
 TEST(Reference, BesideAnExceptionalPointWhereDoublePrecisionLosesDigits) {

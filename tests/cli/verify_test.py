@@ -55,6 +55,37 @@ class Verify(ProgramTest):
             file["K/0"] = stiffness
         self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0.1\nto = 4\n[matrix_family]\nfile = \"ring.h5\"\n")
 
+    def states_of_mixed_units(self):
+        """x' = A x with eight states whose units lie up to 1e8 apart: QZ knows the eigenvalues to 1e-7, the trace to
+        1e-10."""
+        n = 8
+        rate = np.diag(2.0 + np.arange(n)) + 0.1 * np.cos(np.arange(n * n).reshape(n, n))
+        units = 10.0 ** np.linspace(-4, 4, n)
+        with h5py.File(self.folder / "states.h5", "w") as file:
+            file["M/0"] = np.zeros((n, n))
+            file["C/0"] = file["K/1"] = np.eye(n)
+            file["K/0"] = rate * units[None, :] / units[:, None]
+        return ("[trace]\nparameter = \"p\"\nfrom = 0\nto = 4\ntolerance = 1e-10\n"
+                "[matrix_family]\nfile = \"states.h5\"\n")
+
+    def test_where_qz_is_off_extended_precision_judges(self):
+        self.assert_passes(self.states_of_mixed_units())
+        self.assertIn("refined in extended precision", self.verify().stdout)
+
+    def test_extended_precision_does_not_forgive(self):
+        self.assert_passes(self.states_of_mixed_units())
+
+        def spoil(file):
+            file["dense_output"][:, 0] = file["dense_output"][:, 0] * (1 + 3e-10)
+
+        self.change(spoil)
+        self.assertEqual(self.verify().returncode, 1)
+
+    def test_a_double_eigenvalue_on_the_whole_range_passes(self):
+        """(s + 2 (1 + p))^2"""
+        self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-11\n[matrix_family]\n"
+                           "M = [[[1]]]\nC = [[[4]], [[4]]]\nK = [[[4]], [[8]], [[4]]]\n")
+
     def test_a_path_that_turns_back_passes(self):
         """Long steps around the fold at p = 1, where Newton's method at constant p could find the equilibrium of the
         path behind the fold."""

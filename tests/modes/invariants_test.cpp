@@ -149,6 +149,27 @@ TEST(BlockFunctions, OfTwoKeepTheirDigitsWhereTheEigenvaluesMeet) {
   EXPECT_GT(std::abs(rival - 1e-18), 0.5e-18) << "the rival did not lose";
 }
 
+/// Lambda(h) = S [[a + h, 1], [0, a + h]] S^-1: the eigenvalue is double for every h, with one vector.
+/// Rounding alone would make two of it that differ by its root.
+TEST(BlockFunctions, OfTwoThatAreOneEverywhereHaveADeltaOfZero) {
+  const ComplexMatrix S = 2.0 * ComplexMatrix::Identity(2, 2) + 0.3 * random_block(2, 4);
+  const ComplexMatrix one = ComplexMatrix::Identity(2, 2);
+  const ComplexMatrix Lambda = S * (ComplexMatrix(2, 2) << -3.7, 1.0, 0.0, -3.7).finished() * S.inverse();
+  const ComplexMatrix functions = block_functions({Lambda, S * one * S.inverse(), ComplexMatrix::Zero(2, 2)});
+  EXPECT_TRUE(functions.row(1).isZero(0.0));
+  EXPECT_NEAR(std::abs(functions(0, 0) + 3.7), 0.0, rounding);
+}
+
+/// The same at one h only, where two collide or cross: delta stays what it is.
+TEST(BlockFunctions, OfTwoThatAreOneAtAPointKeepTheirDelta) {
+  const ComplexMatrix defective = (ComplexMatrix(2, 2) << -3.7, 1.0, 0.0, -3.7).finished();
+  const ComplexMatrix corner = (ComplexMatrix(2, 2) << 0.0, 0.0, 1e-6, 0.0).finished();
+  EXPECT_NEAR(std::abs(block_functions({defective, corner})(1, 1)), 1e-6, 1e-12);
+  const ComplexMatrix apart = (ComplexMatrix(2, 2) << 1e-6, 0.0, 0.0, -1e-6).finished();
+  const ComplexMatrix crossing = block_functions({-3.7 * ComplexMatrix::Identity(2, 2), apart, 0.0 * apart});
+  EXPECT_NEAR(std::abs(crossing(1, 2)), 1e-12, 1e-18);
+}
+
 TEST(BlockFunctions, OfThreeKeepTheDigitsOfEigenvaluesThatCoincide) {
   // Two eigenvalues coincide without being defective. The characteristic polynomial gives them to half the
   // digits only.
