@@ -107,7 +107,7 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   // The m-th power of the radius of the eigenvalues about their mean at the root, as a share of that beside
   // it. In exact arithmetic the first is zero; the linear approximation leaves about a thousandth.
   constexpr double closes_in = 1e-2;
-  constexpr double there = 1e-6;    // of the reach: from here rounding alone keeps them apart
+  constexpr double there = 1e-8;    // of the reach: from here rounding alone keeps them apart
   constexpr double farthest = 2.0;  // of the reach: where the eigenvalues are looked at at most
   const Eigen::Index size = part[0].rows();
   const std::optional<double> root = common_place(part, lambda, reach);

@@ -85,14 +85,14 @@ double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t tr
   return (functions.error_without_last()[gap] + std::abs(functions(position / length)[gap])) / slope;
 }
 
-}  // namespace
-
-namespace {
-
-/// The stretch of a step on which rounding does not hide the eigenvalues of a track one by one: not beside a
-/// meeting of all of them at either end.
-Stretch where_told_apart(const Track& left, const Track& right, double length) {
-  return {left.hidden_within / std::abs(length), 1.0 - right.hidden_within / std::abs(length)};
+/// The stretch of a step on which rounding does not hide two eigenvalues of a track: not beside a meeting of
+/// many at either end in which both take part.
+Stretch where_told_apart(const Track& left, const Track& right, double length, const Strand& a,
+                         const Strand& b) {
+  Stretch stretch;
+  if (have_just_met(left, a.members, b.members)) stretch.from = left.hidden_within / std::abs(length);
+  if (have_just_met(right, a.members, b.members)) stretch.to = 1.0 - right.hidden_within / std::abs(length);
+  return stretch;
 }
 
 /// Where all eigenvalues of a track collide on a step; empty where they do not. What they do at the left end
@@ -128,17 +128,19 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
     const Track& track = left.tracks[i];
     if (track.size() < 2) continue;
     StrandSampler sampler(left, right, i, length);
-    Stretch stretch = where_told_apart(track, right.tracks[i], length);
+    double up_to = 1.0;
     if (const auto place = search.common ? common_place(track, sampler) : std::nullopt) {
       meetings.push_back(expected_of_all(track, i, place->t * length));
       first_roots.found(place->t);
-      stretch.to = std::min(stretch.to, place->t - place->hidden_within);
+      up_to = place->t - place->hidden_within;
     }
-    if (stretch.from >= stretch.to) continue;
     const std::vector<Strand> strands = strands_of(track, i, sampler);
     const double zero = zero_level(track, left);
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
+        Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
+        stretch.to = std::min(stretch.to, up_to);
+        if (stretch.from >= stretch.to) continue;
         const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
         const double first = has_just_met ? behind_a_meeting : 0.0;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero,
@@ -386,8 +388,6 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       strands.push_back({i, {0}});
       continue;
     }
-    const Stretch stretch = where_told_apart(track, right.tracks[i], length);
-    if (stretch.from >= stretch.to) continue;
     StrandSampler sampler(left, right, i, length);
     const std::size_t before = strands.size();
     for (Strand& strand : strands_of(track, i, sampler)) {
@@ -397,6 +397,8 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     const double zero = zero_level(track, left);
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
+        const Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
+        if (stretch.from >= stretch.to) continue;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
                           widest / std::abs(length), zero, stretch);
         for (const Complex t : roots.find()) {
