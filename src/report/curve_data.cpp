@@ -8,6 +8,7 @@
 #include "continuation/step/path_step.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "report/file_data.hpp"
 #include "report/piecewise.hpp"
 
@@ -73,6 +74,28 @@ const DenseBlock* block_of(const PathStep& step, int mode) {
   return nullptr;
 }
 
+/// Whether rounding leaves the eigenvalues of a block distinct, or lets all of them be one.
+enum class Seen { apart, doubtful, as_one };
+Seen how_seen(const ComplexVector& functions) {
+  constexpr double margin = 10.0;  // on rounding
+  const Eigen::Index k = block_size(functions.size());
+  const Vector errors = margin * function_rounding(ComplexMatrix(functions.reshaped(k, k)));
+  const ComplexVector s = block_roots(functions);
+  if (are_told_apart(functions, s, errors)) return Seen::apart;
+  const double radius = (s.array() - s.mean()).abs().maxCoeff();
+  return radius <= root_errors(functions, s, errors).maxCoeff() ? Seen::as_one : Seen::doubtful;
+}
+
+/// Distance from an end of a step, in shares of it, within which rounding hides the eigenvalues of a block of
+/// three or more that are one there. What the functions give for each of them is noise up to there.
+double hidden_beside(const HermiteInterpolant& functions, double end) {
+  constexpr double nearest = 1e-6;
+  if (functions.size() <= 4 || how_seen(functions(end)) != Seen::as_one) return 0.0;
+  double distance = nearest;
+  while (distance < 1.0 && how_seen(functions(std::abs(end - distance))) != Seen::apart) distance *= 2.0;
+  return std::min(distance, 1.0);
+}
+
 /// The dense output of one mode on the steps from `first` to the last one before the mode ceases to exist.
 class ModeStretch {
  public:
@@ -83,18 +106,38 @@ class ModeStretch {
       const DenseBlock* block = block_of(step, mode);
       if (block == nullptr) break;
       alone_.emplace_back();
+      hidden_.emplace_back();
+      const HermiteInterpolant functions(step.length, block->left, block->right);
       if (block->size() == 1) {
-        alone_.back().emplace(step.length, block->left, block->right);
+        alone_.back() = functions;
+      } else {
+        hidden_.back() = {hidden_beside(functions, 0.0), hidden_beside(functions, 1.0)};
       }
       blocks_.push_back(block);
+    }
+    for (std::size_t i = 0; i < hidden_.size(); ++i) {
+      if (hidden_[i].left > 0.0) hidden_[i].at_left = value(i, hidden_[i].left);
+      if (hidden_[i].right > 0.0) hidden_[i].at_right = value(i, 1.0 - hidden_[i].right);
     }
   }
 
   std::size_t first() const { return first_; }
   std::size_t n_steps() const { return blocks_.size(); }
 
-  /// The eigenvalue at t in [0, 1] on step i of the stretch, equal to the output of `eigentrail eval`.
+  /// The eigenvalue at t in [0, 1] on step i of the stretch, equal to the output of `eigentrail eval`. Beside
+  /// a point where many are one, as far as rounding hides them, a chord.
   Complex operator()(std::size_t i, double t) const {
+    const Hidden& hidden = hidden_[i];
+    const auto chord = [&](double end, double share, Complex to) {
+      return value(i, end) + share * (to - value(i, end));
+    };
+    if (t < hidden.left) return chord(0.0, t / hidden.left, hidden.at_left);
+    if (1.0 - t < hidden.right) return chord(1.0, (1.0 - t) / hidden.right, hidden.at_right);
+    return value(i, t);
+  }
+
+ private:
+  Complex value(std::size_t i, double t) const {
     const auto node = static_cast<Eigen::Index>(first_ + i);
     if (t == 0.0) return loci_.eigenvalues(node, mode_);
     if (t == 1.0) return loci_.eigenvalues(node + 1, mode_);
@@ -108,13 +151,19 @@ class ModeStretch {
                                loci_.eigenvalues.row(node + 1).transpose(), t, budget_.used())[mode_];
   }
 
- private:
+  /// Parts of a step, from its left and to its right end, and the eigenvalue at their borders.
+  struct Hidden {
+    double left = 0.0, right = 0.0;
+    Complex at_left = {}, at_right = {};
+  };
+
   const LociFile& loci_;
   int mode_;
   std::size_t first_;
   RootBudget& budget_;
   std::vector<const DenseBlock*> blocks_;
   std::vector<std::optional<HermiteInterpolant>> alone_;
+  std::vector<Hidden> hidden_;
 };
 
 struct Extent {
