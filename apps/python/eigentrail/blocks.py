@@ -11,6 +11,7 @@ SHORTEST_PIECE = 1e-14  # of a step; shorter pieces are not halved
 # Limit of the number of new pieces. It is reached where roots differ only by rounding on a whole step and cannot be
 # distinguished.
 PATIENCE = 2000
+MOST_PERMUTED = 6  # of more roots there are too many permutations to compare all
 
 
 def roots_of(functions):
@@ -50,11 +51,22 @@ def distinctness(functions):
 
 def named(known, roots):
     """The roots (k) in the order of m <= k known values, assigned with the least total distance; the others last."""
-    orders = np.array(list(permutations(range(len(roots)))))
     cost = np.abs(known[:, np.newaxis] - roots)
     cost = np.where(np.isfinite(cost), cost, 0.0)
+    if len(roots) > MOST_PERMUTED:
+        return roots[_assigned(cost)]
+    orders = np.array(list(permutations(range(len(roots)))))
     total = cost[np.arange(len(known)), orders[:, :len(known)]].sum(axis=1)
     return roots[orders[total.argmin()]]
+
+
+def _assigned(cost):
+    """The columns of cost (m, k), m <= k, in the order of the rows to which they are assigned with the least total; the
+    others last."""
+    from scipy.optimize import linear_sum_assignment
+
+    columns = linear_sum_assignment(cost)[1]
+    return np.concatenate([columns, np.setdiff1d(np.arange(cost.shape[1]), columns)])
 
 
 def followed(roots_at, start, roots, t):
@@ -105,10 +117,13 @@ def _orders(a, b):
     With squares, a common displacement of all roots has no influence, even if it exceeds their differences.
     """
     k = a.shape[1]
-    orders = np.array(list(permutations(range(k))))
     centred = a - a.mean(axis=1, keepdims=True), b - b.mean(axis=1, keepdims=True)
     alike = (np.conj(centred[0])[:, :, np.newaxis] * centred[1][:, np.newaxis, :]).real
-    best = orders[sum(alike[:, i][:, orders[:, i]] for i in range(k)).argmax(axis=1)]
+    if k > MOST_PERMUTED:
+        best = np.array([_assigned(-one) for one in alike]).reshape(len(alike), k)
+    else:
+        orders = np.array(list(permutations(range(k))))
+        best = orders[sum(alike[:, i][:, orders[:, i]] for i in range(k)).argmax(axis=1)]
     # If two roots are close and a third is distant, rounding of the sum hides the order of the close ones. It follows
     # from the direction of their difference.
     for i, j in zip(*np.triu_indices(k, 1)):
