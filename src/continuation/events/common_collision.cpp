@@ -113,17 +113,19 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   const std::optional<double> root = common_place(part, lambda, reach);
   if (!root) return std::nullopt;
   const auto radius = [&](double h) { return eigenvalues(centred(part, h)).cwiseAbs().maxCoeff(); };
+  const double at_root = radius(*root);
   double width = difference_step * std::abs(reach);
-  while (!tells_apart(part, *root, width, radius(*root))) {
+  while (!tells_apart(part, *root, width, at_root)) {
     width *= 2.0;
     if (width > farthest * std::abs(reach)) return std::nullopt;
   }
   const bool is_there = std::abs(*root) <= there * std::abs(reach);
   if (is_there && !is_one(centred(part, *root), lambda)) return std::nullopt;
   const double order = 1.0 / static_cast<double>(size);
-  if (!(radius(*root) < std::pow(closes_in, order) * radius(*root + width))) return std::nullopt;
+  const double beside = radius(*root + width);
+  if (!(at_root < std::pow(closes_in, order) * beside)) return std::nullopt;
   // The radius grows by 2^(1/cycle) when the distance is doubled; by 2 where the eigenvalues cross.
-  const double growth = std::log2(radius(*root + 2.0 * width) / radius(*root + width));
+  const double growth = std::log2(radius(*root + 2.0 * width) / beside);
   constexpr double nearer_to_a_square_root = 0.4;
   constexpr double nearer_to_a_crossing = 0.75;
   if (!(growth < nearer_to_a_crossing)) return std::nullopt;
@@ -198,10 +200,11 @@ std::vector<PlaceOnStep> common_collisions_on_step(const HermiteInterpolant& fun
   std::vector<PlaceOnStep> places;
   if (size < 3) return places;
   for (const int power : {2, static_cast<int>(size)}) {
+    if (!places.empty()) break;
     const auto sum = [&](double t) { return sum_of_powers(centred_block(functions, t), power); };
     const ComplexVector coefficients =
         chebyshev_coefficients(sum, std::min(power * functions.degree(), highest_degree));
-    if (!places.empty() || chebyshev_has_no_root_in(coefficients, {0.5, 0.5 + off_axis, off_axis})) continue;
+    if (chebyshev_has_no_root_in(coefficients, {0.5, 0.5 + off_axis, off_axis})) continue;
     for (const Complex root : chebyshev_roots(coefficients)) {
       if (std::abs(root.imag()) > off_axis || std::abs(root.real() - 0.5) > 0.5 + off_axis) continue;
       const auto found = common_collision(series_at(functions, root.real()), lambda, reach);
